@@ -1,0 +1,32 @@
+"""Friction of mixed-lubricated rough line contacts.
+
+The public names load on first use, so that ``import lubfric`` stays light.
+"""
+
+from importlib import import_module
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "ConvergenceError": "errors", "InputError": "errors", "LubfricError": "errors",
+    "Report": "report",
+    "Surface": "surface", "generate_surface": "surface", "read_surface": "surface",
+    "solve_contact": "contact", "ContactResult": "contact",
+    "solve_ehl": "ehl", "EHLResult": "ehl",
+    "Scene": "scene", "load_scene": "scene",
+    "friction": "friction", "FrictionResult": "friction",
+    "stribeck": "stribeck", "StribeckResult": "stribeck",
+}
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name):
+    if name not in _HOME:
+        raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
+    value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__():
+    return sorted(set(globals()) | set(__all__))

@@ -1,0 +1,31 @@
+"""Every exception the library raises on purpose."""
+
+from __future__ import annotations
+
+
+class LubfricError(Exception):
+    """Base class: catch this to catch everything lubfric raises on purpose."""
+
+
+class InputError(LubfricError, ValueError):
+    """An input is outside its allowed range, raised before any work starts.
+
+    The message names the quantity, the value, the allowed range and the unit.
+    """
+
+
+class ConvergenceError(LubfricError, RuntimeError):
+    """A solver stopped before reaching the tolerance it was asked for.
+
+    ``report`` is the solver's `lubfric.Report`; ``result`` is whatever the solver had when it
+    stopped (or ``None``), so that nothing computed is lost. Both survive pickling.
+    """
+
+    def __init__(self, message: str, report=None, result=None):
+        super().__init__(message, report, result)
+        self.message = message
+        self.report = report
+        self.result = result
+
+    def __str__(self) -> str:
+        return self.message
