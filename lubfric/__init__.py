@@ -14,8 +14,8 @@ _HOME = {
     "solve_contact": "contact", "ContactResult": "contact",
     "solve_ehl": "ehl", "EHLResult": "ehl",
     "Scene": "scene", "load_scene": "scene",
-    "friction": "friction", "FrictionResult": "friction",
-    "stribeck": "stribeck", "StribeckResult": "stribeck",
+    "friction": "mixed", "FrictionResult": "mixed",
+    "stribeck": "sweep", "StribeckResult": "sweep",
 }
 __all__ = sorted(_HOME)
 
