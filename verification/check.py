@@ -1,0 +1,162 @@
+"""What a verification study hands back: checks, tables, figures and fields, all plain frozen data."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+LEVELS = ("quick", "default", "full")
+RELATIVE = "relative"
+ABSOLUTE = "absolute"
+AT_MOST = "at_most"
+AT_LEAST = "at_least"
+KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST)
+
+
+@dataclass(frozen=True)
+class Check:
+    """One measured number set against the number it should be.
+
+    ``kind`` says what passes:
+
+    - "relative": ``|measured - expected| <= tolerance |expected|`` (``expected`` must not be 0)
+    - "absolute": ``|measured - expected| <= tolerance``, tolerance in ``unit``
+    - "at_most":  ``measured <= expected + tolerance``, for bounds on errors
+    - "at_least": ``measured >= expected - tolerance``, for bounds on convergence orders
+
+    A measured value that is NaN or infinite never passes. ``source`` names where ``expected`` comes
+    from (closed form, publication, another solver); ``seconds`` is filled in by the runner for studies
+    that yield their checks one by one.
+
+    Raises
+    ------
+    ValueError : unknown kind, missing name or source, expected or tolerance not finite, negative tolerance,
+        a relative tolerance about zero
+    """
+
+    name: str
+    measured: float
+    expected: float
+    tolerance: float
+    source: str
+    kind: str = RELATIVE
+    unit: str = "1"
+    note: str = ""
+    seconds: float | None = None
+
+    def __post_init__(self):
+        for key in ("measured", "expected", "tolerance"):
+            object.__setattr__(self, key, float(getattr(self, key)))
+        if self.kind not in KINDS:
+            raise ValueError(f"check {self.name!r}: kind = {self.kind!r}; allowed: {', '.join(KINDS)}")
+        if not self.name.strip() or not self.source.strip():
+            raise ValueError(f"check {self.name!r}: a name and a source are needed")
+        if not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
+            raise ValueError(f"check {self.name!r}: expected = {self.expected}, tolerance = {self.tolerance}; "
+                             "allowed: finite, tolerance >= 0")
+        if self.kind == RELATIVE and self.expected == 0:
+            raise ValueError(f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'")
+
+    @property
+    def deviation(self) -> float:
+        """The number compared with ``tolerance``: an error, or how far a bound is exceeded."""
+        difference = self.measured - self.expected
+        if self.kind == RELATIVE:
+            return abs(difference / self.expected)
+        if self.kind == ABSOLUTE:
+            return abs(difference)
+        return difference if self.kind == AT_MOST else -difference
+
+    @property
+    def passed(self) -> bool:
+        """True when the measured value is finite and within the tolerance."""
+        return math.isfinite(self.measured) and self.deviation <= self.tolerance
+
+    def as_dict(self) -> dict:
+        """Plain types only, with the verdict."""
+        return asdict(self) | {"deviation": self.deviation, "passed": self.passed}
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers or text under ``columns``; shown in the report, stored in report.json."""
+
+    name: str
+    caption: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple, ...]
+
+    def __post_init__(self):
+        object.__setattr__(self, "columns", tuple(self.columns))
+        object.__setattr__(self, "rows", tuple(tuple(row) for row in self.rows))
+        wrong = [row for row in self.rows if len(row) != len(self.columns)]
+        if wrong:
+            raise ValueError(f"table {self.name!r}: a row has {len(wrong[0])} values for "
+                             f"{len(self.columns)} columns")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A finished picture (bytes of ``format`` "svg" or "png"); `plotting.finish` makes one."""
+
+    name: str
+    caption: str
+    data: bytes
+    format: str = "svg"
+
+    def __post_init__(self):
+        file_name(self.name)
+        if self.format not in ("svg", "png"):
+            raise ValueError(f"figure {self.name!r}: format = {self.format!r}; allowed: svg, png")
+
+
+@dataclass(frozen=True)
+class Field:
+    """Values on a mesh, written as a VTU file.
+
+    Attributes
+    ----------
+    name : also the name of the file
+    caption : what the field shows, with units
+    points : (n, 1), (n, 2) or (n, 3) coordinates in m
+    cells : connectivity by meshio cell name ("line", "triangle", "quad", "tetra", ...), each (m, nodes)
+    point_data : by name, each (n,) or (n, components)
+    cell_data : by name, one array for each entry of ``cells`` in the same order
+    """
+
+    name: str
+    caption: str
+    points: np.ndarray
+    cells: dict[str, np.ndarray]
+    point_data: dict[str, np.ndarray] = field(default_factory=dict)
+    cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
+
+    def __post_init__(self):
+        file_name(self.name)
+
+
+Item = Check | Table | Figure | Field
+
+
+@dataclass(frozen=True)
+class StudyResult:
+    """All that a study found, for a study that returns at its end instead of yielding as it goes."""
+
+    checks: tuple[Check, ...] = ()
+    tables: tuple[Table, ...] = ()
+    figures: tuple[Figure, ...] = ()
+    fields: tuple[Field, ...] = ()
+
+    def __iter__(self) -> Iterator[Item]:
+        yield from (*self.checks, *self.tables, *self.figures, *self.fields)
+
+
+def file_name(name: str) -> str:
+    """``name`` if it can be part of a file name, else ValueError."""
+    if not re.fullmatch(r"[A-Za-z0-9_-]+", name):
+        raise ValueError(f"name {name!r} becomes a file name; allowed: letters, digits, _ and -")
+    return name

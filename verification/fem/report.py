@@ -1,0 +1,73 @@
+"""What a finite-element solve says about itself; nothing here or beside it comes from `lubfric`."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+
+CONVERGED = "converged"
+ITERATION_LIMIT = "iteration_limit"
+STAGNATED = "stagnated"
+DIVERGED = "diverged"
+
+
+class InputError(ValueError):
+    """An input outside its allowed range, raised before any work."""
+
+
+class SolveError(RuntimeError):
+    """A solve stopped short of its tolerance; carries its ``report`` and whatever ``result`` it had."""
+
+    def __init__(self, message: str, report=None, result=None):
+        super().__init__(message, report, result)
+        self.report = report
+        self.result = result
+
+    def __str__(self) -> str:
+        return self.args[0]
+
+
+@dataclass(frozen=True)
+class SolveReport:
+    """Outcome of an iterative solve: converged when ``residual`` (the largest of ``residuals``) <= ``tolerance``.
+
+    Attributes
+    ----------
+    solver : name of the algorithm
+    status : "converged", "iteration_limit", "stagnated" or "diverged"
+    iterations : outer iterations taken
+    residual, tolerance : dimensionless
+    residuals : final value of each measured residual by name
+    history : largest residual after each iteration
+    evaluations : linear solves or inner iterations
+    notes : choices made on the way that a reader of the result should know
+    """
+
+    solver: str
+    status: str
+    iterations: int
+    residual: float
+    tolerance: float
+    residuals: dict[str, float] = field(default_factory=dict)
+    history: tuple[float, ...] = ()
+    evaluations: int = 0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """True when the residual met the tolerance."""
+        return self.status == CONVERGED
+
+    @property
+    def message(self) -> str:
+        """One line: what happened and how far it got."""
+        return (f"{self.solver}: {self.status} after {self.iterations} iterations, "
+                f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})")
+
+    def raise_if_failed(self, result=None) -> None:
+        """Raise `SolveError` with this report and ``result`` unless the solve converged."""
+        if not self.converged:
+            raise SolveError(self.message, self, result)
+
+    def as_dict(self) -> dict:
+        """Plain types only, ready for JSON."""
+        return asdict(self) | {"converged": self.converged}

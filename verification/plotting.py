@@ -1,0 +1,60 @@
+"""Figures of the report: one look, no global state, finished as bytes."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+
+from .check import Figure
+from .rates import fitted_order
+
+STYLE = {
+    "font.size": 9.5, "axes.titlesize": 10, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False, "lines.linewidth": 1.5,
+    "lines.markersize": 4.5, "svg.hashsalt": "lubfric", "figure.constrained_layout.use": True,
+    # colours that stay apart for colour-blind readers (Okabe and Ito 2008)
+    "axes.prop_cycle": "cycler('color', ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '000000'])",
+}
+
+
+def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.0, **options):
+    """A figure in the report's style and its axes, as ``matplotlib.figure.Figure.subplots`` gives them."""
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Canvas
+
+    with matplotlib.rc_context(STYLE):
+        canvas = Canvas(figsize=(width, height))
+        FigureCanvasAgg(canvas)
+        return canvas, canvas.subplots(rows, columns, **options)
+
+
+def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
+    """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
+    import matplotlib
+
+    stream = io.BytesIO()
+    with matplotlib.rc_context(STYLE):
+        canvas.savefig(stream, format=format, dpi=160, metadata={"Date": None} if format == "svg" else None)
+    return Figure(name, caption, stream.getvalue(), format)
+
+
+def convergence(name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = "") -> Figure:
+    """Errors against mesh size, log-log, each with its fitted order and a line of the expected one.
+
+    ``series`` maps a label to ``(sizes, errors, expected_order)``; ``expected_order`` may be None.
+    """
+    canvas, ax = axes()
+    for label, (sizes, errors, expected) in series.items():
+        sizes, errors = np.asarray(sizes, dtype=float), np.asarray(errors, dtype=float)
+        text = f"{label}: order {fitted_order(sizes, errors):.2f}"
+        text += "" if expected is None else f" (expected {expected:g})"
+        line, = ax.loglog(sizes, errors, "o-", label=text)
+        if expected is not None:
+            finest = np.argmin(sizes)
+            ax.loglog(sizes, errors[finest] * (sizes / sizes[finest]) ** expected, ":", color=line.get_color(),
+                      linewidth=1.0)
+    ax.set(xlabel=size_label, ylabel=error_label, title=notes)
+    ax.legend()
+    return finish(name, canvas, caption)

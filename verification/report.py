@@ -1,0 +1,145 @@
+"""A run as a whole: its verdict, its text on the terminal, its files. `page` makes the HTML."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import math
+import os
+import platform
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from . import page
+from .check import Check
+from .meshes import write_vtu
+from .run import Outcome, explain, raised
+from .wording import allowed, number, seconds
+
+FORMAT = "lubfric-verification-1"
+PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matplotlib")
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything a run found.
+
+    Attributes
+    ----------
+    level, selected : what was asked for: the level, and the names of the studies
+    outcomes : the studies finished so far
+    complete : False while studies are still to come, or never came because the run was stopped
+    started : local date and time
+    seconds : wall time so far
+    environment : versions and machine
+    """
+
+    level: str
+    selected: tuple[str, ...]
+    outcomes: tuple[Outcome, ...]
+    complete: bool
+    started: str
+    seconds: float
+    environment: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """All checks of all studies."""
+        return tuple(c for o in self.outcomes for c in o.checks)
+
+    @property
+    def passed(self) -> bool:
+        """True when every selected study ran to its end and passed."""
+        return self.complete and bool(self.outcomes) and all(o.passed for o in self.outcomes)
+
+    @property
+    def verdict(self) -> str:
+        """PASSED, FAILED or UNFINISHED, and the count."""
+        failed = sum(not c.passed for c in self.checks)
+        word = "PASSED" if self.passed else "FAILED" if failed or self.complete else "UNFINISHED"
+        text = f"{word}: {len(self.checks) - failed} of {len(self.checks)} checks passed"
+        if not self.complete:
+            text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
+        return text
+
+    def as_dict(self) -> dict:
+        """Plain types for report.json; a number that is not finite becomes null."""
+        return finite({
+            "format": FORMAT, "passed": self.passed, "complete": self.complete, "verdict": self.verdict,
+            "level": self.level, "selected": list(self.selected), "started": self.started,
+            "seconds": self.seconds, "environment": self.environment,
+            "studies": [outcome_dict(o) for o in self.outcomes]})
+
+
+def outcome_dict(outcome: Outcome) -> dict:
+    """One study for report.json."""
+    return {
+        "name": outcome.study.name, "title": outcome.study.title, "description": outcome.description,
+        "passed": outcome.passed, "seconds": outcome.seconds, "peak_memory_bytes": outcome.peak_memory,
+        "error": outcome.error, "traceback": outcome.trace,
+        "checks": [c.as_dict() for c in outcome.checks],
+        "tables": [{"name": t.name, "caption": t.caption, "columns": list(t.columns),
+                    "rows": [list(r) for r in t.rows]} for t in outcome.tables],
+        "figures": [{"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption}
+                    for f in outcome.figures],
+        "fields": [{"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields]}
+
+
+def finite(value):
+    """``value`` in plain types, with NaN and infinities as None: JSON has no word for them."""
+    if isinstance(value, dict):
+        return {str(k): finite(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(v) for v in value]
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def environment() -> dict[str, str]:
+    """Versions and machine, for a reader who wants to repeat the numbers."""
+    found = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "not installed"
+    return found | {"machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"}
+
+
+def save_files(outcome: Outcome, out: Path) -> Outcome:
+    """Write the figures and fields of one study to ``out``.
+
+    A file that cannot be written is one more failed check of the outcome that comes back.
+    """
+    try:
+        for figure in outcome.figures:
+            (out / f"{outcome.study.name}_{figure.name}.{figure.format}").write_bytes(figure.data)
+        for item in outcome.fields:
+            write_vtu(out / f"{outcome.study.name}_{item.name}.vtu", item)
+    except (ImportError, OSError, ValueError, TypeError) as exc:
+        reason = f"its files could not be written: {explain(exc)}"
+        failure = replace(raised(outcome.study, reason), name=f"{outcome.study.name} writes its files")
+        return replace(outcome, checks=(*outcome.checks, failure))
+    return outcome
+
+
+def save(report: Report, out: Path) -> Path:
+    """Write report.json and report.html to ``out``; returns the path of the page."""
+    text = json.dumps(report.as_dict(), indent=1, allow_nan=False)
+    (out / "report.json").write_text(text + "\n", encoding="utf-8")
+    (out / "report.html").write_text(page.render(report), encoding="utf-8")
+    return out / "report.html"
+
+
+def terminal_table(report: Report) -> str:
+    """All checks as text, one line each, with the reason below those that failed."""
+    lines = []
+    for outcome in report.outcomes:
+        lines += [f"{outcome.study.name}: {outcome.study.title} ({seconds(outcome.seconds)})"]
+        width = max((len(c.name) for c in outcome.checks), default=0)
+        for c in outcome.checks:
+            unit = "" if c.unit == "1" else f" {c.unit}"
+            lines += [f"  {'ok  ' if c.passed else 'FAIL'} {c.name:<{min(width, 60)}}  "
+                      f"{number(c.measured):>12}{unit}  ({allowed(c)})  {seconds(c.seconds)}".rstrip()]
+            lines += [] if c.passed else [f"       source: {c.source}{'; ' + c.note if c.note else ''}"]
+    return "\n".join([*lines, "", report.verdict])

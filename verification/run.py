@@ -1,0 +1,135 @@
+"""Run studies one after another; a study that raises is a failed check and stops nothing else."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import resource
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+
+from .check import AT_MOST, Check, Field, Figure, Item, Table
+from .studies import Study
+
+EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
+INSTALL = 'pip install "lubfric[verification]"'
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one study.
+
+    Attributes
+    ----------
+    study, level : what was run
+    description : docstring of the study
+    checks, tables, figures, fields : all that was handed over, also before a failure
+    seconds : wall time of the study with its imports
+    peak_memory : largest resident memory of the process so far, in bytes
+    error : one line for a study that raised, else ""
+    trace : the whole traceback, else ""
+    """
+
+    study: Study
+    level: str
+    description: str = ""
+    checks: tuple[Check, ...] = ()
+    tables: tuple[Table, ...] = ()
+    figures: tuple[Figure, ...] = ()
+    fields: tuple[Field, ...] = ()
+    seconds: float = 0.0
+    peak_memory: int = 0
+    error: str = ""
+    trace: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """True when it ran to its end and every one of its checks passed."""
+        return not self.error and bool(self.checks) and all(c.passed for c in self.checks)
+
+
+@dataclass
+class Collector:
+    """Sorts what a study yields, and times its checks."""
+
+    items: dict[type, list] = field(default_factory=lambda: {k: [] for k in (Check, Table, Figure, Field)})
+    progress: Callable[[Check], None] = lambda check: None
+
+    def take(self, items, timed: bool) -> None:
+        """Take every item; the time since the one before belongs to a check that brings none of its own."""
+        last = time.perf_counter()
+        for item in items:
+            now = time.perf_counter()
+            if isinstance(item, Check):
+                item = replace(item, seconds=now - last) if timed and item.seconds is None else item
+            last = now
+            self.add(item)
+
+    def add(self, item: Item) -> None:
+        """Put one item with its kind; two of one name would overwrite each other's file."""
+        kind = type(item)
+        if kind not in self.items:
+            raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
+        if any(other.name == item.name for other in self.items[kind]):
+            raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
+        self.items[kind].append(item)
+        if kind is Check:
+            self.progress(item)
+
+
+def run(studies, level: str, progress: Callable[[Check], None] = lambda check: None,
+        announce: Callable[[Study], None] = lambda study: None) -> Iterator[Outcome]:
+    """Yield the `Outcome` of each study; ``announce`` is called before each, ``progress`` on each check."""
+    for study in studies:
+        announce(study)
+        yield run_one(study, level, progress)
+
+
+def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outcome:
+    """Import and run one study. Only an interrupt from the keyboard goes past here."""
+    collector = Collector(progress=progress)
+    start = time.perf_counter()
+    description = error = trace = ""
+    try:
+        function = load(study)
+        description = inspect.getdoc(function) or ""
+        produced = function(level)
+        collector.take(produced, timed=inspect.isgenerator(produced))
+        if not collector.items[Check]:
+            raise RuntimeError("the study ended without a single check")
+    except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
+        error, trace = explain(exc), traceback.format_exc()
+        progress(raised(study, error))
+    checks, tables, figures, fields = (tuple(v) for v in collector.items.values())
+    if error:
+        checks = (*checks, raised(study, error))
+    return Outcome(study, level, description, checks, tables, figures, fields,
+                   time.perf_counter() - start, peak_memory(), error, trace)
+
+
+def load(study: Study) -> Callable[[str], object]:
+    """The function behind ``study.target``."""
+    module, _, function = study.target.partition(":")
+    return getattr(importlib.import_module(module), function)
+
+
+def explain(exc: BaseException) -> str:
+    """The last line of the traceback; for a missing extra also how to install it."""
+    if isinstance(exc, ModuleNotFoundError) and (exc.name or "").partition(".")[0] in EXTRAS:
+        package = EXTRAS[exc.name.partition(".")[0]]
+        return f"{package} is not installed: {INSTALL}"
+    return " ".join("".join(traceback.format_exception_only(exc)).split())
+
+
+def raised(study: Study, error: str) -> Check:
+    """The failed check that stands for a study that did not reach its end."""
+    return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
+
+
+def peak_memory() -> int:
+    """Largest resident memory of this process so far, in bytes."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else 1024 * peak

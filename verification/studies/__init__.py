@@ -1,0 +1,35 @@
+"""The list of studies. A study is named here and imported only when it runs.
+
+A study is a function ``name(level)`` with ``level`` one of "quick", "default", "full". It either yields
+`Check`, `Table`, `Figure` and `Field` objects as it goes (then each check is timed, and what was yielded
+before a failure is kept) or returns a `StudyResult`. Its docstring is the text of its section in the
+report. To add one: put the function in a module of this package and add a line below.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..check import LEVELS, file_name
+
+
+@dataclass(frozen=True)
+class Study:
+    """Where a study is: ``target`` is "package.module:function"; ``levels`` are those it runs at."""
+
+    name: str
+    target: str
+    title: str
+    levels: tuple[str, ...] = LEVELS
+
+    def __post_init__(self):
+        file_name(self.name)
+        module, _, function = self.target.partition(":")
+        unknown = set(self.levels) - set(LEVELS)
+        if not (module and function) or unknown or not self.levels:
+            raise ValueError(f"study {self.name!r}: target = {self.target!r}, levels = {self.levels}; allowed: "
+                             f"'module:function' and a choice of {LEVELS}")
+
+
+STUDIES: tuple[Study, ...] = (
+)

@@ -1,0 +1,31 @@
+"""Numbers, times and tolerances in words, the same on the terminal and on the page."""
+
+from __future__ import annotations
+
+import math
+
+from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, Check
+
+ALLOWED = {RELATIVE: "{expected} ± {percent}", ABSOLUTE: "{expected} ± {tolerance}",
+           AT_MOST: "≤ {expected} + {tolerance}", AT_LEAST: "≥ {expected} − {tolerance}"}
+
+
+def allowed(check: Check) -> str:
+    """What the measured value may be, in words."""
+    tolerance = f"{check.tolerance:.2g}"
+    if check.kind in (AT_MOST, AT_LEAST) and check.tolerance == 0:
+        return ("≤ " if check.kind == AT_MOST else "≥ ") + number(check.expected)
+    return ALLOWED[check.kind].format(expected=number(check.expected), tolerance=tolerance,
+                                      percent=f"{100 * check.tolerance:.3g} %")
+
+
+def number(value) -> str:
+    """A number for a person: six digits; "none" for one that is not finite."""
+    if isinstance(value, float):
+        return f"{value:.6g}" if math.isfinite(value) else "none"
+    return str(value)
+
+
+def seconds(value: float | None) -> str:
+    """A time for a person."""
+    return "" if value is None else f"{value:.2f} s" if value < 100 else f"{value / 60:.1f} min"
