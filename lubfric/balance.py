@@ -1,0 +1,73 @@
+"""Load sharing: F_T = F_C + F_H and the lubricant volume of Eq. (8), closed by one bracketed root."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .ehl import EHLResult
+from .patch import Closure
+from .report import CONVERGED, Report
+from .roots import increasing_root
+
+BOUNDS = (-40.0, 40.0)     # of ln(F_H/F_C): shares down to 4e-18
+
+
+@dataclass(frozen=True)
+class Balance:
+    """One operating point in balance; film is None without entrainment. Loads in N."""
+
+    film_load: float
+    contact_load: float
+    film: EHLResult | None
+    closure: Closure
+    report: Report
+
+    @property
+    def split(self) -> float:
+        """ln(F_H/F_C), the unknown of the root, as a start for a neighbouring speed."""
+        if self.contact_load == 0:
+            return BOUNDS[1]
+        return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
+
+
+def share_load(total_load, solve_film, close, *, guess, tolerance, start=None) -> Balance:
+    """Divide ``total_load`` [N] between film and contact.
+
+    ``solve_film(load, start)`` gives the film at a load [N]; ``close(film, contact_load, start)`` the
+    `Closure` of the rough contact under it. The volume residual (gap - film)/(gap + film) increases
+    with the film's share, so ln(F_H/F_C) has one root; the load balance holds by construction.
+    Stops at |residual| <= tolerance. ``guess``: of ln(F_H/F_C); ``start``: a neighbouring Balance.
+    """
+    film = solve_film(total_load, start.film if start else None)
+    closure = close(film, 0.0, None)
+    if closure.volume_residual <= 0:
+        return Balance(total_load, 0.0, film, closure, _report([abs(0.0)], CONVERGED, tolerance, film, closure,
+                                                               "separated: the film clears the summits"))
+    last = {"film": start.film if start and start.film else film,
+            "contact": start.closure.contact if start else None}
+
+    def residual(split):
+        film_load = total_load / (1 + math.exp(-split))
+        contact_load = total_load / (1 + math.exp(split))
+        film = solve_film(film_load, last["film"])
+        closure = close(film, contact_load, last["contact"])
+        last.update(film=film, contact=closure.contact)
+        return closure.volume_residual, (film_load, contact_load, film, closure)
+
+    root = increasing_root(residual, start.split if start else guess, step=0.7 if start else 1.5,
+                           bounds=BOUNDS, tolerance=tolerance)
+    film_load, contact_load, film, closure = root.payload
+    report = _report(root.history, root.status, tolerance, film, closure)
+    return Balance(film_load, contact_load, film, closure, report)
+
+
+def _report(history, status, tolerance, film, closure, *notes) -> Report:
+    residuals = {"volume": history and min(history), "load": 0.0}
+    if film is not None:
+        residuals["film"] = film.report.residual
+    if closure.contact is not None:
+        residuals["contact"] = closure.contact.report.residual
+    return Report(solver="load sharing", status=status, iterations=len(history), residual=min(history),
+                  tolerance=tolerance, residuals=residuals, history=tuple(history), evaluations=len(history),
+                  notes=tuple(notes))

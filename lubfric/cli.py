@@ -1,0 +1,119 @@
+"""The ``lubfric`` command: run, info, plot."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from .errors import ConvergenceError, LubfricError
+
+
+def main(argv=None) -> int:
+    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input."""
+    arguments = _parser().parse_args(argv)
+    try:
+        return arguments.command(arguments)
+    except ConvergenceError as error:
+        print(f"lubfric: {error}", file=sys.stderr)
+        return 1
+    except LubfricError as error:
+        print(f"lubfric: {error}", file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="lubfric", description="Friction of mixed-lubricated rough line contacts.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    run = commands.add_parser("run", help="compute the Stribeck curve of a scene and write it to a folder")
+    run.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
+    run.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
+    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1' or 'low:high:count'")
+    run.add_argument("--fields", help="speeds in m/s whose fields go to fields.npz and contact.png "
+                                      "(default: the scene's own speed)")
+    run.set_defaults(command=_run)
+    info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
+    info.add_argument("scene")
+    info.set_defaults(command=_info)
+    plot = commands.add_parser("plot", help="draw stribeck.png again from stribeck.csv")
+    plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
+    plot.set_defaults(command=_plot)
+    return parser
+
+
+def _run(arguments) -> int:
+    from .mixed import friction, prepare
+    from .output import read_csv, write_csv, write_fields, write_json
+    from .plot import plot_contact, plot_stribeck
+    from .scene import load_scene
+    from .sweep import stribeck
+
+    scene = load_scene(arguments.scene)
+    speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
+    out = arguments.out
+    out.mkdir(parents=True, exist_ok=True)
+    begun = time.perf_counter()
+    _say(f"{scene.name}: preparing the height map and the contact")
+    model = prepare(scene)
+    _say(model.surface.describe())
+    curve = stribeck(model, speeds, on_point=_progress, raise_on_failure=False)
+    write_csv(out / "stribeck.csv", curve)
+    write_json(out / "result.json", model, curve, time.perf_counter() - begun)
+    if not len(curve.errors) == curve.speed.size:
+        plot_stribeck(out / "stribeck.png", read_csv(out / "stribeck.csv"), scene.name)
+    points = [friction(model, speed, fields=True) for speed in chosen]
+    write_fields(out / "fields.npz", model, points)
+    plot_contact(out / "contact.png", model, points[0])
+    _say(f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} in {time.perf_counter() - begun:.1f} s")
+    if curve.errors:
+        raise ConvergenceError(f"{len(curve.errors)} of {curve.speed.size} speeds failed; "
+                               f"first: {curve.errors[min(curve.errors)]}", curve.report)
+    return 0
+
+
+def _info(arguments) -> int:
+    from .describe import describe_scene
+    from .scene import load_scene
+    print(describe_scene(load_scene(arguments.scene)))
+    return 0
+
+
+def _plot(arguments) -> int:
+    from .errors import InputError
+    from .output import read_csv
+    from .plot import plot_stribeck
+    source = arguments.folder / "stribeck.csv"
+    if not source.is_file():
+        raise InputError(f"{arguments.folder} holds no stribeck.csv; allowed: a folder written by 'lubfric run'")
+    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), arguments.folder.resolve().name)
+    return 0
+
+
+def _speeds(text: str | None) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
+    import numpy as np
+
+    from .errors import InputError
+    if not text:
+        return []
+    try:
+        if ":" in text:
+            low, high, count = text.split(":")
+            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
+        return [float(u) for u in text.split(",")]
+    except ValueError:
+        raise InputError(f"speeds = {text!r}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low, in m/s") from None
+
+
+def _progress(done, total, point) -> None:
+    if point is None:
+        _say(f"[{done}/{total}] failed")
+    else:
+        _say(f"[{done}/{total}] U = {point.speed:.4g} m/s: f = {point.coefficient:.5f}, "
+             f"F_C = {point.contact_load:.4g} N, F_H = {point.film_load:.4g} N ({point.seconds:.2f} s)")
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

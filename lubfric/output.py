@@ -1,0 +1,87 @@
+"""Results as files: result.json, stribeck.csv, fields.npz."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import platform
+from pathlib import Path
+
+import numpy as np
+
+from . import __version__
+from .mixed import FrictionResult, Model
+from .scene_file import scene_as_dict
+from .sweep import QUANTITIES, StribeckResult
+
+UNITS = {"speed": "m/s", "contact_load": "N", "film_load": "N", "shear_force": "N", "couette_force": "N",
+         "rolling_force": "N", "boundary_force": "N", "min_film": "m", "central_film": "m", "mean_gap": "m",
+         "seconds": "s"}
+
+
+def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) -> None:
+    """The record of a run: resolved input, versions, seed, timings, numbers and reports."""
+    import scipy
+    record = {
+        "scene": scene_as_dict(model.scene),
+        "surface": {"shape": model.surface.heights.shape, "spacing": model.surface.spacing,
+                    "sq": model.surface.sq, "notes": list(model.surface.notes)},
+        "versions": {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__,
+                     "python": platform.python_version()},
+        "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
+        "seconds": seconds,
+        "report": curve.report.as_dict(),
+        "points": [_point(curve, i) for i in range(curve.speed.size)],
+    }
+    path.write_text(json.dumps(_plain(record), indent=1, allow_nan=False))
+
+
+def write_csv(path: Path, curve: StribeckResult) -> None:
+    """One row a speed, one column a quantity, the unit in the heading."""
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow([f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES])
+        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES)))
+
+
+def read_csv(path: Path) -> dict[str, np.ndarray]:
+    """The columns that `write_csv` wrote, by name."""
+    with Path(path).open() as file:
+        heading, *rows = list(csv.reader(file))
+    columns = np.array(rows, float).reshape(len(rows), len(heading)).T
+    return {name.split(" [")[0]: column for name, column in zip(heading, columns)}
+
+
+def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None:
+    """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
+    arrays = {"speed": np.array([p.speed for p in points]), "heights": model.surface.heights,
+              "spacing": np.array(model.surface.spacing), "contact_x": model.patch.x}
+    for i, point in enumerate(points):
+        film, contact = point.balance.film, point.balance.closure.contact
+        if film is not None:
+            arrays |= {f"film_x_{i}": film.x, f"film_thickness_{i}": film.film_thickness,
+                       f"film_pressure_{i}": film.pressure}
+        if contact is not None:
+            arrays |= {f"contact_pressure_{i}": contact.pressure, f"gap_{i}": contact.gap}
+    np.savez_compressed(path, **arrays)
+
+
+def _point(curve: StribeckResult, index: int) -> dict:
+    if curve.points[index] is None:
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])}
+    point = curve.points[index]
+    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()}
+
+
+def _plain(value):
+    """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,106 @@
+"""The rough contact under a film: how far apart the surfaces stay at a given contact load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import validate
+from .contact import ContactResult, solve_contact
+from .errors import InputError
+from .halfspace import HalfSpace
+
+EDGE_SHARE = 0.01
+
+
+@dataclass(frozen=True)
+class Closure:
+    """Both sides of the volume balance, Eq. (8), at one division of the load.
+
+    mean_gap [m]: lubricant volume per area of A between the rough surfaces; mean_film [m]: the same
+    between the smooth ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m];
+    real_contact_area_fraction, plastic_area_fraction: of the area A; contact: the dry contact's
+    fields (None: separated, or taken from a contact curve).
+    """
+
+    mean_gap: float
+    mean_film: float
+    x: np.ndarray
+    contact_fraction: np.ndarray
+    real_contact_area_fraction: float
+    plastic_area_fraction: float
+    contact: ContactResult | None = None
+
+    @property
+    def volume_residual(self) -> float:
+        """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
+        return (self.mean_gap - self.mean_film) / (self.mean_gap + self.mean_film)
+
+
+@dataclass(frozen=True)
+class CylinderPatch:
+    """A rough patch under a cylinder: free along x, periodic along y (paper, Sec. 3.2).
+
+    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact;
+    region_weight (nx,): part of each column inside the area A of Eq. (8).
+    """
+
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+    region_weight: np.ndarray
+    operator: HalfSpace
+    width: float
+    hardness: float | None
+    tolerance: float
+
+    def close(self, film_on_patch, contact_load, start=None) -> Closure:
+        """Load the patch with ``contact_load`` [N] (over the whole width) under the film's shape."""
+        gap0 = film_on_patch[:, None] - self.heights
+        length = self.x.size * self.spacing[0]
+        if contact_load == 0:
+            return self._closure(film_on_patch, gap0 - gap0.min(), None)
+        contact = solve_contact(gap0, self.spacing, self.operator.e_prime, operator=self.operator,
+                                mean_pressure=contact_load / (self.width * length), hardness=self.hardness,
+                                boundary=("free", "periodic"), tolerance=self.tolerance, start=start)
+        self._check_edges(contact.pressure)
+        return self._closure(film_on_patch, contact.gap, contact)
+
+    def _closure(self, film_on_patch, gap, contact) -> Closure:
+        weight = self.region_weight
+        touching = np.zeros(gap.shape, bool) if contact is None else contact.pressure > 0
+        fraction = touching.mean(axis=1)
+        plastic = 0.0
+        if contact is not None and self.hardness is not None:
+            plastic = _weighted((contact.pressure >= self.hardness).mean(axis=1), weight)
+        return Closure(mean_gap=_weighted(np.maximum(gap, 0.0).mean(axis=1), weight),
+                       mean_film=_weighted(film_on_patch, weight), x=self.x, contact_fraction=fraction,
+                       real_contact_area_fraction=_weighted(fraction, weight),
+                       plastic_area_fraction=plastic, contact=contact)
+
+    def _check_edges(self, pressure) -> None:
+        share = (pressure[0].sum() + pressure[-1].sum()) / pressure.sum()
+        if share > EDGE_SHARE and self.x.size > 2:
+            raise InputError(f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
+                             f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
+                             f"{100 * EDGE_SHARE:g} % (make the patch longer in x)")
+
+
+def _weighted(values, weight) -> float:
+    return float(np.dot(values, weight) / weight.sum())
+
+
+def centred_axis(count: int, step: float) -> np.ndarray:
+    """Cell centres [m] of ``count`` cells around zero."""
+    return (np.arange(count) - 0.5 * (count - 1)) * step
+
+
+def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
+    """Part of each cell that lies within |x| <= half_width, cut cells counted by their share."""
+    inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
+    weight = np.clip(inside / step, 0.0, 1.0)
+    if not weight.any():
+        raise InputError("contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width "
+                         f"{validate.positive('half_width', half_width, 'm'):g} m; allowed: finer grids")
+    return weight

@@ -1,0 +1,83 @@
+"""Figures of a run: the Stribeck curve, and the contact of one speed (paper, Figs. 8-10)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
+
+
+def _figure(*args, **kwargs):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(*args, layout="constrained", **kwargs)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
+    """Coefficient, load split and lambda ratio over entrainment speed.
+
+    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
+    """
+    good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
+    order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
+    c = {k: v[order] for k, v in columns.items()}
+    speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
+    figure = _figure(figsize=(7, 8))
+    top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
+    top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
+    top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
+    top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    top.set_ylabel("friction coefficient (-)")
+    top.set_ylim(bottom=min(0, 1.1 * c["coefficient"].min()))
+    top.set_title(title)
+    top.legend(frameon=False)
+    middle.fill_between(speed, 0, c["contact_load"] / total, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
+    middle.fill_between(speed, c["contact_load"] / total, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
+    middle.set_ylabel("share of the load (-)")
+    middle.set_ylim(0, 1)
+    middle.legend(frameon=False, loc="center right")
+    bottom.loglog(speed, c["film_to_roughness_ratio"], "o-", color=GREY, ms=4)
+    bottom.axhline(3, color=GREY, lw=0.7, ls=":")
+    bottom.annotate("λ = 3", (speed[0], 3), xytext=(2, 2), textcoords="offset points", color=GREY)
+    bottom.set_ylabel("λ = central film / Sq (-)")
+    bottom.set_xlabel("entrainment speed U (m/s)")
+    figure.savefig(path, dpi=150)
+
+
+def plot_contact(path: Path, model, point) -> None:
+    """Contact pressure map, and film, separation and surface along the middle of one speed's contact.
+
+    ``point``: a `FrictionResult` with fields. Heights are drawn as in the paper's Fig. 10: the smooth film h,
+    the separation h_s = h - epsilon and the rough surface z on one axis.
+    """
+    balance = point.balance
+    contact, film = balance.closure.contact, balance.film
+    x, heights = model.patch.x, model.surface.heights - model.surface.heights.mean()
+    figure = _figure(figsize=(11, 4.5))
+    left, right = figure.subplots(1, 2)
+    if contact is None:
+        left.text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", ha="center", va="center",
+                  transform=left.transAxes)
+        left.set_axis_off()
+    else:
+        width = contact.pressure.shape[1] * model.surface.spacing[1]
+        image = left.imshow(contact.pressure.T / 1e9, origin="lower", aspect="auto", cmap="magma_r", vmin=0,
+                            extent=(x[0] * 1e6, x[-1] * 1e6, 0, width * 1e6))
+        figure.colorbar(image, ax=left, label="contact pressure (GPa)")
+        left.set(xlabel="x (µm), direction of motion", ylabel="y (µm)")
+    left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
+    if film is not None and heights.shape[0] == x.size:
+        smooth, row = film.film_at(x), heights.shape[1] // 2
+        approach = 0.0 if contact is None else contact.approach
+        right.plot(x * 1e6, smooth * 1e9, color=BLUE, label="film thickness h")
+        right.plot(x * 1e6, (smooth - approach) * 1e9, color=RED, label="separation $h_s$ = h − ε")
+        right.plot(x * 1e6, heights[:, row] * 1e9, color=GREY, lw=0.8, label="surface z")
+        right.set(xlabel="x (µm)", ylabel="height (nm)", title="section through the middle")
+        right.legend(frameon=False)
+    else:
+        right.set_axis_off()
+    figure.savefig(path, dpi=150)

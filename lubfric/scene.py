@@ -1,0 +1,217 @@
+"""What is asked: bodies, lubricant, motion, roughness and numerics, typed, frozen and validated."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+from . import validate
+from .analytic import hertz
+from .errors import InputError
+from .lubricant import Lubricant
+
+GEOMETRIES = ("cylinder", "flat")
+REGIONS = ("hertz", "box")
+CAVITATED_SHEAR = ("none", "striated")
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The line contact: a cylinder on a plane, or the nominally flat strip under it.
+
+    radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
+    e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
+    contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
+    """
+
+    radius: float
+    width: float
+    load: float
+    e_prime: float
+    boundary_friction_coefficient: float
+    hardness: float | None = None
+
+    def __post_init__(self):
+        validate.positive("bodies.radius", self.radius, "m")
+        validate.positive("bodies.width", self.width, "m")
+        validate.positive("bodies.load", self.load, "N")
+        validate.positive("bodies.e_prime", self.e_prime, "Pa")
+        validate.nonnegative("bodies.boundary_friction_coefficient",
+                             self.boundary_friction_coefficient, "(-)")
+        if self.hardness is not None:
+            validate.positive("bodies.hardness", self.hardness, "Pa")
+            if self.mean_hertz_pressure >= self.hardness:
+                raise InputError(f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
+                                 f"{self.hardness * 2 * self.half_width * self.width:g} N")
+
+    @property
+    def half_width(self) -> float:
+        """Hertz half-width b [m] of the total load, b = sqrt(8 w R/(pi E'))."""
+        return hertz.line_half_width(self.load / self.width, self.radius, self.e_prime)
+
+    @property
+    def mean_hertz_pressure(self) -> float:
+        """F_T / (2 b B) [Pa]."""
+        return hertz.line_mean_pressure(self.load / self.width, self.radius, self.e_prime)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Speeds of the two surfaces.
+
+    entrainment_speed U = (u1 + u2)/2 [m/s]; slide_roll_ratio (u2 - u1)/U [-], kept while the
+    entrainment speed varies along a Stribeck curve. Surface 2 is the upper one, on which the shear
+    is taken (paper, Eq. 12). 2: surface 1 stands still, 0: pure rolling. speeds [m/s]: the entrainment
+    speeds of the Stribeck curve.
+    """
+
+    entrainment_speed: float
+    slide_roll_ratio: float = 2.0
+    speeds: tuple[float, ...] = ()
+
+    def __post_init__(self):
+        validate.number("motion.entrainment_speed", self.entrainment_speed, "m/s")
+        validate.number("motion.slide_roll_ratio", self.slide_roll_ratio, "(-)")
+        for speed in self.speeds:
+            validate.number("motion.speeds", speed, "m/s")
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """Where the height map comes from: a file, or a generated surface.
+
+    file: path of a height map (`lubfric.read_surface`), or None to generate one.
+    sq [m]: standard deviation of the heights; a file is scaled to it when given.
+    correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf.
+    motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
+    spacing [m]: of a file that does not carry its own.
+    """
+
+    file: str | None = None
+    sq: float | None = None
+    correlation_length: float | tuple[float, float] | None = None
+    acf: str = "exponential"
+    decay_level: float = math.exp(-1)
+    seed: int = 0
+    motion_axis: str = "x"
+    spacing: float | tuple[float, float] | None = None
+
+    def __post_init__(self):
+        if self.file is None:
+            if self.sq is None or self.correlation_length is None:
+                raise InputError("surface needs either 'file', or 'sq' and 'correlation_length' in m")
+        elif self.correlation_length is not None:
+            raise InputError("surface.correlation_length applies to a generated surface; remove it or 'file'")
+        if self.sq is not None:
+            validate.nonnegative("surface.sq", self.sq, "m")
+        if self.correlation_length is not None:
+            validate.spacing("surface.correlation_length", self.correlation_length)
+        validate.choice("surface.acf", self.acf, ("exponential", "gaussian"))
+        validate.number("surface.decay_level", self.decay_level, "(-)", above=0, maximum=0.99)
+        validate.integer("surface.seed", self.seed, minimum=0)
+        validate.choice("surface.motion_axis", self.motion_axis, ("x", "y"))
+
+
+@dataclass(frozen=True)
+class Patch:
+    """The part of the contact that is resolved, and how the two models meet on it.
+
+    geometry "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2);
+    "flat": nominally flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1).
+    region: area A of the volume balance, Eq. (8): "hertz" (the strip |x| <= b of the total load)
+    or "box" (the whole patch). shape (nx, ny) and spacing (dx, dy) [m] of the contact grid; a
+    measured map keeps its own grid where they are left out.
+    """
+
+    geometry: str = "cylinder"
+    region: str = "hertz"
+    shape: tuple[int, int] | None = None
+    spacing: float | tuple[float, float] | None = None
+
+    def __post_init__(self):
+        validate.choice("contact.geometry", self.geometry, GEOMETRIES)
+        validate.choice("contact.region", self.region, REGIONS)
+        if self.shape is not None:
+            if len(self.shape) != 2:
+                raise InputError(f"contact.shape = {self.shape!r} must be a pair (nx, ny) of whole numbers >= 1")
+            for n in self.shape:
+                validate.integer("contact.shape", n, minimum=1)
+        if self.spacing is not None:
+            validate.spacing("contact.spacing", self.spacing)
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Relative tolerances. ``tolerance`` is the one on the friction coefficient; the others follow
+    from it where they are left out (see `film_tolerance` and its neighbours)."""
+
+    tolerance: float = 0.01
+    ehl_tolerance: float | None = None
+    contact_tolerance: float | None = None
+    balance_tolerance: float | None = None
+    cavitated_shear: str = "none"
+    workers: int = 1
+
+    def __post_init__(self):
+        validate.number("numerics.tolerance", self.tolerance, "(-)", above=0, maximum=0.2)
+        for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
+            if getattr(self, name) is not None:
+                validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
+        validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
+        validate.integer("numerics.workers", self.workers, minimum=1)
+
+    @property
+    def film_tolerance(self) -> float:
+        """Of the EHL film: a film error enters F_H, and so f, about one to one."""
+        return self.ehl_tolerance or min(0.3 * self.tolerance, 0.01)
+
+    @property
+    def pressure_tolerance(self) -> float:
+        """Of the contact solve."""
+        return self.contact_tolerance or min(1e-2 * self.tolerance, 1e-4)
+
+    @property
+    def volume_tolerance(self) -> float:
+        """Of the closing of load and volume."""
+        return self.balance_tolerance or min(5e-2 * self.tolerance, 1e-3)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else."""
+
+    bodies: Bodies
+    lubricant: Lubricant
+    motion: Motion
+    surface: Roughness
+    contact: Patch = field(default_factory=Patch)
+    numerics: Numerics = field(default_factory=Numerics)
+    name: str = "unnamed"
+
+    def with_(self, **sections) -> Scene:
+        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``."""
+        changed = {}
+        for section, values in sections.items():
+            if section not in self.__dataclass_fields__:
+                raise InputError(f"scene has no section {section!r}"
+                                 f"{validate.nearest(section, self.__dataclass_fields__)}")
+            old = getattr(self, section)
+            if not isinstance(values, dict):
+                changed[section] = values
+                continue
+            for key in values:
+                if key not in old.__dataclass_fields__:
+                    raise InputError(f"{section} has no field {key!r}"
+                                     f"{validate.nearest(key, old.__dataclass_fields__)}")
+            changed[section] = replace(old, **values)
+        return replace(self, **changed)
+
+
+def load_scene(source) -> Scene:
+    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+
+    Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
+    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
+    """
+    from .scene_file import read_scene
+    return read_scene(source)

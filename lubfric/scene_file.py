@@ -1,0 +1,129 @@
+"""Scenes as TOML: strict reading, and the resolved scene as plain data for the record."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import MISSING, asdict, fields
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+
+from . import validate
+from .analytic.hertz import composite_modulus
+from .errors import InputError
+from .lubricant import Lubricant
+from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
+
+SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface": Roughness,
+            "contact": Patch, "numerics": Numerics}
+EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range")}
+OPTIONAL = ("contact", "numerics")
+
+
+def read_scene(source) -> Scene:
+    """See `lubfric.load_scene`."""
+    text, folder, name = _text(source)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"scene {source} is not valid TOML: {error}") from None
+    return scene_from_table(table, folder, name)
+
+
+def builtin_scenes() -> tuple[str, ...]:
+    """Names that `lubfric.load_scene` knows without a file."""
+    folder = resources.files("lubfric") / "scenes"
+    return tuple(sorted(f.name.removesuffix(".toml") for f in folder.iterdir() if f.name.endswith(".toml")))
+
+
+def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
+    """A validated `Scene` from the tables of a TOML file."""
+    allowed = ("name", *SECTIONS)
+    _known("scene", table, allowed)
+    for section in SECTIONS:
+        if section not in table and section not in OPTIONAL:
+            raise InputError(f"scene {name} has no [{section}] table")
+        if not isinstance(table.get(section, {}), dict):
+            raise InputError(f"scene entry {section!r} must be a table [{section}]")
+    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s != "surface"}
+    surface = dict(table["surface"])
+    if isinstance(surface.get("file"), str):
+        surface["file"] = str((folder / surface["file"]).resolve())
+        if not Path(surface["file"]).is_file():
+            raise InputError(f"surface.file = {table['surface']['file']!r}: no such file in {folder}")
+    return Scene(**parts, surface=_build("surface", surface), name=str(table.get("name", name)))
+
+
+def scene_as_dict(scene: Scene) -> dict:
+    """The resolved scene as plain data (for ``result.json``)."""
+    return asdict(scene)
+
+
+def _text(source) -> tuple[str, Path, str]:
+    if str(source) in builtin_scenes():
+        return (resources.files("lubfric") / "scenes" / f"{source}.toml").read_text(), Path(), str(source)
+    path = Path(source)
+    if not path.is_file():
+        raise InputError(f"scene {str(source)!r} is neither a file nor a built-in scene"
+                         f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}")
+    return path.read_text(), path.parent, path.stem
+
+
+def _known(where: str, table: dict, allowed) -> None:
+    for key in table:
+        if key not in allowed:
+            raise InputError(f"unknown key {key!r} in {where}{validate.nearest(key, allowed)}; "
+                             f"allowed: {', '.join(allowed)}")
+
+
+def _build(section: str, table: dict):
+    kind = SECTIONS[section]
+    names = [f.name for f in fields(kind)]
+    _known(f"[{section}]", table, (*names, *EXTRA_KEYS.get(section, ())))
+    if section == "bodies":
+        _modulus(table)
+    if section == "motion":
+        _speeds(table)
+    for f in fields(kind):
+        if f.default is MISSING and f.default_factory is MISSING and f.name not in table:
+            raise InputError(f"[{section}] needs {f.name!r}")
+    return kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in table.items()})
+
+
+def _modulus(table: dict) -> None:
+    """``young_modulus`` and ``poisson_ratio`` of both bodies instead of ``e_prime``."""
+    given = [k for k in ("young_modulus", "poisson_ratio") if k in table]
+    if not given:
+        return
+    if len(given) == 1 or "e_prime" in table:
+        raise InputError("[bodies] needs either e_prime, or both young_modulus and poisson_ratio (a pair each)")
+    e, nu = table.pop("young_modulus"), table.pop("poisson_ratio")
+    if not (isinstance(e, list) and isinstance(nu, list) and len(e) == len(nu) == 2):
+        raise InputError("bodies.young_modulus [Pa] and bodies.poisson_ratio [-] must be pairs, one value a body")
+    table["e_prime"] = composite_modulus(e[0], nu[0], e[1], nu[1])
+
+
+def _speeds(table: dict) -> None:
+    """``surface_speeds = [u1, u2]`` and ``speed_range = [low, high, count]`` as short forms."""
+    if "surface_speeds" in table:
+        if "entrainment_speed" in table or "slide_roll_ratio" in table:
+            raise InputError("[motion] takes surface_speeds, or entrainment_speed and slide_roll_ratio, not both")
+        pair = table.pop("surface_speeds")
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise InputError(f"motion.surface_speeds = {pair!r} must be a pair [u1, u2] in m/s")
+        u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in pair)
+        if u1 + u2 == 0:
+            raise InputError("motion.surface_speeds sum to 0 m/s: give entrainment_speed = 0 and a slide_roll_ratio")
+        table["entrainment_speed"] = (u1 + u2) / 2
+        table["slide_roll_ratio"] = 2 * (u2 - u1) / (u1 + u2)
+    if "speed_range" in table:
+        if "speeds" in table:
+            raise InputError("[motion] takes speeds or speed_range, not both")
+        value = table.pop("speed_range")
+        if not isinstance(value, list) or len(value) != 3:
+            raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
+        low = validate.positive("motion.speed_range lowest", value[0], "m/s")
+        high = validate.positive("motion.speed_range highest", value[1], "m/s")
+        count = validate.integer("motion.speed_range count", value[2], minimum=1)
+        table["speeds"] = [float(u) for u in np.geomspace(low, high, count)]

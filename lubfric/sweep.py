@@ -1,0 +1,121 @@
+"""Stribeck curves: friction over speed, neighbours warm-started, nothing lost to a failing point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import validate
+from .errors import ConvergenceError, InputError
+from .mixed import FrictionResult, Model, friction, prepare
+from .report import CONVERGED, ITERATION_LIMIT, Report
+from .scene import Scene
+
+QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in ("report", "balance"))
+
+
+@dataclass(frozen=True)
+class StribeckResult:
+    """Arrays over speed (in the order asked for), NaN where a point failed.
+
+    Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
+    results themselves (None where failed), ``errors`` {index: the exception raised there}.
+    """
+
+    speed: np.ndarray
+    coefficient: np.ndarray
+    contact_load: np.ndarray
+    film_load: np.ndarray
+    shear_force: np.ndarray
+    couette_force: np.ndarray
+    rolling_force: np.ndarray
+    boundary_force: np.ndarray
+    real_contact_area_fraction: np.ndarray
+    plastic_area_fraction: np.ndarray
+    min_film: np.ndarray
+    central_film: np.ndarray
+    mean_gap: np.ndarray
+    film_to_roughness_ratio: np.ndarray
+    load_residual: np.ndarray
+    volume_residual: np.ndarray
+    seconds: np.ndarray
+    points: tuple[FrictionResult | None, ...]
+    errors: dict[int, Exception]
+    report: Report
+
+
+def stribeck(scene: Scene | Model, speeds=None, executor=None, *, fields: bool = False, on_point=None,
+             raise_on_failure: bool = True) -> StribeckResult:
+    """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
+
+    Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs. ``on_point(done, total,
+    result_or_None)`` is called as points end. ``fields``: keep film and contact of every point.
+    A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
+    `ConvergenceError` is raised with the whole curve as its ``result`` (``raise_on_failure=False`` returns it).
+    """
+    base = scene.scene if isinstance(scene, Model) else scene
+    speeds = base.motion.speeds if speeds is None else speeds
+    speeds = validate.array("speeds", np.atleast_1d(np.asarray(speeds, float)), "m/s", ndim=1)
+    model = scene if isinstance(scene, Model) else prepare(scene)
+    order = np.argsort(-np.abs(speeds), kind="stable")
+    runs = [order] if executor is None else np.array_split(order, min(order.size, 8))
+    points, errors = [None] * speeds.size, {}
+
+    def keep(outcomes):
+        for index, outcome in outcomes:
+            failed = isinstance(outcome, Exception)
+            (errors if failed else points)[index] = outcome
+            if on_point:
+                on_point(len(errors) + sum(p is not None for p in points), speeds.size, None if failed else outcome)
+
+    if executor is None:
+        keep(_run(model, [(int(i), float(speeds[i])) for i in order], fields))
+    else:
+        _spread(executor, model, speeds, runs, fields, keep)
+    result = _collect(speeds, points, errors)
+    if raise_on_failure and errors:
+        raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
+    return result
+
+
+def _run(model, cases, fields):
+    """Yield (index, FrictionResult or exception) along neighbouring speeds."""
+    start = None
+    for index, speed in cases:
+        try:
+            start = friction(model, speed, start=start, fields=True)
+        except (ConvergenceError, InputError) as error:
+            start = None
+            yield index, error
+        else:
+            yield index, start if fields else replace(start, balance=None)
+            start = start if start.balance.film is not None else None
+
+
+def _run_list(model, cases, fields):
+    return list(_run(model, cases, fields))
+
+
+def _spread(executor, model, speeds, runs, fields, keep) -> None:
+    from concurrent.futures import as_completed
+    futures = {executor.submit(_run_list, model, [(int(i), float(speeds[i])) for i in run], fields): run
+               for run in runs}
+    for future in as_completed(futures):
+        try:
+            keep(future.result())
+        except Exception as error:          # a lost worker fails its own speeds, not the sweep
+            keep([(int(i), error) for i in futures[future]])
+
+
+def _collect(speeds, points, errors) -> StribeckResult:
+    columns = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
+    columns["speed"] = speeds
+    residuals = [abs(p.volume_residual) for p in points if p is not None]
+    worst = max(residuals, default=np.inf)
+    tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
+    status = ITERATION_LIMIT if errors else CONVERGED
+    notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
+    report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
+    return StribeckResult(**columns, points=tuple(points), errors=errors, report=report)

@@ -1,0 +1,113 @@
+"""Scenes: the built-in ones, strict reading, and a clear error for each bad value."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.scene_file import builtin_scenes, scene_as_dict
+
+PAPER = lubfric.load_scene("paper")
+
+
+def write(folder, text):
+    path = folder / "scene.toml"
+    path.write_text(text)
+    return path
+
+
+def toml(**changes):
+    """A small valid scene; ``section__key=text`` replaces or adds a line, None removes it."""
+    sections = {"bodies": {"radius": "2e-3", "width": "6e-3", "load": "5.5", "e_prime": "231e9",
+                           "boundary_friction_coefficient": "0.09"},
+                "lubricant": {"viscosity": "0.36", "pressure_viscosity_coefficient": "25e-9"},
+                "motion": {"entrainment_speed": "0.01"},
+                "surface": {"sq": "1e-7", "correlation_length": "8e-6"},
+                "contact": {"shape": "[64, 64]", "spacing": "0.9e-6"}}
+    for place, value in changes.items():
+        section, key = place.split("__")
+        sections.setdefault(section, {})[key] = value
+    return "\n".join(f"[{s}]\n" + "\n".join(f"{k} = {v}" for k, v in t.items() if v is not None)
+                     for s, t in sections.items())
+
+
+def test_paper_tables():
+    assert set(builtin_scenes()) >= {"paper", "flat"}
+    b = PAPER.bodies
+    assert (b.radius, b.width, b.load, b.e_prime, b.hardness) == (2e-3, 6e-3, 5.5, 231e9, 6e9)
+    assert b.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)       # Sec. 3.2
+    assert b.half_width == pytest.approx(4.5e-6, rel=5e-3)
+    assert PAPER.contact.shape == (200, 200) and PAPER.contact.spacing == 0.45e-6
+    assert PAPER.motion.slide_roll_ratio == 2 and len(PAPER.motion.speeds) >= 20
+    flat = lubfric.load_scene("flat")
+    assert flat.bodies.hardness is None and flat.surface.sq == 240e-9 and flat.contact.shape == (816, 816)
+
+
+def test_a_file_equals_its_short_forms(tmp_path):
+    plain = lubfric.load_scene(write(tmp_path, toml(motion__entrainment_speed="0.3", motion__slide_roll_ratio="2.0")))
+    short = lubfric.load_scene(write(tmp_path, toml(motion__entrainment_speed=None,
+                                                    motion__surface_speeds="[0.0, 0.6]")))
+    assert short.motion == plain.motion
+    nu, e = 0.3, 210e9
+    moduli = lubfric.load_scene(write(tmp_path, toml(bodies__e_prime=None, bodies__young_modulus=f"[{e}, {e}]",
+                                                     bodies__poisson_ratio=f"[{nu}, {nu}]")))
+    assert moduli.bodies.e_prime == pytest.approx(e / (1 - nu**2))
+    ranged = lubfric.load_scene(write(tmp_path, toml(motion__speed_range="[1e-3, 1.0, 4]")))
+    np.testing.assert_allclose(ranged.motion.speeds, [1e-3, 1e-2, 1e-1, 1.0])
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
+    ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
+    ({"lubricant__viscocity": "1"}, ["did you mean 'viscosity'"]),
+    ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "(0", " N"]),
+    ({"bodies__load": "nan"}, ["bodies.load", "nan"]),
+    ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
+    ({"bodies__load": None}, ["[bodies] needs 'load'"]),
+    ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
+    ({"bodies__young_modulus": "[1e9, 1e9]"}, ["e_prime", "poisson_ratio"]),
+    ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),
+    ({"lubricant__viscosity": "-0.1"}, ["viscosity", "-0.1", "Pa s"]),
+    ({"lubricant__pressure_viscosity_coefficient": "0.0"}, ["pressure_viscosity_coefficient", "constant"]),
+    ({"lubricant__viscosity_law": "'rolands'"}, ["did you mean 'roelands'"]),
+    ({"surface__sq": None}, ["surface", "'sq'"]),
+    ({"surface__correlation_length": "-1e-6"}, ["correlation_length", "m"]),
+    ({"surface__file": "'nowhere.npy'", "surface__correlation_length": None}, ["nowhere.npy", "no such file"]),
+    ({"surface__file": "'nowhere.npy'"}, ["nowhere.npy"]),
+    ({"contact__geometry": "'cylindre'"}, ["did you mean 'cylinder'"]),
+    ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
+    ({"contact__spacing": "0.0"}, ["contact.spacing", "m"]),
+    ({"numerics__tolerance": "0.0"}, ["numerics.tolerance"]),
+    ({"motion__surface_speeds": "[0.0, 0.6]"}, ["surface_speeds", "not both"]),
+    ({"motion__speeds": "[0.1]", "motion__speed_range": "[1e-3, 1.0, 4]"}, ["speeds or speed_range"]),
+])
+def test_bad_input_is_a_clear_error(tmp_path, changes, words):
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene(write(tmp_path, toml(**changes)))
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_missing_files_and_broken_toml(tmp_path):
+    with pytest.raises(lubfric.InputError, match="did you mean 'paper'"):
+        lubfric.load_scene("papr")
+    with pytest.raises(lubfric.InputError, match="not valid TOML"):
+        lubfric.load_scene(write(tmp_path, "[bodies\nradius = 1"))
+
+
+def test_with_replaces_one_value_and_is_strict():
+    heavier = PAPER.with_(bodies={"load": 11.0}, name="heavier")
+    assert heavier.bodies.load == 11.0 and heavier.bodies.radius == PAPER.bodies.radius
+    assert PAPER.bodies.load == 5.5
+    assert heavier.bodies.half_width == pytest.approx(math.sqrt(2) * PAPER.bodies.half_width)
+    with pytest.raises(lubfric.InputError, match="did you mean 'load'"):
+        PAPER.with_(bodies={"lod": 1.0})
+    with pytest.raises(lubfric.InputError, match="did you mean 'bodies'"):
+        PAPER.with_(body={"load": 1.0})
+
+
+def test_the_resolved_scene_is_plain_data():
+    import json
+    record = json.loads(json.dumps(scene_as_dict(PAPER)))
+    assert record["bodies"]["load"] == 5.5 and record["surface"]["seed"] == PAPER.surface.seed
