@@ -1,0 +1,91 @@
+"""The steady line contact in Moes' similarity variables.
+
+With U1 = 2 eta0 U/(E' R) and the units x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
+
+    d/dX( rho H^3/(6 eta) dP/dX ) = d(rho H)/dX                  Reynolds
+    H = H00 + X^2/2 - (4/pi) ∫ P(X') ln|X - X'| dX'              elastic film
+    ∫ P dX = M                                                   load
+
+rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure
+(Moes 1992, doi:10.1016/0043-1648(92)90017-C for the numbers M and L).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units."""
+
+    load: float
+    radius: float
+    e_prime: float
+    speed: float
+    lubricant: Lubricant
+    inlet_length: float | None = None
+
+    @property
+    def speed_number(self) -> float:
+        """U1 = 2 eta0 U/(E' R) [-]."""
+        return 2.0 * self.lubricant.viscosity * self.speed / (self.e_prime * self.radius)
+
+    @property
+    def length_unit(self) -> float:
+        """Unit of x [m]."""
+        return self.radius * self.speed_number**0.25
+
+    @property
+    def film_unit(self) -> float:
+        """Unit of h [m]."""
+        return self.radius * math.sqrt(self.speed_number)
+
+    @property
+    def pressure_unit(self) -> float:
+        """Unit of p [Pa]."""
+        return self.e_prime * self.speed_number**0.25
+
+    @property
+    def M(self) -> float:
+        """Moes load number."""
+        return self.load / (self.e_prime * self.film_unit)
+
+    @property
+    def L(self) -> float:
+        """Moes material number (0 for the constant-viscosity law)."""
+        if self.lubricant.viscosity_law == "constant":
+            return 0.0
+        return self.lubricant.pressure_viscosity_coefficient * self.pressure_unit
+
+    @property
+    def half_width(self) -> float:
+        """Hertz half-width in units of x."""
+        return math.sqrt(8.0 * self.M / math.pi)
+
+    def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
+        """ln(eta/eta0) and its derivative with respect to P."""
+        value, slope = log_viscosity_ratio(self.lubricant, P * self.pressure_unit)
+        return value, slope * self.pressure_unit
+
+    def density(self, P) -> tuple[np.ndarray, np.ndarray]:
+        """rho/rho0 and its derivative with respect to P."""
+        value, slope = density_ratio(self.lubricant, P * self.pressure_unit)
+        return value, slope * self.pressure_unit
+
+
+def expected_film(M: float, L: float) -> float:
+    """Moes' regression of the film (within some 10 %), the scale that grids and starts are made from."""
+    rigid, elastic = 3.0 / M, 2.621 * M**-0.2
+    s = (7.0 + 8.0 * math.exp(-2.0 * elastic / rigid)) / 5.0
+    isoviscous = (rigid ** (7 / 3) + elastic ** (7 / 3)) ** (3 / 7)
+    if L < 1e-6:
+        return isoviscous
+    piezoviscous = ((1.287 * L ** (2 / 3)) ** -3.5 + (1.311 * M**-0.125 * L**0.75) ** -3.5) ** (-2 / 7)
+    larger, smaller = max(isoviscous, piezoviscous), min(isoviscous, piezoviscous)
+    return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)

@@ -1,0 +1,109 @@
+"""The film of a line contact, and its continuation outside the computed domain."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..report import Report
+from .start import State
+
+
+@dataclass(frozen=True)
+class EHLResult:
+    """Steady line-contact film, SI units. Arrays are (n,), x ascending.
+
+    x [m]: nodes, the line of centres at 0, from the inlet to a stretch of cavitated outlet;
+    pressure [Pa], film_thickness [m], viscosity [Pa s], density_ratio [-]: at the nodes.
+    rupture [m]: where the film ruptures (p = dp/dx = 0).
+    min_film [m]: smallest film; central_film [m]: film at x = 0.
+    flow_film [m]: mass flux/(rho0 |U|). It is the film at the rupture point, where dp/dx = 0 and
+    rho = rho0; with constant density also the film at every other point where dp/dx = 0.
+    flux [m²/s]: mass flux/rho0, along +x when positive.
+    approach [m]: h0 in h = h0 + x²/2R - (4/(pi E')) ∫ p ln(|x - x'|/half_width) dx'.
+    half_width [m], hertz_pressure [Pa]: Hertz values of the load; load [N/m];
+    load_number, material_number: Moes' M and L.
+    """
+
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    viscosity: np.ndarray
+    density_ratio: np.ndarray
+    min_film: float
+    central_film: float
+    flow_film: float
+    flux: float
+    rupture: float
+    approach: float
+    half_width: float
+    hertz_pressure: float
+    load: float
+    radius: float
+    e_prime: float
+    entrainment_speed: float
+    load_number: float
+    material_number: float
+    report: Report
+    state: State = field(repr=False)
+
+    def film_at(self, x) -> np.ndarray:
+        """Film thickness [m] at any positions ``x`` [m], any shape.
+
+        Between the nodes the deflection is interpolated by cubics; outside it is the line kernel
+        of the pressure lumped in groups of nodes.
+        """
+        return film_at(self, x)
+
+
+def film_at(result: EHLResult, x) -> np.ndarray:
+    """Film thickness [m] of an `EHLResult` at any positions ``x`` [m]; see `EHLResult.film_at`."""
+    x = np.asarray(x, dtype=float)
+    flat = x.ravel()
+    parabola = flat**2 / (2.0 * result.radius)
+    nodes = result.x
+    inside = (flat >= nodes[0]) & (flat <= nodes[-1])
+    film = np.empty_like(flat)
+    bend = result.film_thickness - nodes**2 / (2.0 * result.radius)
+    film[inside] = cubic(nodes, bend, flat[inside])
+    film[~inside] = result.approach + _far_deflection(result, flat[~inside])
+    return (film + parabola).reshape(x.shape)
+
+
+def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Piecewise cubic Lagrange interpolation on four neighbouring nodes."""
+    first = np.clip(np.searchsorted(nodes, x) - 2, 0, nodes.size - 4)
+    a, b, c, d = (nodes[first + k] for k in range(4))
+    ta, tb, tc, td = x - a, x - b, x - c, x - d
+    return (values[first] * tb * tc * td / ((a - b) * (a - c) * (a - d))
+            + values[first + 1] * ta * tc * td / ((b - a) * (b - c) * (b - d))
+            + values[first + 2] * ta * tb * td / ((c - a) * (c - b) * (c - d))
+            + values[first + 3] * ta * tb * tc / ((d - a) * (d - b) * (d - c)))
+
+
+def smallest(x: np.ndarray, values: np.ndarray) -> float:
+    """Minimum of the parabola through the smallest value and its neighbours."""
+    i = int(np.clip(np.argmin(values), 1, values.size - 2))
+    d1 = (values[i] - values[i - 1]) / (x[i] - x[i - 1])
+    d2 = (values[i + 1] - values[i]) / (x[i + 1] - x[i])
+    curvature = (d2 - d1) / (x[i + 1] - x[i - 1])
+    if curvature <= 0.0:
+        return float(values[i])
+    slope = d1 + curvature * (x[i] - x[i - 1])
+    return float(values[i] - slope**2 / (4.0 * curvature))
+
+
+def _far_deflection(result: EHLResult, x: np.ndarray, group: int = 6) -> np.ndarray:
+    cells = np.diff(result.x)
+    force = np.zeros_like(result.x)
+    force[1:] += 0.5 * cells * result.pressure[1:]
+    force[:-1] += 0.5 * cells * result.pressure[:-1]
+    starts = np.arange(0, force.size, group)
+    lumps = np.add.reduceat(force, starts)
+    moments = np.add.reduceat(force * result.x, starts)
+    keep = lumps > 0.0
+    lumps, centres = lumps[keep], moments[keep] / lumps[keep]
+    logs = np.log(np.abs(x[:, None] - centres[None, :]) / result.half_width)
+    return -4.0 / (math.pi * result.e_prime) * (logs @ lumps)

@@ -1,0 +1,130 @@
+"""Discrete equations of the line contact: residual and Jacobian.
+
+Unknowns ``z`` = pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture
+point e (X = e + xi). Equations, each made dimensionless by its own scale:
+
+* n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow with the
+  logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with the film interpolated third-order upwind,
+  which sees the sawtooth in P that a centred mean would not.
+* inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and
+  P = |X|/3 dP/dX; or P = 0 where the lubricant begins (starved inlet).
+* load, with the tail upstream of the inlet.
+* rupture (Swift-Stieber): P = 0 is built in, dP/dX = 0 means rho H = q at the last node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .grid import Grid
+from .problem import Problem
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What one evaluation of the residual leaves for the Jacobian."""
+
+    P: np.ndarray
+    H: np.ndarray
+    X: np.ndarray
+    q: float
+    slope: np.ndarray        # d ln(eta)/dP at the nodes
+    density: tuple           # rho and d rho/dP at the nodes
+    face_density: np.ndarray
+    face_H: np.ndarray
+    fluidity: tuple          # logarithmic mean and its derivatives by ln(eta) left, right
+    gradient: np.ndarray     # (dP/dX)/6
+    flux: np.ndarray         # mass flux towards +X, Couette minus Poiseuille
+
+
+def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Logarithmic mean of exp(-log_eta) over each cell and its derivatives by the left and right value."""
+    d = np.diff(log_eta)
+    left = np.exp(-log_eta[:-1])
+    small = np.abs(d) < 1e-3
+    e = np.where(small, 1.0, d)
+    decay = np.exp(-e)
+    mean = np.where(small, 1.0 - d / 2 + d * d / 6, (1.0 - decay) / e)
+    by_d = np.where(small, -0.5 + d / 3 - d * d / 8, (decay * (1.0 + e) - 1.0) / (e * e))
+    return left * mean, -left * (mean + by_d), left * by_d
+
+
+def residual(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, Terms]:
+    """Residual (n + 3) and the `Terms` that the Jacobian needs."""
+    n = grid.n
+    P = np.append(z[:n], 0.0)
+    H00, q, e = z[n:]
+    X = grid.xi + e
+    H = grid.kernel @ P + (H00 + 0.5 * X * X)
+    log_eta, slope = problem.log_viscosity(P)
+    rho, rho_slope = problem.density(P)
+    face_rho = 0.5 * (rho[1:] + rho[:-1])
+    face_H = grid.face_film @ H
+    fluidity = log_mean_fluidity(log_eta)
+    gradient = np.diff(P) / (6.0 * grid.cells)
+    flux = face_rho * face_H * (1.0 - face_H**2 * fluidity[0] * gradient)
+    R = np.empty(n + 3)
+    R[:n] = 1.0 - flux / q
+    a = -X[0]
+    if problem.inlet_length is None:
+        R[n] = (P[0] - 2.0 * a * (H[0] - q) / H[0] ** 3) * a / problem.M
+        R[n + 1] = (grid.weights @ P + 0.5 * a * P[0]) / problem.M - 1.0
+    else:
+        R[n] = P[0] * a / problem.M
+        R[n + 1] = grid.weights @ P / problem.M - 1.0
+    R[n + 2] = rho[-1] * H[-1] / q - 1.0
+    return R, Terms(P, H, X, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
+
+
+def jacobian(grid: Grid, problem: Problem, terms: Terms) -> np.ndarray:
+    """Jacobian (n + 3, n + 3), Fortran order so that LAPACK factorises it in place."""
+    n = grid.n
+    J = np.empty((n + 3, n + 3), order="F")
+    _face_rows(grid, terms, J)
+    _closing_rows(grid, problem, terms, J)
+    return J
+
+
+def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> None:
+    n, q = grid.n, t.q
+    mean, by_left, by_right = t.fluidity
+    cube = t.face_density * t.face_H**3
+    by_H = t.face_density * (3.0 * t.face_H**2 * mean * t.gradient - 1.0) / q
+    np.multiply(by_H[:, None], grid.face_kernel[:, :n], out=J[:n, :n])
+    rho_slope = t.density[1]
+    by_rho = 0.5 * t.face_H * (t.face_H**2 * mean * t.gradient - 1.0)
+    by_P = cube * mean / (6.0 * grid.cells)
+    left = -by_P + cube * t.gradient * by_left * t.slope[:-1] + by_rho * rho_slope[:-1]
+    right = by_P + cube * t.gradient * by_right * t.slope[1:] + by_rho * rho_slope[1:]
+    i = np.arange(n)
+    J[i, i] += left / q
+    J[i[:-1], i[1:]] += right[:-1] / q
+    J[:n, n] = by_H
+    J[:n, n + 1] = t.flux / q**2
+    J[:n, n + 2] = by_H * (grid.face_film @ t.X)
+
+
+def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> None:
+    n, q, M = grid.n, t.q, problem.M
+    a = -t.X[0]
+    J[n] = 0.0
+    J[n + 1, :n] = grid.weights[:n] / M
+    J[n + 1, n:] = 0.0
+    if problem.inlet_length is None:
+        h = t.H[0]
+        by_h = -2.0 * a * (3.0 * q - 2.0 * h) / h**4 * a / M
+        J[n, :n] = by_h * grid.kernel[0, :n]
+        J[n, 0] += a / M
+        J[n, n] = by_h
+        J[n, n + 1] = 2.0 * a / h**3 * a / M
+        J[n, n + 2] = by_h * t.X[0] + (4.0 * a * (h - q) / h**3 - t.P[0]) / M
+        J[n + 1, 0] += 0.5 * a / M
+        J[n + 1, n + 2] = -0.5 * t.P[0] / M
+    else:
+        J[n, 0] = a / M
+        J[n, n + 2] = -t.P[0] / M
+    rho = t.density[0][-1]
+    J[n + 2, :n] = grid.kernel[-1, :n] * rho / q
+    J[n + 2, n:] = rho / q, -rho * t.H[-1] / q**2, rho * t.X[-1] / q
