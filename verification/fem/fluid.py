@@ -1,0 +1,92 @@
+"""Viscosity and density laws for the finite-element side, written for real and complex pressures.
+
+Complex, because the tangent of a weak form is taken by a complex step: ``Im f(p + i e)/e`` is the
+derivative to rounding (Squire & Trapp 1998, doi:10.1137/S003614459631241X), so no law needs a second one
+for its derivative.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .report import InputError
+
+ROELANDS_PRESSURE = 1.96e8
+VISCOSITY_LAWS = ("constant", "barus", "roelands")
+DENSITY_LAWS = ("constant", "linear", "dowson_higginson")
+STEP = 1e-40
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """A lubricant; pressures are gauge pressures in Pa.
+
+    Attributes
+    ----------
+    viscosity : at p = 0, Pa s
+    viscosity_law : "constant"; "barus" ``exp(alpha p)``; "roelands" ``exp((alpha p0/z)((1 + p/p0)^z - 1))``
+        with p0 = 1.96e8 Pa (Roelands 1966)
+    pressure_viscosity_coefficient : alpha, 1/Pa
+    roelands_index : z, 1; None takes ``alpha p0/(ln viscosity + 9.67)``
+    density_law : relative density "constant" 1; "linear" ``1 + p/bulk_modulus`` (an isothermal ideal gas has
+        its ambient pressure for bulk modulus); "dowson_higginson"
+        ``1 + 0.6e-9 p/(1 + 1.7e-9 p)`` (Dowson & Higginson 1966)
+    bulk_modulus : Pa, for "linear"
+    """
+
+    viscosity: float
+    viscosity_law: str = "constant"
+    pressure_viscosity_coefficient: float = 0.0
+    roelands_index: float | None = None
+    density_law: str = "constant"
+    bulk_modulus: float = math.inf
+
+    def __post_init__(self):
+        if self.viscosity_law not in VISCOSITY_LAWS or self.density_law not in DENSITY_LAWS:
+            raise InputError(f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}; "
+                             f"allowed: {VISCOSITY_LAWS} and {DENSITY_LAWS}")
+        if not (math.isfinite(self.viscosity) and self.viscosity > 0):
+            raise InputError(f"viscosity = {self.viscosity} Pa s; allowed: > 0")
+        if not 0 <= self.pressure_viscosity_coefficient < math.inf:
+            raise InputError(f"pressure_viscosity_coefficient = {self.pressure_viscosity_coefficient} 1/Pa; "
+                             "allowed: >= 0")
+        if self.viscosity_law == "roelands" and not self.index > 0:
+            raise InputError(f"roelands_index = {self.index}; allowed: > 0")
+        if not self.bulk_modulus > 0:
+            raise InputError(f"bulk_modulus = {self.bulk_modulus} Pa; allowed: > 0")
+
+    @property
+    def index(self) -> float:
+        """Roelands' z."""
+        if self.roelands_index is not None:
+            return self.roelands_index
+        return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / (math.log(self.viscosity) + 9.67)
+
+    def log_viscosity(self, p):
+        """``ln(eta/eta0)`` at pressure p."""
+        if self.viscosity_law == "constant":
+            return 0 * p
+        if self.viscosity_law == "barus":
+            return self.pressure_viscosity_coefficient * p
+        z = self.index
+        return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
+
+    def eta(self, p):
+        """Viscosity in Pa s."""
+        return self.viscosity * np.exp(self.log_viscosity(p))
+
+    def rho(self, p):
+        """Density relative to that at p = 0."""
+        if self.density_law == "constant":
+            return 1 + 0 * p
+        if self.density_law == "linear":
+            return 1 + p / self.bulk_modulus
+        return 1 + 0.6e-9 * p / (1 + 1.7e-9 * p)
+
+
+def slope(law, p):
+    """Derivative of one of the laws, by a complex step; itself differentiable only on the real axis."""
+    return np.imag(law(np.real(p) + 1j * STEP)) / STEP
