@@ -48,23 +48,30 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
     rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * face_wet)
     tau = shear_stress(lubricant, p, sliding / h) * wet
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x)
-    full = p[1:] > 0
+    full = x[:-1] < film.rupture * direction               # the rupture point is a node
     couette = np.sum(face_tau[full])
-    couette += lubricant.viscosity * sliding * _upstream(h[0], -x[0], radius)
+    inlet, thin = _upstream(h[0], -x[0], radius)
+    couette += lubricant.viscosity * sliding * inlet
+    rolling += 6 * lubricant.viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
-        last = int(np.flatnonzero(p > 0)[-1])
-        share = 0.5 * (h[last] / h[1:] + h[last] / h[:-1])
-        couette += np.sum((face_tau * share)[~full & (x[1:] > x[last])])
+        h_rupture = np.interp(film.rupture * direction, x, h)
+        share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
+        couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
     return ShearForce(couette=float(width * sense * couette), rolling=float(width * sense * rolling))
 
 
-def _upstream(h_inlet, distance, radius) -> float:
-    """∫ dx/h [-] upstream of the first node, where the gap is parabolic."""
+def _upstream(h_inlet, distance, radius) -> tuple[float, float]:
+    """∫ dx/h [-] and ∫ dx/h^2 [1/m] upstream of the first node, where the gap is parabolic: h = floor + x^2/2R.
+
+    There Reynolds' equation gives (h/2) dp/dx = 6 eta0 U (1/h - h_flow/h^2).
+    """
     floor = h_inlet - distance**2 / (2 * radius)
-    if abs(floor) < 1e-12 * h_inlet:
-        return 2 * radius / distance
+    if abs(floor) < 1e-9 * h_inlet:
+        return 2 * radius / distance, 4 * radius**2 / (3 * distance**3)
     scale = math.sqrt(2 * radius * abs(floor))
-    if floor < 0:
-        return radius / scale * math.log((distance + scale) / (distance - scale))
-    return scale / floor * math.atan2(scale, distance)
+    if floor > 0:
+        first = scale / floor * math.atan2(scale, distance)
+    else:
+        first = radius / scale * math.log((distance + scale) / (distance - scale))
+    return first, (first - distance / h_inlet) / (2 * floor)
