@@ -1,0 +1,131 @@
+"""Pressure to deflection by FFT, each axis periodic or free."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import fft
+
+from .. import validate
+from ..errors import InputError
+from .free import love_coefficients
+from .semiperiodic import semiperiodic_coefficients
+
+KINDS = ("periodic", "free")
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Linear map from cell pressures [Pa] to deflections [m] of the cell centres, made by `half_space`.
+
+    ``symbol`` [m/Pa]: the eigenvalues, real and even along both axes, so only the non-negative
+    frequencies (mx//2 + 1, my//2 + 1) of the transform of size ``padded`` = (mx, my) are kept.
+    ``workers``: threads per transform (None: one).
+    """
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    e_prime: float
+    boundary: tuple[str, str]
+    padded: tuple[int, int]
+    symbol: np.ndarray
+    workers: int | None = None
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.
+
+        Raises `InputError` for another shape.
+        """
+        if np.shape(pressure) != self.shape:
+            raise InputError(f"pressure has shape {np.shape(pressure)}; allowed: {self.shape} as the operator")
+        return filtered(np.asarray(pressure, dtype=self.symbol.dtype), self.symbol, self.padded, self.workers)
+
+    def astype(self, dtype) -> HalfSpace:
+        """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""
+        return replace(self, symbol=self.symbol.astype(dtype))
+
+
+def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
+    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back."""
+    (nx, ny), (mx, my) = field.shape, padded
+    spectrum = fft.rfft(field, n=my, axis=1, workers=workers)
+    spectrum = fft.fft(spectrum, n=mx, axis=0, workers=workers, overwrite_x=True)
+    half = mx // 2 + 1
+    spectrum[:half] *= symbol
+    spectrum[half:] *= symbol[(mx - 1) // 2:0:-1]
+    spectrum = fft.ifft(spectrum, axis=0, workers=workers, overwrite_x=True)[:nx]
+    return fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)[:, :ny]
+
+
+def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), workers=None) -> HalfSpace:
+    """Deflection operator of a grid of ``shape`` (nx, ny) cells of ``spacing`` [m] (one number or (dx, dy)).
+
+    e_prime [Pa]: ``2/E' = sum (1 - nu^2)/E``. Each axis of ``boundary`` is "periodic" or "free":
+
+    - periodic both: ``û = 4 p̂/(E' |k|)``, mean of u zero;
+    - one free: Fourier along the periodic axis, cell integrals of K0 along the free one; u under a
+      line load is zero at the distance of the box length along the free axis;
+    - free both: Love's coefficients of uniform cells, u zero far away (S. Liu, Q. Wang, G. Liu, Wear
+      243 (2000) 101-111, doi:10.1016/S0043-1648(00)00427-0).
+
+    Free axes are padded with zeros: no images. Positive definite (semi-definite when periodic in
+    both, the mean being lost), and reciprocal: see `reciprocity_error`. Raises `InputError`.
+    """
+    shape = _grid_shape(shape)
+    spacing = validate.spacing("spacing", spacing)
+    e_prime = validate.positive("e_prime", e_prime, "Pa")
+    boundary = tuple(boundary) if not isinstance(boundary, str) else (boundary, boundary)
+    if len(boundary) != 2:
+        raise InputError(f"boundary = {boundary!r} must name two axes, each 'periodic' or 'free'")
+    for axis, kind in enumerate(boundary):
+        validate.choice(f"boundary[{axis}]", kind, KINDS)
+    if workers is not None:
+        workers = validate.integer("workers", workers, minimum=1)
+    padded = tuple(n if kind == "periodic" else max(2, fft.next_fast_len(2 * n - 1, real=axis == 1))
+                   for axis, (n, kind) in enumerate(zip(shape, boundary)))
+    symbol = _symbol(shape, spacing, e_prime, boundary, padded)
+    return HalfSpace(shape, spacing, e_prime, boundary, padded, symbol, workers)
+
+
+def _grid_shape(shape) -> tuple[int, int]:
+    pair = tuple(shape)
+    if len(pair) != 2:
+        raise InputError(f"shape = {pair} has {len(pair)} axes; allowed: (nx, ny)")
+    return tuple(validate.integer(f"shape[{axis}]", int(n) if isinstance(n, np.integer) else n, minimum=1)
+                 for axis, n in enumerate(pair))
+
+
+def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
+    if boundary == ("periodic", "periodic"):
+        return periodic_symbol(shape, spacing, e_prime)
+    if boundary == ("free", "periodic"):
+        return _even_transform(semiperiodic_coefficients(shape, spacing, e_prime), padded[0], axis=0)
+    if boundary == ("periodic", "free"):
+        flipped = semiperiodic_coefficients(shape[::-1], spacing[::-1], e_prime)
+        return np.ascontiguousarray(_even_transform(flipped, padded[1], axis=0).T)
+    partial = _even_transform(love_coefficients(shape, spacing, e_prime), padded[0], axis=0)
+    return _even_transform(partial, padded[1], axis=1)
+
+
+def wavenumber(shape, spacing) -> np.ndarray:
+    """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
+    kx = 2 * np.pi * fft.rfftfreq(shape[0], spacing[0])
+    ky = 2 * np.pi * fft.rfftfreq(shape[1], spacing[1])
+    return np.hypot(kx[:, None], ky)
+
+
+def periodic_symbol(shape, spacing, e_prime) -> np.ndarray:
+    """4/(E' |k|), and zero at k = 0."""
+    k = wavenumber(shape, spacing)
+    k[0, 0] = np.inf
+    return 4 / (e_prime * k)
+
+
+def _even_transform(coefficients: np.ndarray, length: int, axis: int) -> np.ndarray:
+    """Real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of ``length``."""
+    c = np.moveaxis(coefficients, axis, 0)
+    even = np.zeros((length, *c.shape[1:]))
+    even[:len(c)] = c
+    even[length - len(c) + 1:] = c[:0:-1]
+    return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))

@@ -1,0 +1,54 @@
+"""Free along one axis, periodic along the other: the kernel of a cylinder with a periodic roughness.
+
+Fourier series along the periodic axis y (exact for what the grid resolves, as in the fully periodic
+operator), exact cell integrals along the free axis x. Images of Love's cells would sum a slowly
+decaying tail and average the pressure over cells along y as well; the Bessel form needs no images,
+decays exponentially, and is exact along y.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .line import line_coefficients
+
+FAR = 42.0         # K0 beyond it is below 1e-19
+NEAR_CELLS = 4
+
+
+def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
+    """Deflection [m/Pa] (nx, ny//2 + 1): cells away along the free axis x, wavenumber index along y.
+
+    ``(4/(pi E')) ∫ K0(|k_y (x - x')|) dx'`` over a cell of width dx, and for k_y = 0 the line kernel
+    with u = 0 at the distance nx dx, the length of the box, from a line load. That gauge makes the
+    operator positive definite for pressures inside the box. spacing (dx, dy) [m], e_prime [Pa].
+    """
+    (nx, ny), (dx, dy) = shape, spacing
+    kernel = np.zeros((nx, ny // 2 + 1))
+    kernel[:, 0] = line_coefficients(nx, dx, e_prime, reference_length=nx * dx)
+    step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx       # k_y dx
+    for column, k in enumerate(step, start=1):
+        count = min(nx, int(FAR / k) + 2)
+        kernel[:count, column] = 4 / (np.pi * e_prime) * dx * bessel_cells(count, k)
+    return kernel
+
+
+def bessel_cells(count: int, k: float) -> np.ndarray:
+    """∫ K0(k|s|) ds over the unit cells around s = 0, 1, ..., count - 1; absolute error about 1e-15.
+
+    The cell around zero, with the logarithm, from ∫_0^z K0; the others by Gauss-Legendre points,
+    more of them close to the logarithm and where the exponential falls fast.
+    """
+    from scipy.special import iti0k0
+    cells = np.empty(count)
+    cells[0] = 2 / k * iti0k0(k / 2)[1]
+    near = count if k > 1 else min(count, NEAR_CELLS)
+    cells[1:near] = _gauss_cells(np.arange(1, near), k, points=24)
+    cells[near:] = _gauss_cells(np.arange(near, count), k, points=7)
+    return cells
+
+
+def _gauss_cells(centres: np.ndarray, k: float, points: int) -> np.ndarray:
+    from scipy.special import k0
+    node, weight = np.polynomial.legendre.leggauss(points)
+    return k0(k * (centres[:, None] + node / 2)) @ (weight / 2)
