@@ -1,0 +1,80 @@
+"""Shear force of the film against the closed forms of the rigid isoviscous cylinder."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.analytic import rigid
+from lubfric.lubricant import Lubricant
+from lubfric.shear import _upstream, shear_force
+
+R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
+OIL = Lubricant(ETA, 1e-13, "barus")
+
+
+def film(speed=U, tolerance=1e-4):
+    return lubfric.solve_ehl(load_per_width=100.0, radius=R, e_prime=231e12, entrainment_speed=speed, viscosity=ETA,
+                             pressure_viscosity_coefficient=1e-13, viscosity_law="barus", tolerance=tolerance)
+
+
+def force(result, slide_roll_ratio=2.0, contact_fraction=np.zeros_like, lubricant=OIL, **kw):
+    return shear_force(result, lubricant, entrainment_speed=result.entrainment_speed, radius=R, width=B,
+                       slide_roll_ratio=slide_roll_ratio, contact_fraction=contact_fraction, **kw)
+
+
+def test_rigid_isoviscous_friction():
+    result = film()
+    parts = force(result)
+    exact = rigid.couette_friction(result.min_film, radius=R, speed_difference=2 * U, viscosity=ETA)
+    assert parts.couette == pytest.approx(B * exact, rel=1e-3)
+    exact = rigid.rolling_friction(result.min_film, radius=R, entrainment_speed=U, viscosity=ETA)
+    assert parts.rolling == pytest.approx(B * exact, rel=1e-3)
+    assert parts.total == parts.couette + parts.rolling
+
+
+def test_the_side_the_shear_is_taken_on():
+    """On the slower surface the pressure gradient pulls the other way; without sliding only it remains."""
+    result = film()
+    fast, slow, rolling = (force(result, s) for s in (2.0, -2.0, 0.0))
+    assert slow.couette == pytest.approx(fast.couette) and slow.rolling == -fast.rolling
+    assert rolling.couette == 0 and rolling.rolling == fast.rolling
+    # whole force on the slower, inclined body: its shear and the horizontal part of the pressure, ∫ h dp = 2 rolling
+    assert slow.total + 2 * fast.rolling == pytest.approx(fast.total)
+
+
+def test_reversed_motion_gives_the_same_force():
+    a, b = force(film()), force(film(-U))
+    assert b.couette == pytest.approx(a.couette) and b.rolling == pytest.approx(a.rolling)
+
+
+def test_contact_spots_carry_no_shear():
+    result = film()
+    full, half = force(result), force(result, contact_fraction=lambda x: np.full_like(x, 0.5))
+    inlet_share = half.couette / full.couette - 0.5            # only the far inlet is left whole
+    assert 0 <= inlet_share < 0.15
+    one_sided = force(result, contact_fraction=lambda x: np.where(x < 0, 0.0, 1.0))
+    other = force(result, contact_fraction=lambda x: np.where(x < 0, 1.0, 0.0))
+    tail = force(result, contact_fraction=np.ones_like)
+    assert one_sided.couette + other.couette == pytest.approx(full.couette + tail.couette)
+
+
+def test_streamers_add_shear_behind_the_rupture():
+    result = film()
+    dry, wet = force(result), force(result, cavitated="striated")
+    assert 0.02 < wet.couette / dry.couette - 1 < 0.5 and wet.rolling == dry.rolling
+
+
+def test_shear_thinning_lowers_couette_only():
+    thin = Lubricant(ETA, 1e-13, "barus", eyring_stress=1e4)
+    a, b = force(film()), force(film(), lubricant=thin)
+    assert b.couette < 0.9 * a.couette and b.rolling == a.rolling
+
+
+@pytest.mark.parametrize("floor", [1e-6, -1e-5, 0.0, 1e-12])
+def test_upstream_integrals_against_quadrature(floor):
+    from scipy.integrate import quad
+    distance, radius = 1e-3, 2e-3
+    first, second = _upstream(floor + distance**2 / (2 * radius), distance, radius)
+    for power, value in ((1, first), (2, second)):
+        exact = quad(lambda t: (floor + 1 / t**2 / (2 * radius)) ** -power / t**2, 0, 1 / distance)[0]
+        assert value == pytest.approx(exact, rel=1e-6)
