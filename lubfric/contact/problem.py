@@ -1,0 +1,71 @@
+"""One contact problem, checked before any work."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..halfspace import HalfSpace, half_space
+
+
+@dataclass(frozen=True)
+class Problem:
+    """gap0 [m] (nx, ny), deflection operator, hardness [Pa] (inf: elastic), and when to stop."""
+
+    gap0: np.ndarray
+    operator: HalfSpace
+    hardness: float
+    tolerance: float
+    max_iterations: int
+
+
+def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
+    """Validated problem; builds the operator when none is given, else checks that it fits."""
+    gap0 = validate.array("gap0", gap0, "m", ndim=2)
+    hardness = math.inf if hardness is None else validate.positive("hardness", hardness, "Pa")
+    tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-14, maximum=0.1)
+    max_iterations = validate.integer("max_iterations", max_iterations, minimum=0)
+    if operator is None:
+        operator = half_space(gap0.shape, spacing, e_prime, boundary)
+    else:
+        _check_operator(operator, gap0.shape, validate.spacing("spacing", spacing),
+                        validate.positive("e_prime", e_prime, "Pa"), boundary)
+    return Problem(gap0, operator, hardness, tolerance, max_iterations)
+
+
+def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
+    asked = (shape, spacing, e_prime, (boundary, boundary) if isinstance(boundary, str) else tuple(boundary))
+    built = (operator.shape, operator.spacing, operator.e_prime, operator.boundary)
+    for name, a, b in zip(("shape", "spacing", "e_prime", "boundary"), asked, built):
+        if a != b:
+            raise InputError(f"operator was built for {name} = {b}, the contact has {a}; allowed: the same")
+
+
+def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
+    """Exactly one control, in a range that has a solution."""
+    if (mean_pressure is None) == (mean_gap is None):
+        given = "both are given" if mean_gap is not None else "neither is given"
+        raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; allowed: exactly one of them")
+    if mean_gap is not None:
+        validate.positive("mean_gap", mean_gap, "m")
+        return
+    validate.nonnegative("mean_pressure", mean_pressure, "Pa")
+    if mean_pressure > problem.hardness:
+        raise InputError(f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
+                         f"{problem.hardness:g} Pa, at which the whole area yields")
+
+
+def starting_pressure(problem: Problem, start) -> np.ndarray | None:
+    """Pressure field [Pa] of an earlier result (or the field itself), cut to the hardness."""
+    if start is None:
+        return None
+    pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)
+    if pressure.shape != problem.gap0.shape:
+        raise InputError(f"start has shape {pressure.shape}; allowed: {problem.gap0.shape}, the shape of gap0")
+    if pressure.min() < 0:
+        raise InputError(f"start has pressures down to {pressure.min():g} Pa; allowed: >= 0 Pa")
+    return np.minimum(pressure, problem.hardness)

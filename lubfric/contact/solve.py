@@ -1,0 +1,96 @@
+"""Dry contact of a rough half-space: `solve_contact`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..report import CONVERGED, ITERATION_LIMIT, Report
+from .control import gap_controlled
+from .pcg import load_controlled
+from .problem import check_control, make_problem, starting_pressure
+from .residual import contact_residuals, length_scale
+from .result import ContactResult
+
+
+def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, hardness=None,
+                  boundary=("periodic", "periodic"), tolerance=1e-6, start=None, operator=None,
+                  max_iterations=2000, raise_on_failure=True) -> ContactResult:
+    """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
+
+    ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``; with a hardness H also ``p <= H``,
+    and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:5 (2015), Eqs. 1-3,
+    doi:10.1007/s11249-015-0536-z).
+
+    Parameters
+    ----------
+    gap0 : (nx, ny) undeformed gap [m] of the pair, up to a constant; x is axis 0
+    spacing : cell size [m], one number or (dx, dy)
+    e_prime : E' [Pa], 2/E' = sum (1 - nu^2)/E
+    mean_pressure : load per area of the whole array [Pa], or
+    mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count zero
+    hardness : limit of the pressure [Pa]; None: elastic
+    boundary : "periodic" or "free" per axis, see `lubfric.halfspace.half_space`
+    tolerance : largest residual accepted (below)
+    start : an earlier `ContactResult`, or a pressure field [Pa], to start from
+    operator : a `HalfSpace` built before for this grid, to share between solves
+    max_iterations : after it the solve gives up
+    raise_on_failure : False returns the unconverged result with its report
+
+    Returns a `ContactResult`. Its ``report.residuals`` are computed from the returned pressure alone,
+    in double precision, after the iteration has ended; with L the length of
+    `lubfric.contact.residual.length_scale`:
+
+    - complementarity ``Σ p m / (L Σ p)``, misfit m = |gap|, or max(gap, 0) where p = H;
+    - penetration ``max(-gap)/L`` over cells with p < H;
+    - load ``|mean p - mean_pressure|/mean_pressure``, or volume ``|mean max(gap, 0) - mean_gap|/L``.
+
+    Converged when the largest is <= tolerance. Raises `InputError` before any work, and
+    `ConvergenceError` with report and result when the tolerance is not met.
+    """
+    problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    check_control(problem, mean_pressure, mean_gap)
+    start = starting_pressure(problem, start)
+    touching = problem.gap0.mean() - problem.gap0.min()
+    if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
+        return _separated(problem, touching if mean_gap is None else mean_gap)
+    if mean_gap is None:
+        found = load_controlled(problem, float(mean_pressure), start)
+    else:
+        found = gap_controlled(problem, float(mean_gap), start)
+    result = _finish(problem, found, mean_pressure, mean_gap)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def _separated(problem, mean_gap) -> ContactResult:
+    approach = float(problem.gap0.mean() - mean_gap)
+    zero = np.zeros_like(problem.gap0)
+    report = Report("none", CONVERGED, 0, 0.0, problem.tolerance, notes=("the bodies carry no load",),
+                    residuals={"complementarity": 0.0, "penetration": 0.0, "load": 0.0})
+    return ContactResult(zero, problem.gap0 - approach, zero.copy(), approach, 0.0, float(mean_gap), 0.0, 0.0, report)
+
+
+def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
+    pressure = found.pressure
+    displacement = problem.operator.apply(pressure)
+    gap = problem.gap0 + displacement
+    gap -= found.approach
+    scale = length_scale(pressure, displacement, problem.operator)
+    carried = float(pressure.mean())
+    residuals = contact_residuals(pressure, gap, scale, problem.hardness,
+                                  carried if mean_pressure is None else mean_pressure)
+    volume = float(np.maximum(gap, 0.0).mean())
+    if mean_gap is not None:
+        del residuals["load"]
+        residuals["volume"] = abs(volume - mean_gap) / scale
+    worst = max(residuals.values())
+    status = CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED
+                                                           else ITERATION_LIMIT)
+    report = Report(found.solver, status, found.iterations, worst if math.isfinite(worst) else math.inf,
+                    problem.tolerance, residuals, tuple(found.history), found.convolutions + 1, tuple(found.notes))
+    saturated = float(np.count_nonzero(pressure >= problem.hardness)) / pressure.size
+    return ContactResult(pressure, gap, displacement, float(found.approach), carried, volume,
+                         np.count_nonzero(pressure) / pressure.size, saturated, report)
