@@ -1,0 +1,153 @@
+"""Levelling, filling, closing and resampling of height maps: plain functions on arrays."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+
+EDGES = ("mirror", "window")
+BLEND = 0.1              # share of a map's length that the window blends
+MOST_MISSING = 0.5
+
+
+def pair(name, value) -> tuple[int, int]:
+    """Two whole numbers >= 1."""
+    if np.ndim(value) != 1 or len(value) != 2:
+        raise InputError(f"{name} = {value!r} must be a pair (nx, ny) of whole numbers >= 1")
+    return tuple(validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
+
+
+def mean_plane(heights, mask, spacing) -> tuple[np.ndarray, tuple[float, float]]:
+    """Least-squares plane (nx, ny) [m] of the measured points and its slopes along x and y [-].
+
+    An axis of one point has no slope. Raises `InputError` when the points do not fix a plane.
+    """
+    valid = np.ones(heights.shape, bool) if mask is None else mask
+    along = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
+    fitted = [axis for axis in range(2) if heights.shape[axis] > 1]
+    where = np.nonzero(valid)
+    matrix = np.stack([np.ones(where[0].size)] + [along[axis][where[axis]] for axis in fitted], axis=1)
+    solution, _, rank, _ = np.linalg.lstsq(matrix, heights[valid], rcond=None)
+    if rank < matrix.shape[1]:
+        raise InputError(f"{where[0].size} measured points lie on one line; allowed: points that fix a plane")
+    rise = [0.0, 0.0]
+    for axis, value in zip(fitted, solution[1:]):
+        rise[axis] = float(value)
+    plane = solution[0] + rise[0] * along[0][:, None] + rise[1] * along[1][None, :]
+    return plane, tuple(rise[a] / (heights.shape[a] * spacing[a]) for a in range(2))
+
+
+def harmonic_fill(heights, mask, spacing) -> np.ndarray:
+    """Solve Laplace's equation (five points, no flux through the rim) at the points without a mask."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.linalg import spsolve
+    missing = ~mask
+    if np.count_nonzero(missing) > MOST_MISSING * mask.size:
+        raise InputError(f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "
+                         f"allowed: [0, {MOST_MISSING}] (-)")
+    number = np.cumsum(missing.ravel()).reshape(mask.shape) - 1
+    count = int(np.count_nonzero(missing))
+    diagonal, right, rows, columns, entries = np.zeros(count), np.zeros(count), [], [], []
+    for axis in range(2):
+        weight = 1 / spacing[axis] ** 2
+        for here, there in _neighbours(axis):
+            from_missing = missing[here]
+            row, other = number[here][from_missing], missing[there][from_missing]
+            np.add.at(diagonal, row, weight)
+            np.add.at(right, row[~other], weight * heights[there][from_missing][~other])
+            rows.append(row[other])
+            columns.append(number[there][from_missing][other])
+            entries.append(np.full(np.count_nonzero(other), -weight))
+    rows, columns, entries = (np.concatenate(c) for c in (rows, columns, entries))
+    index = np.arange(count)
+    where = np.concatenate([index, rows]), np.concatenate([index, columns])
+    matrix = coo_matrix((np.concatenate([diagonal, entries]), where), shape=(count, count))
+    filled = heights.copy()
+    filled[missing] = spsolve(matrix.tocsc(), right)
+    return filled
+
+
+def _neighbours(axis):
+    """Slices of each point that has a neighbour before or after it along ``axis``, and of that neighbour."""
+    first, last = [slice(None)] * 2, [slice(None)] * 2
+    first[axis], last[axis] = slice(None, -1), slice(1, None)
+    return (tuple(first), tuple(last)), (tuple(last), tuple(first))
+
+
+def points_to_close(count: int, edge: str) -> int:
+    """How many points of an open map make ``count`` points of a closed one."""
+    return (count + 1) // 2 if edge == "mirror" else count + _blend_width(count)
+
+
+def _blend_width(count: int) -> int:
+    return max(1, round(BLEND * count / (1 - BLEND)))
+
+
+def close_axis(heights, axis, edge, count=None) -> np.ndarray:
+    """Make an open array periodic along ``axis``; ``count`` points come out (default: see below).
+
+    "mirror": n points followed by their mirror image, 2 n points (2 n - 1 when ``count`` is odd).
+    "window": the last w points are laid over the first w with weights cos and sin of an angle
+    rising from 0 to pi/2 (their squares add to 1), n - w points with w one tenth of n.
+    """
+    z = np.moveaxis(heights, axis, 0)
+    if edge == "mirror":
+        closed = np.concatenate([z, z[::-1]])
+        closed = closed if count is None else closed[:count]
+    else:
+        width = max(1, round(BLEND * len(z))) if count is None else len(z) - count
+        if 2 * width > len(z):
+            raise InputError(f"{len(z)} points along axis {axis} are too few to blend; allowed: at least 2")
+        angle = (0.5 * np.pi / width * np.arange(width))[:, None]
+        mean = z.mean()
+        closed = z[:-width] - mean
+        closed[:width] = np.sin(angle) * closed[:width] + np.cos(angle) * (z[-width:] - mean)
+        closed += mean
+    return np.moveaxis(closed, 0, axis)
+
+
+def close_mask(mask, axis, edge, count=None) -> np.ndarray:
+    """Measured points of a closed map: where blended, both heights were measured."""
+    m = np.moveaxis(mask, axis, 0)
+    if edge == "mirror":
+        closed = np.concatenate([m, m[::-1]])[:count]
+    else:
+        width = max(1, round(BLEND * len(m))) if count is None else len(m) - count
+        closed = m[:-width].copy()
+        closed[:width] &= m[-width:]
+    return np.moveaxis(closed, 0, axis)
+
+
+def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
+    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map."""
+    z = np.moveaxis(heights, axis, 0)
+    if periodic:
+        new = _fourier(z, count)
+    elif ratio >= 1:
+        edges = ratio * np.arange(count + 1)
+        total = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
+        whole = np.minimum(edges.astype(int), len(z) - 1)
+        integral = total[whole] + (edges - whole)[:, None] * z[whole]
+        new = np.diff(integral, axis=0) / ratio
+    else:
+        from scipy.interpolate import CubicSpline
+        pad = min(8, len(z))
+        padded = np.pad(z, ((pad, pad), (0, 0)), mode="symmetric")
+        new = CubicSpline(np.arange(len(padded)) - pad + 0.5, padded)(ratio * (np.arange(count) + 0.5))
+    return np.moveaxis(new, 0, axis)
+
+
+def _fourier(z, count) -> np.ndarray:
+    """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
+    from scipy import fft
+    n, keep = len(z), min(len(z), count) // 2 + 1
+    spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
+    spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
+    shift = 0.5 * (n / count - 1) / n                   # from old to new cell centres, in periods
+    spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
+    even = min(n, count)
+    if even % 2 == 0 and n != count:                   # the highest mode is shared by +k and -k
+        spectrum[even // 2] *= 2.0 if count < n else 0.5
+    return fft.irfft(spectrum, count, axis=0) * (count / n)

@@ -1,0 +1,125 @@
+"""Height, slope and correlation statistics of a `Surface`.
+
+Heights are taken about their mean, of the measured points only (names and signs of ISO 25178-2).
+Slopes and correlation lengths of rough surfaces depend on the spacing of the points.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+
+INVERSE_E = math.exp(-1)
+
+
+def sa(surface) -> float:
+    """Mean absolute height [m]."""
+    z = surface.measured
+    return float(np.abs(z - z.mean()).mean())
+
+
+def ssk(surface) -> float:
+    """Skewness [-]: negative for a plateau with valleys."""
+    return _moment(surface, 3)
+
+
+def sku(surface) -> float:
+    """Kurtosis [-]: 3 for a Gaussian distribution."""
+    return _moment(surface, 4)
+
+
+def _moment(surface, power) -> float:
+    z = surface.measured - surface.measured.mean()
+    rms = z.std()
+    if rms == 0:
+        raise InputError("sq of the surface = 0 m: no skewness or kurtosis; allowed: above 0 m")
+    return float(np.mean((z / rms) ** power))
+
+
+def rms_slope(surface, method: str = "difference") -> tuple[float, float, float]:
+    """(x, y, total) root mean square slopes [-].
+
+    "difference": between neighbouring measured points, one cell apart. "spectral": exact derivative
+    of the Fourier series, for maps periodic along both axes without unmeasured points.
+    """
+    validate.choice("method", method, ("difference", "spectral"))
+    slopes = [_difference_slope(surface, axis) if method == "difference" else _spectral_slope(surface, axis)
+              for axis in range(2)]
+    return slopes[0], slopes[1], math.hypot(*slopes)
+
+
+def _difference_slope(surface, axis) -> float:
+    z, n = surface.heights, surface.shape[axis]
+    mask = np.isfinite(z) if surface.mask is None else surface.mask
+    step = np.roll(z, -1, axis) - z
+    both = np.roll(mask, -1, axis) & mask
+    if not surface.periodic_axes[axis]:
+        keep = np.arange(n - 1)
+        step, both = np.take(step, keep, axis), np.take(both, keep, axis)
+    if not both.any():
+        return 0.0
+    return float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis])
+
+
+def _spectral_slope(surface, axis) -> float:
+    from scipy import fft
+    if not all(surface.periodic_axes) or surface.mask is not None:
+        raise InputError("method = 'spectral' needs a map that is periodic along both axes and fully "
+                         "measured; allowed here: 'difference'")
+    n = surface.shape[axis]
+    k = 2 * np.pi * fft.fftfreq(n, surface.spacing[axis])
+    power = np.abs(fft.fft(surface.heights, axis=axis)) ** 2
+    shape = [1, 1]
+    shape[axis] = n
+    return float(np.sqrt((power * k.reshape(shape) ** 2).mean() / n))
+
+
+def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """(lag [m], correlation [-]) along ``axis`` up to half the map, 1 at lag 0.
+
+    Circular along a periodic axis; otherwise every pair of measured points at that lag counts once
+    (unbiased by the number of pairs). By FFT.
+    """
+    from scipy import fft
+    validate.choice("axis", axis, (0, 1))
+    n = surface.shape[axis]
+    mask = np.ones(surface.shape, bool) if surface.mask is None else surface.mask
+    z = np.where(mask, surface.heights - surface.measured.mean(), 0.0)
+    length = n if surface.periodic_axes[axis] else fft.next_fast_len(2 * n, real=True)
+
+    def lagged_products(f):
+        power = np.abs(fft.rfft(f, length, axis=axis)) ** 2
+        return fft.irfft(power.sum(axis=1 - axis), length)[:n // 2 + 1]
+
+    products, pairs = lagged_products(z), np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
+    if products[0] <= 0:
+        raise InputError("sq of the surface = 0 m: no autocorrelation; allowed: above 0 m")
+    return np.arange(n // 2 + 1) * surface.spacing[axis], products / pairs / (products[0] / pairs[0])
+
+
+def correlation_length(surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
+    """First lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
+
+    decay_level: 1/e by default; 0.1 (Whitehouse and Archard; Hu and Tonder) or 0.2 (Sal, ISO 25178-2)
+    are in use too. Between two lags the logarithm of the correlation is linear. Raises `InputError`
+    when it stays above the level up to half the map.
+    """
+    lags, acf = autocorrelation(surface, axis)
+    return first_crossing(lags, acf, decay_level)
+
+
+def first_crossing(lags, acf, decay_level) -> float:
+    """First lag at which ``acf`` falls to ``decay_level``."""
+    level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
+    below = np.flatnonzero(acf <= level)
+    if below.size == 0:
+        raise InputError(f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m; "
+                         "allowed: a map at least twice as long as its correlation length")
+    i = below[0]
+    high, low = acf[i - 1], acf[i]
+    share = math.log(high / level) / math.log(high / low) if low > 0 else (high - level) / (high - low)
+    return float(lags[i - 1] + share * (lags[i] - lags[i - 1]))

@@ -1,0 +1,93 @@
+"""Height maps as text: a matrix of heights, or a list of points x y z."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+
+SEPARATORS = (";", "\t", ",")
+UNEVEN = 0.02            # of the spacing: the most a coordinate may be off its grid line
+
+
+def _lines(path) -> tuple[list[str], list[str]]:
+    """(comment lines, data lines) of a UTF-8 text file."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise InputError(f"path = {str(path)!r} is not text (UTF-8)") from None
+    except OSError as problem:
+        raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
+    text = [line.strip() for line in lines if line.strip()]
+    return [line for line in text if line[0] == "#"], [line for line in text if line[0] != "#"]
+
+
+def _numbers(path, lines) -> np.ndarray:
+    if not lines:
+        raise InputError(f"path = {str(path)!r} holds no numbers")
+    separator = next((s for s in SEPARATORS if s in lines[0]), None)
+    if separator == ";" and "," in lines[0]:
+        raise InputError(f"path = {str(path)!r} has both ';' and ',' on a line; allowed: one of them, "
+                         "with a decimal point")
+    try:
+        return np.loadtxt(lines, delimiter=separator, ndmin=2, comments=None)
+    except ValueError as problem:
+        raise InputError(f"path = {str(path)!r} is not a table of numbers ({problem}); allowed: lines of "
+                         "equal length, 'nan' where unmeasured") from None
+
+
+def read_matrix(path) -> tuple[np.ndarray, tuple[float, float] | None]:
+    """heights[ix, iy] with one x per line, and the spacing [m] of a ``# spacing = dx dy`` line."""
+    comments, lines = _lines(path)
+    spacing = None
+    for line in comments:
+        found = re.fullmatch(r"#\s*spacing\s*[=:]\s*(\S+)(?:[\s,;]+(\S+))?(?:\s+m)?\s*", line)
+        if found:
+            words = [w for w in found.groups() if w not in (None, "m")]
+            try:
+                pair = [float(w) for w in words]
+            except ValueError:
+                raise InputError(f"spacing in {path.name}: {line!r}; allowed: '# spacing = dx dy'") from None
+            spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
+    return _numbers(path, lines), spacing
+
+
+def read_points(path) -> tuple[np.ndarray, tuple[float, float]]:
+    """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file."""
+    table = _numbers(path, _lines(path)[1])
+    if table.shape[1] != 3:
+        raise InputError(f"path = {str(path)!r} has {table.shape[1]} columns; allowed: exactly 3 (x y z)")
+    if not np.isfinite(table[:, :2]).all():
+        raise InputError(f"path = {str(path)!r}: x or y is NaN or infinite; allowed: finite coordinates")
+    (i, nx, dx), (j, ny, dy) = (_grid_lines(name, table[:, column]) for column, name in enumerate("xy"))
+    if nx * ny > 4 * len(table):
+        raise InputError(f"path = {str(path)!r}: {len(table)} points on a grid of {nx} x {ny}; allowed: "
+                         "a uniform grid with most of its points")
+    heights, count = np.full((nx, ny), np.nan), np.zeros((nx, ny), int)
+    np.add.at(count, (i, j), 1)
+    if count.max() > 1:
+        raise InputError(f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more "
+                         "than once; allowed: each once")
+    heights[i, j] = table[:, 2]
+    return heights, (dx, dy)
+
+
+def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
+    """(index of each point, number of lines, step) of one coordinate; uniform or an error."""
+    ordered = np.sort(coordinate)
+    gaps = np.diff(ordered)
+    if gaps.size == 0 or gaps.max() <= 0:
+        raise InputError(f"{name} has one value only ({coordinate[0]:g}); allowed: a grid of at least "
+                         "2 x 2 points")
+    count = 1 + int(np.count_nonzero(gaps > 0.1 * gaps.max()))
+    step = (ordered[-1] - ordered[0]) / (count - 1)
+    position = (coordinate - ordered[0]) / step
+    index = np.rint(position).astype(int)
+    off = np.abs(position - index).max()
+    if off > UNEVEN:
+        raise InputError(f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid "
+                         f"line; allowed: at most {UNEVEN:g} of the step {step:g}")
+    return index, count, float(step)

@@ -1,0 +1,192 @@
+"""X3P height maps: a zip archive of main.xml and raw little-endian binary (ISO 25178-72, ISO 5436-2).
+
+Only the standard library is used, nothing is unpacked to disk, and nothing is believed: sizes are checked
+before anything is read, checksums after, and XML with a document type is refused. Member layout and
+checksums as in the openGPS reference (https://sourceforge.net/p/open-gps/mwiki/X3p/).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import zipfile
+import zlib
+from xml.etree import ElementTree
+from xml.parsers import expat
+
+import numpy as np
+
+from ..errors import InputError
+from .height_map import Surface
+
+MOST_XML = 4 * 2**20                      # bytes of main.xml
+MOST_POINTS = 2**27                       # 1 GiB of doubles
+TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
+CORRUPT = (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError)
+
+
+def read_x3p(path) -> Surface:
+    """The height map of an X3P file as it stands: unmeasured points NaN, neither levelled nor filled.
+
+    The file counts x fastest; here x is axis 0. Integer heights are signed (openGPS reference) and times
+    their axis increment; floating-point heights are metres. Raises `InputError` for anything else than
+    one complete, consistent surface.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return _read(archive, path)
+    except InputError:
+        raise
+    except CORRUPT as problem:
+        raise InputError(f"path = {str(path)!r} is not a complete X3P (zip) file ({problem})") from None
+
+
+def _read(archive, path) -> Surface:
+    document = _member(archive, "main.xml", MOST_XML)
+    root = _parse(document)
+    notes = _check_document(archive, root, document)
+    if _text(root, "Record1/FeatureType") != "SUR":
+        raise _bad("Record1/FeatureType", _text(root, "Record1/FeatureType"), "SUR (a surface)")
+    shape = tuple(_count(root, f"Record3/MatrixDimension/Size{a}") for a in "XYZ")
+    if shape[2] != 1:
+        raise _bad("SizeZ", shape[2], "1 (one layer)")
+    if shape[0] * shape[1] > MOST_POINTS:
+        raise _bad("SizeX x SizeY", f"{shape[0]} x {shape[1]}", f"at most {MOST_POINTS} points")
+    spacing = tuple(_increment(root, axis) for axis in ("CX", "CY"))
+    raw = _linked(archive, root, "PointDataLink", "MD5ChecksumPointData",
+                  shape[0] * shape[1] * np.dtype(_height_type(root)).itemsize, notes)
+    heights = _heights(root, raw).reshape(shape[1], shape[0]).T
+    mask = ~np.isnan(heights)
+    if _text(root, "Record3/DataLink/ValidPointsLink", required=False):
+        count = shape[0] * shape[1]
+        bits = _linked(archive, root, "ValidPointsLink", "MD5ChecksumValidPoints", (count + 7) // 8, notes)
+        valid = np.unpackbits(np.frombuffer(bits, np.uint8), bitorder="little", count=count)
+        mask &= valid.reshape(shape[1], shape[0]).T.astype(bool)
+    if not mask.any():
+        raise _bad("measured points", 0, "at least 1")
+    return Surface(np.where(mask, heights, np.nan), spacing, mask=mask, source=str(path), notes=tuple(notes))
+
+
+def _member(archive, name, most) -> bytes:
+    """The bytes of a member whose size is at most ``most``, checked before it is unpacked."""
+    found = [info for info in archive.infolist() if info.filename == name]
+    if len(found) != 1:
+        raise _bad(f"members named {name!r}", len(found), "exactly 1")
+    if found[0].file_size > most:
+        raise _bad(f"size of {name!r}", f"{found[0].file_size} bytes", f"at most {most} bytes")
+    with archive.open(found[0]) as stream:
+        data = stream.read(most + 1)
+    if len(data) != found[0].file_size:
+        raise _bad(f"size of {name!r}", f"{len(data)} bytes", f"{found[0].file_size} bytes as declared")
+    return data
+
+
+def _parse(document) -> ElementTree.Element:
+    """The tree of main.xml; entities cannot be declared because a document type is refused."""
+    def refuse(*_):
+        raise _bad("main.xml", "a document type (DOCTYPE)", "none")
+
+    guard = expat.ParserCreate()
+    guard.StartDoctypeDeclHandler = refuse
+    try:
+        guard.Parse(document, True)
+        root = ElementTree.fromstring(document)
+    except (expat.ExpatError, ElementTree.ParseError, LookupError) as problem:
+        raise _bad("main.xml", f"XML that cannot be parsed ({problem})", "well-formed XML") from None
+    for element in root.iter():
+        element.tag = element.tag.rpartition("}")[2]
+    return root
+
+
+def _check_document(archive, root, document) -> list[str]:
+    """Compare main.xml with its checksum file; a missing one is noted."""
+    name = _text(root, "Record4/ChecksumFile", required=False)
+    if not name or name not in archive.namelist():
+        return ["X3P: main.xml has no checksum"]
+    words = _member(archive, _safe(name), 4096).decode("ascii", "replace").split()
+    if not words or words[0].lower() != _md5(document):
+        raise _bad("MD5 of main.xml", _md5(document), f"{words[0] if words else 'a checksum'} as in {name}")
+    return []
+
+
+def _linked(archive, root, link, checksum, size, notes) -> bytes:
+    name = _safe(_text(root, f"Record3/DataLink/{link}"))
+    data = _member(archive, name, size)
+    if len(data) != size:
+        raise _bad(f"size of {name!r}", f"{len(data)} bytes", f"{size} bytes for its matrix")
+    expected = _text(root, f"Record3/DataLink/{checksum}", required=False)
+    if not expected:
+        notes.append(f"X3P: {name} has no checksum")
+    elif expected.lower() != _md5(data):
+        raise _bad(f"MD5 of {name!r}", _md5(data), f"{expected.lower()} as in main.xml")
+    return data
+
+
+def _md5(data) -> str:
+    return hashlib.md5(data, usedforsecurity=False).hexdigest()
+
+
+def _safe(name) -> str:
+    """A relative path inside the archive."""
+    if name.startswith("/") or "\\" in name or ":" in name or ".." in name.split("/"):
+        raise _bad("member path", repr(name), "a relative path inside the archive")
+    return name
+
+
+def _height_type(root) -> str:
+    axis, kind = _text(root, "Record1/Axes/CZ/AxisType"), _text(root, "Record1/Axes/CZ/DataType")
+    if axis != "A" or kind not in TYPES:
+        raise _bad("CZ AxisType, DataType", f"{axis}, {kind}", "A with I, L, F or D")
+    return TYPES[kind]
+
+
+def _heights(root, raw) -> np.ndarray:
+    kind = _height_type(root)
+    values = np.frombuffer(raw, kind).astype(float)
+    offset = _number(root, "Record1/Axes/CZ/Offset", default=0.0)
+    if kind in ("<i2", "<i4"):
+        return values * _increment(root, "CZ", axis_type="A") + offset
+    step = _number(root, "Record1/Axes/CZ/Increment", default=1.0)
+    if step != 1.0:
+        raise _bad("CZ Increment of floating-point heights", step, "1 or absent (readers disagree on it)")
+    return values + offset
+
+
+def _increment(root, axis, axis_type="I") -> float:
+    found = _text(root, f"Record1/Axes/{axis}/AxisType")
+    if found != axis_type:
+        raise _bad(f"{axis} AxisType", found, f"{axis_type} (uniform spacing)")
+    step = _number(root, f"Record1/Axes/{axis}/Increment")
+    if not step > 0:
+        raise _bad(f"{axis} Increment", f"{step:g} m", "(0, inf) m")
+    return step
+
+
+def _number(root, where, default=None) -> float:
+    text = _text(root, where, required=default is None)
+    try:
+        value = default if text == "" else float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise _bad(where, text, "a finite number")
+    return value
+
+
+def _count(root, where) -> int:
+    text = _text(root, where)
+    if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
+        raise _bad(where, text[:40], "a whole number >= 1")
+    return int(text)
+
+
+def _text(root, where, required=True) -> str:
+    element = root.find(where)
+    text = "" if element is None else (element.text or "").strip()
+    if required and not text:
+        raise _bad(where, "missing", "present in main.xml")
+    return text
+
+
+def _bad(quantity, value, allowed) -> InputError:
+    return InputError(f"X3P {quantity} = {value}; allowed: {allowed}")
