@@ -15,7 +15,9 @@ import numpy as np
 
 from .kernel import hat_kernel
 
-GROWTH = 0.35        # cell growth per cell far from the refined points, times the density
+GROWTH = 0.35        # relative growth of cells away from the refined points
+FINE = 0.35          # smallest cells, relative to the inlet length
+CORE = 2.0           # share of cells spread evenly over the contact
 FAR_INLET = 20.0     # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
 
 
@@ -44,18 +46,21 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     a length ~ film^(2/3) half_width^(-1/3), and grow in proportion to the distance from them.
     """
     l = math.sqrt(2.0 * film)
-    s = 0.35 * l * (l / (l + half_width)) ** (1 / 3)
+    s = FINE * l * (l / (l + half_width)) ** (1 / 3)
     width = 2.0 * half_width + 0.7 * l
     far = distance or 3.0 * half_width + FAR_INLET * l + 0.7 * l
 
     def index(x):
-        return (np.arcsinh(GROWTH * (x + width) / s) + np.arcsinh(GROWTH * x / s)) / GROWTH + 2 * np.arcsinh(x / width)
+        return ((np.arcsinh(GROWTH * (x + width) / s) + np.arcsinh(GROWTH * x / s)) / GROWTH
+                + CORE * np.arcsinh(x / width))
 
-    table = np.concatenate([-np.geomspace(far, 1e-4 * s, 1500), [0.0]])
+    away = np.geomspace(0.05 * s, 2.0 * max(far, width), 300)
+    table = np.sort(np.concatenate([-width - away, [-width], away - width, -away, [0.0]]))
     t = np.linspace(index(-far), index(0.0), n + 1)
     x = np.interp(t, index(table), table)
     for _ in range(3):
-        density = 1 / np.hypot(s, GROWTH * (x + width)) + 1 / np.hypot(s, GROWTH * x) + 2 / np.hypot(width, x)
+        density = (1 / np.hypot(s, GROWTH * (x + width)) + 1 / np.hypot(s, GROWTH * x)
+                   + CORE / np.hypot(width, x))
         x -= (index(x) - t) / density
     x[0], x[-1] = -far, 0.0
     return x

@@ -9,7 +9,7 @@ import numpy as np
 from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import Problem
-from .reynolds import Terms, jacobian, residual
+from .reynolds import Terms, linearise, residual
 
 VISCOSITY_STEP = 3.0     # largest change of ln(eta) in one step
 FILM_STEP = 0.7          # largest share of the film (or flux) that one step may remove
@@ -17,7 +17,7 @@ FILM_STEP = 0.7          # largest share of the film (or flux) that one step may
 
 @dataclass(frozen=True)
 class Solution:
-    """Unknowns ``z`` on ``grid`` with their `Terms`; ``error``: largest residual."""
+    """Unknowns ``z`` on ``grid`` with their `Terms`; ``error``: largest residual or film defect."""
 
     grid: Grid
     z: np.ndarray
@@ -27,33 +27,36 @@ class Solution:
     history: tuple[float, ...]
 
 
-def newton(grid: Grid, problem: Problem, z: np.ndarray, tolerance: float, max_steps: int) -> Solution:
-    """Solve the discrete equations to max|residual| <= ``tolerance``."""
+def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float,
+           max_steps: int) -> Solution:
+    """Solve the discrete equations to max(|residual|, |film defect|/H) <= ``tolerance`` from unknowns z and film H > 0."""
     from scipy.linalg.lapack import dgesv
 
     history = []
+    status = ITERATION_LIMIT
     for step in range(max_steps + 1):
-        R, terms = residual(grid, problem, z)
-        error = float(np.max(np.abs(R)))
+        R, terms = residual(grid, problem, z, H)
+        error = max(float(np.max(np.abs(R))), float(np.max(np.abs(terms.defect) / H)))
         history.append(error)
-        if not np.isfinite(error):
-            return Solution(grid, z, terms, DIVERGED, error, tuple(history))
         if error <= tolerance:
-            return Solution(grid, z, terms, CONVERGED, error, tuple(history))
-        if step == max_steps:
+            status = CONVERGED
+        if status == CONVERGED or not np.isfinite(error) or step == max_steps:
             break
-        _, _, delta, info = dgesv(jacobian(grid, problem, terms), -R, overwrite_a=1, overwrite_b=1)
-        if info != 0 or not np.all(np.isfinite(delta)):
-            return Solution(grid, z, terms, DIVERGED, error, tuple(history))
-        z = z + _step_length(grid, terms, delta) * delta
-    return Solution(grid, z, terms, ITERATION_LIMIT, error, tuple(history))
+        J, shift = linearise(grid, problem, terms)
+        _, _, delta, info = dgesv(J, -(R + shift), overwrite_a=1, overwrite_b=1)
+        if info != 0:
+            break
+        dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.X * delta[-1])
+        length = _step_length(grid.n, terms, delta, dH)
+        z = z + length * delta
+        H = H + length * dH
+    if status != CONVERGED and step < max_steps:
+        status = DIVERGED
+    return Solution(grid, z, terms, status, error, tuple(history))
 
 
-def _step_length(grid: Grid, terms: Terms, delta: np.ndarray) -> float:
-    n = grid.n
-    dP = delta[:n]
-    change = np.max(np.abs(dP * terms.slope[:n]))
+def _step_length(n: int, terms: Terms, delta: np.ndarray, dH: np.ndarray) -> float:
+    change = np.max(np.abs(delta[:n] * terms.slope[:n]))
     length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
-    dH = grid.kernel[:, :n] @ dP + (delta[n] + terms.X * delta[n + 2])
     shrink = max(float(np.max(-dH / terms.H)), -delta[n + 1] / terms.q)
     return length if shrink * length <= FILM_STEP else FILM_STEP / shrink

@@ -1,7 +1,9 @@
 """Discrete equations of the line contact: residual and Jacobian.
 
 Unknowns ``z`` = pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture
-point e (X = e + xi). Equations, each made dimensionless by its own scale:
+point e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P, whose ``defect`` one
+undamped Newton step removes: a film interpolated from a coarser grid is a far better start than the film
+of an interpolated pressure. Equations, each made dimensionless by its own scale:
 
 * n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow with the
   logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with the film interpolated third-order upwind,
@@ -29,6 +31,7 @@ class Terms:
     P: np.ndarray
     H: np.ndarray
     X: np.ndarray
+    defect: np.ndarray       # H00 + X²/2 + K P - H
     q: float
     slope: np.ndarray        # d ln(eta)/dP at the nodes
     density: tuple           # rho and d rho/dP at the nodes
@@ -51,13 +54,18 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
     return left * mean, -left * (mean + by_d), left * by_d
 
 
-def residual(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, Terms]:
-    """Residual (n + 3) and the `Terms` that the Jacobian needs."""
+def elastic_film(grid: Grid, z: np.ndarray) -> np.ndarray:
+    """H00 + X²/2 + K P at the nodes."""
+    X = grid.xi + z[-1]
+    return grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X)
+
+
+def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:
+    """Residual (n + 3) at the film H and the `Terms` that the Jacobian needs."""
     n = grid.n
     P = np.append(z[:n], 0.0)
-    H00, q, e = z[n:]
+    q, e = z[n + 1:]
     X = grid.xi + e
-    H = grid.kernel @ P + (H00 + 0.5 * X * X)
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     face_rho = 0.5 * (rho[1:] + rho[:-1])
@@ -75,19 +83,24 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, T
         R[n] = P[0] * a / problem.M
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
-    return R, Terms(P, H, X, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
+    return R, Terms(P, H, X, elastic_film(grid, z) - H, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
 
 
-def jacobian(grid: Grid, problem: Problem, terms: Terms) -> np.ndarray:
-    """Jacobian (n + 3, n + 3), Fortran order so that LAPACK factorises it in place."""
+def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
+    """Jacobian (n + 3, n + 3) with the film eliminated, in Fortran order so that LAPACK factorises it in place, and what
+    removing the film's defect adds to the residual (n + 3)."""
     n = grid.n
     J = np.empty((n + 3, n + 3), order="F")
-    _face_rows(grid, terms, J)
-    _closing_rows(grid, problem, terms, J)
-    return J
+    shift = np.zeros(n + 3)
+    by_H = _face_rows(grid, terms, J)
+    shift[:n] = by_H * (grid.face_film @ terms.defect)
+    by_H = _closing_rows(grid, problem, terms, J)
+    shift[n] = by_H[0] * terms.defect[0]
+    shift[n + 2] = by_H[1] * terms.defect[-1]
+    return J, shift
 
 
-def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> None:
+def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
     n, q = grid.n, t.q
     mean, by_left, by_right = t.fluidity
     cube = t.face_density * t.face_H**3
@@ -104,12 +117,14 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> None:
     J[:n, n] = by_H
     J[:n, n + 1] = t.flux / q**2
     J[:n, n + 2] = by_H * (grid.face_film @ t.X)
+    return by_H
 
 
-def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> None:
+def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tuple[float, float]:
     n, q, M = grid.n, t.q, problem.M
     a = -t.X[0]
     J[n] = 0.0
+    by_h = 0.0
     J[n + 1, :n] = grid.weights[:n] / M
     J[n + 1, n:] = 0.0
     if problem.inlet_length is None:
@@ -128,3 +143,4 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> None
     rho = t.density[0][-1]
     J[n + 2, :n] = grid.kernel[-1, :n] * rho / q
     J[n + 2, n:] = rho / q, -rho * t.H[-1] / q**2, rho * t.X[-1] / q
+    return by_h, rho / q

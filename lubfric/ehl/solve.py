@@ -15,7 +15,7 @@ from .kernel import hat_kernel
 from .newton import Solution, newton
 from .problem import Problem, expected_film
 from .result import EHLResult, cubic, smallest
-from .start import State, cold_start, expected_rupture, refine, warm_start
+from .start import State, cold_start, expected_rupture, refined_start, warm_start
 
 COARSEST, FINEST = 48, 3072
 ORDER = 2
@@ -46,8 +46,8 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     max_iterations : Newton steps per grid
 
     The cells are doubled until ``discretisation`` <= tolerance. report.residuals, all relative:
-    discretisation : largest change of min_film, flow_film and of the film where it is below 1.5 flow_film against the
-        grid of half the cells, divided by 3 (second order)
+    discretisation : largest change of min_film, central_film and flow_film against the grid of half the cells,
+        or a quarter of the change before that, divided by 3 (second order)
     domain : estimated effect of the finite inlet on flow_film
     mass : largest |flux through a face/q - 1|; load : |∫ p dx/load - 1|; both <= 1e-3 tolerance
     complementarity : largest of -p/p_max before rupture and of 1 - h/h_rupture behind it
@@ -91,18 +91,18 @@ def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State | N
         needed = state.pressure.size * math.sqrt(state.grid_error / tolerance)
         while 2 * n < needed and 2 * n < FINEST:
             n *= 2
-    rupture = expected_rupture(problem) if state is None else state.rupture
+    rupture = expected_rupture(problem.M, problem.L)
     levels: list[Solution] = []
     while True:
         grid = make_grid(_positions(problem, n, rupture))
         if levels:
-            z = np.concatenate([refine(levels[-1].z[:-3]), levels[-1].z[-3:]])
+            z, H = refined_start(levels[-1].z, levels[-1].terms.H)
         else:
-            z = cold_start(grid, problem) if state is None else warm_start(grid, problem, state)
-        levels.append(newton(grid, problem, z, 1e-3 * tolerance, max_steps))
+            z, H = cold_start(grid, problem) if state is None else warm_start(grid, problem, state)
+        levels.append(newton(grid, problem, z, H, 1e-3 * tolerance, max_steps))
         if levels[-1].status != CONVERGED or n >= FINEST:
             return levels
-        if len(levels) > 1 and grid_error(levels[-2], levels[-1]) <= tolerance:
+        if len(levels) > 1 and grid_error(levels) <= tolerance:
             return levels
         rupture = levels[-1].z[-1]
         n *= 2
@@ -115,14 +115,19 @@ def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     return node_positions(problem.half_width, expected_film(problem.M, problem.L), n, distance)
 
 
-def grid_error(coarse: Solution, fine: Solution) -> float:
-    """Relative discretisation error of ``fine``, from the solution on half its cells."""
-    a, b = coarse.terms, fine.terms
-    film = b.H[::2]
-    near = film < 1.5 * b.q
-    change = max(float(np.max(np.abs(a.H[near] / film[near] - 1.0))), abs(a.q / b.q - 1.0),
-                 abs(smallest(a.X, a.H) / smallest(b.X, b.H) - 1.0))
-    return change / (2**ORDER - 1)
+def grid_error(levels: list[Solution]) -> float:
+    """Relative discretisation error of the last solution: second-order extrapolation of the changes of smallest, central
+    and flow film between the last two grids, or, if larger, a quarter of the change before that."""
+    films = np.array([[smallest(s.terms.X, s.terms.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    if len(films) < 2:
+        return math.inf
+    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
+    return float(max(changes[-1], changes[0] / 2 ** (ORDER * (changes.size - 1))) / (2**ORDER - 1))
+
+
+def _at_centre(solution: Solution) -> float:
+    t = solution.terms
+    return float(cubic(t.X, t.H - 0.5 * t.X**2, np.zeros(1))[0])
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
@@ -175,7 +180,7 @@ def _result(problem: Problem, levels: list[Solution], tolerance: float, sign: fl
     n = last.grid.n
     X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
     P = np.concatenate([t.P, np.zeros_like(X_out)])
-    error = grid_error(*levels[-2:]) if len(levels) > 1 else math.inf
+    error = grid_error(levels)
     tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet_length is None else 0.0
     residuals = {"discretisation": error, "domain": domain_error(problem, last),
                  "mass": float(np.max(np.abs(t.flux / t.q - 1.0))),
@@ -188,7 +193,7 @@ def _result(problem: Problem, levels: list[Solution], tolerance: float, sign: fl
     order = slice(None) if sign > 0 else slice(None, None, -1)
     lubricant = problem.lubricant
     pressure = (P * problem.pressure_unit)[order]
-    state = State(M, problem.L, last.z[:n], smallest(t.X, t.H), float(t.q), float(last.z[-1]), error)
+    state = State(M, problem.L, t.P[:n], t.H, float(t.q), float(last.z[-1]), error)
     return EHLResult(
         x=(sign * X * length)[order], pressure=pressure, film_thickness=(H * film)[order],
         viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],

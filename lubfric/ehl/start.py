@@ -8,78 +8,74 @@ import numpy as np
 
 from .grid import Grid
 from .problem import Problem, expected_film
+from .reynolds import elastic_film
 
 
 @dataclass(frozen=True)
 class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
-    pressure: at the n nodes before rupture; film: the smallest; flux, rupture: q and e;
+    pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux, rupture: q and e;
     grid_error: estimated relative discretisation error on these n cells.
     """
 
     M: float
     L: float
     pressure: np.ndarray
-    film: float
+    film: np.ndarray
     flux: float
     rupture: float
     grid_error: float
 
 
-def expected_rupture(problem: Problem) -> float:
+def expected_rupture(M: float, L: float) -> float:
     """Rupture point of the guess, in units of x."""
-    film = expected_film(problem.M, problem.L)
-    b = problem.half_width
-    return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
-
-
-def cold_start(grid: Grid, problem: Problem) -> np.ndarray:
-    """A semi-ellipse of the right load that ends at the rupture point, over the expected film."""
-    film = expected_film(problem.M, problem.L)
-    e = expected_rupture(problem)
-    width = np.hypot(problem.half_width, np.sqrt(2.0 * film))
-    X = grid.xi + e
-    P = np.sqrt(np.maximum(0.0, 1.0 - ((X - e + width) / width) ** 2))
-    P[-1] = 0.0
-    P *= problem.M / (grid.weights @ P)
-    gap = 0.5 * X * X + grid.kernel @ P
-    middle = np.abs(X) < 0.5 * width
-    return np.concatenate([P[:-1], [film - gap[middle].mean(), film, e]])
-
-
-def refine(pressure: np.ndarray) -> np.ndarray:
-    """Pressures (n, rupture node left out) on a grid of twice the cells: cubic midpoints, even in the index."""
-    P = np.append(pressure, 0.0)
-    padded = np.concatenate([[2 * P[0] - P[1]], P, [P[-2]]])
-    middle = (9.0 * (P[:-1] + P[1:]) - padded[:-3] - padded[3:]) / 16.0
-    fine = np.empty(2 * pressure.size)
-    fine[::2] = pressure
-    fine[1::2] = np.where(middle > 0.0, middle, 0.5 * (P[:-1] + P[1:]))
-    return fine
-
-
-def coarsen(pressure: np.ndarray) -> np.ndarray:
-    """Every second node."""
-    return pressure[::2]
-
-
-def warm_start(grid: Grid, problem: Problem, state: State) -> np.ndarray:
-    """The pressures of ``state`` node by node, scaled to the load, over a film scaled by Moes' formula."""
-    P = state.pressure
-    while P.size > grid.n:
-        P = coarsen(P)
-    while P.size < grid.n:
-        P = refine(P)
-    ratio = expected_film(problem.M, problem.L) / expected_film(state.M, state.L)
-    shift = expected_rupture(problem) / _rupture_of(state.M, state.L)
-    P = np.append(P, 0.0) * (problem.M / (grid.weights[:-1] @ P))
-    e = state.rupture * shift
-    X = grid.xi + e
-    gap = 0.5 * X * X + grid.kernel @ P
-    return np.concatenate([P[:-1], [state.film * ratio - gap.min(), state.flux * ratio, e]])
-
-
-def _rupture_of(M: float, L: float) -> float:
     film, b = expected_film(M, L), np.sqrt(8.0 * M / np.pi)
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
+
+
+def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+    """A semi-ellipse of the right load that ends at the rupture point, over the expected film: (z, H)."""
+    film = expected_film(problem.M, problem.L)
+    e = expected_rupture(problem.M, problem.L)
+    width = np.hypot(problem.half_width, np.sqrt(2.0 * film))
+    P = np.sqrt(np.maximum(0.0, 1.0 - (grid.xi / width + 1.0) ** 2))
+    P[-1] = 0.0
+    P *= problem.M / (grid.weights @ P)
+    z = np.append(P[:-1], [0.0, film, e])
+    gap = elastic_film(grid, z)
+    z[-3] = film - gap.min()
+    return z, gap + z[-3]
+
+
+def refined_start(z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(z, H) on a grid of twice the cells."""
+    P = refine(np.append(z[:-3], 0.0))
+    return np.append(P[:-1], z[-3:]), refine(H)
+
+
+def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """The pressure and film of ``state`` node by node, scaled to the load and by Moes' formula: (z, H)."""
+    P, H = np.append(state.pressure, 0.0), state.film
+    while H.size > grid.n + 1:
+        P, H = P[::2], H[::2]
+    while H.size < grid.n + 1:
+        P, H = refine(P), refine(H)
+    ratio = expected_film(problem.M, problem.L) / expected_film(state.M, state.L)
+    e = state.rupture * (expected_rupture(problem.M, problem.L) / expected_rupture(state.M, state.L))
+    P = P * (problem.M / (grid.weights @ P))
+    z = np.append(P[:-1], [0.0, state.flux * ratio, e])
+    gap = elastic_film(grid, z)
+    z[-3] = state.film.min() * ratio - gap.min()
+    return z, H * ratio
+
+
+def refine(values: np.ndarray) -> np.ndarray:
+    """Nonnegative nodal values with midpoints between them, cubic in the index where that is positive."""
+    mean = 0.5 * (values[:-1] + values[1:])
+    bend = np.diff(values, 2)
+    middle = mean - 0.0625 * (np.append(bend[:1], bend) + np.append(bend, bend[-1:]))
+    fine = np.empty(2 * values.size - 1)
+    fine[::2] = values
+    fine[1::2] = np.where(middle > 0.0, middle, mean)
+    return fine
