@@ -17,6 +17,7 @@ ACFS = ("exponential", "gaussian")
 FINEST = 2.0             # cells in one correlation length (1/e)
 LENGTH_TOLERANCE = 0.10  # of the correlation length that the finite, zero-mean map can have
 NEGLIGIBLE = 37.0        # exp(-37) is below rounding
+ROUNDING = 1e-13         # of the largest power: what the transform leaves where the spectrum is zero
 
 
 def generate_surface(shape, spacing, *, sq, correlation_length, acf="exponential", decay_level=INVERSE_E,
@@ -90,16 +91,17 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     quarter = sum(np.exp(-(a[:, None] + b[None, :]) ** (power / 2)) for a in square[0] for b in square[1])
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     spectrum = fft.rfft2(quarter[rows][:, columns]).real
-    if spectrum.min() < -1e-9 * spectrum.max():
+    if spectrum.min() < -ROUNDING * spectrum.max():
         raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; allowed: other lengths "
                          "or spacing")
+    spectrum[spectrum < ROUNDING * spectrum.max()] = 0.0
     spectrum[0, 0] = 0.0
     if cutoff is not None:
         cutoff = validate.number("cutoff", cutoff, "m", minimum=2 * max(spacing),
                                  maximum=0.5 * min(n * d for n, d in zip(shape, spacing)))
         kx, ky = fft.fftfreq(shape[0], spacing[0]), fft.rfftfreq(shape[1], spacing[1])
         spectrum[np.hypot(kx[:, None], ky[None, :]) > 1 / cutoff] = 0.0
-    return np.maximum(spectrum, 0.0)      # what is below zero is rounding, checked above
+    return spectrum
 
 
 def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:

@@ -147,7 +147,7 @@ class Surface:
     def resampled(self, *, shape=None, spacing=None) -> Surface:
         """The same area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
         less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited
-        map), others by cell averages when coarser and a cubic spline when finer."""
+        map), others as averages over the new cells; see `prepare.resample_axis`."""
         if (shape is None) == (spacing is None):
             raise InputError("resampled needs exactly one of shape (points) and spacing (m)")
         new = self._filled("resampled")

@@ -101,10 +101,8 @@ def close_axis(heights, axis, edge, count=None) -> np.ndarray:
         if 2 * width > len(z):
             raise InputError(f"{len(z)} points along axis {axis} are too few to blend; allowed: at least 2")
         angle = (0.5 * np.pi / width * np.arange(width))[:, None]
-        mean = z.mean()
-        closed = z[:-width] - mean
-        closed[:width] = np.sin(angle) * closed[:width] + np.cos(angle) * (z[-width:] - mean)
-        closed += mean
+        mean, closed = z.mean(), z[:-width].copy()
+        closed[:width] = mean + np.sin(angle) * (z[:width] - mean) + np.cos(angle) * (z[-width:] - mean)
     return np.moveaxis(closed, 0, axis)
 
 
@@ -121,21 +119,20 @@ def close_mask(mask, axis, edge, count=None) -> np.ndarray:
 
 
 def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
-    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map."""
+    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
+
+    Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;
+    a cubic spline through their running integral gives the averages over the new cells, coarser or
+    finer. It conserves the integral and changes nothing at ratio 1.
+    """
     z = np.moveaxis(heights, axis, 0)
     if periodic:
         new = _fourier(z, count)
-    elif ratio >= 1:
-        edges = ratio * np.arange(count + 1)
-        total = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
-        whole = np.minimum(edges.astype(int), len(z) - 1)
-        integral = total[whole] + (edges - whole)[:, None] * z[whole]
-        new = np.diff(integral, axis=0) / ratio
     else:
         from scipy.interpolate import CubicSpline
-        pad = min(8, len(z))
-        padded = np.pad(z, ((pad, pad), (0, 0)), mode="symmetric")
-        new = CubicSpline(np.arange(len(padded)) - pad + 0.5, padded)(ratio * (np.arange(count) + 0.5))
+        integral = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
+        edges = np.minimum(ratio * np.arange(count + 1), len(z))
+        new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
     return np.moveaxis(new, 0, axis)
 
 
