@@ -1,0 +1,338 @@
+"""Height maps from files: every format and number type, and files made to mislead."""
+
+import hashlib
+import os
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lubfric import InputError, Surface, read_surface
+from lubfric.surface import correlation_length, read_instrument_file, rms_slope
+
+BESIDE = Path(__file__).resolve().parents[2] / "shared" / "surfaces"
+MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
+STEP = (1e-6, 2.5e-6)
+RAW = {"level": False, "fill": False}
+
+
+def measured(name):
+    path = MEASURED / name
+    if not path.is_file():
+        pytest.skip(f"{name} not found: set LUBFRIC_SURFACES to the folder of measured surfaces")
+    return path
+
+
+def heights(shape=(7, 5)):
+    return 1e-7 * np.random.default_rng(0).standard_normal(shape)
+
+
+# --- X3P: a writer that can also lie ----------------------------------------------------------
+
+def write_x3p(path, z, kind="D", *, mask=None, increment=None, offset=0.0, size=None, data=None, xml=None,
+              data_name="bindata/data.bin", stored_name=None, point_md5=None, main_md5=None, skip=(),
+              extra=()):
+    """An X3P file of z[ix, iy]; the keywords override single parts of a correct file."""
+    types = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
+    raw = z if increment is None else np.rint((z - offset) / increment)
+    data = raw.T.astype(types[kind]).tobytes() if data is None else data
+    nx, ny = z.shape if size is None else size
+    valid = None if mask is None else np.packbits(mask.T.ravel(), bitorder="little").tobytes()
+    z_axis = "" if increment is None else f"<Increment>{increment!r}</Increment>"
+    links = f"<PointDataLink>{data_name}</PointDataLink>"
+    point_md5 = point_md5 or hashlib.md5(data).hexdigest().upper()
+    links += f"<MD5ChecksumPointData>{point_md5}</MD5ChecksumPointData>"
+    if valid is not None:
+        links += "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
+        links += f"<MD5ChecksumValidPoints>{hashlib.md5(valid).hexdigest()}</MD5ChecksumValidPoints>"
+    text = f"""<?xml version="1.0" encoding="UTF-8"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
+ <Record1><Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType><Axes>
+  <CX><AxisType>I</AxisType><DataType>L</DataType><Increment>{STEP[0]!r}</Increment><Offset>1e-3</Offset></CX>
+  <CY><AxisType>I</AxisType><DataType>L</DataType><Increment>{STEP[1]!r}</Increment><Offset>0</Offset></CY>
+  <CZ><AxisType>A</AxisType><DataType>{kind}</DataType>{z_axis}<Offset>{offset!r}</Offset></CZ>
+ </Axes></Record1>
+ <Record3><MatrixDimension><SizeX>{nx}</SizeX><SizeY>{ny}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+  <DataLink>{links}</DataLink></Record3>
+ <Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>"""
+    text = text.encode() if xml is None else xml(text)
+    members = [("main.xml", text), (stored_name or data_name, data),
+               ("md5checksum.hex", f"{main_md5 or hashlib.md5(text).hexdigest()} *main.xml".encode())]
+    members += [("bindata/valid.bin", valid)] if valid is not None else []
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in [m for m in members if m[0] not in skip] + list(extra):
+            archive.writestr(name, content)
+    return path
+
+
+@pytest.mark.parametrize("kind, increment, tolerance",
+                         [("D", None, 0), ("F", None, 2e-14), ("I", 1e-11, 5.1e-12), ("L", 1e-15, 5.1e-16)])
+def test_x3p_every_number_type(tmp_path, kind, increment, tolerance):
+    """Negative heights included: 16 and 32 bit integers are signed."""
+    z = heights()
+    z *= 3e-7 / np.abs(z).max()
+    surface = read_surface(write_x3p(tmp_path / "a.x3p", z, kind, increment=increment), **RAW)
+    assert surface.shape == z.shape and surface.spacing == STEP
+    assert np.abs(surface.heights - z).max() <= tolerance and surface.mask is None
+
+
+def test_x3p_axis_order_offset_and_preparation(tmp_path):
+    """x runs fastest in the file and is axis 0 here; level() then removes offset and slope."""
+    z = 1e-9 * np.add.outer(10 * np.arange(6.0), np.arange(4.0))
+    x_fastest = np.array([z[i, j] for j in range(4) for i in range(6)])
+    stored = write_x3p(tmp_path / "a.x3p", z, data=x_fastest.tobytes(), offset=5e-6)
+    surface = read_surface(stored, **RAW)
+    assert np.allclose(surface.heights, z + 5e-6, atol=1e-18)
+    assert read_surface(stored).sq < 1e-20
+    assert surface.source == "a.x3p"
+
+
+@pytest.mark.parametrize("kind, increment", [("D", None), ("L", 1e-15)])
+def test_x3p_masks(tmp_path, kind, increment):
+    """Bits are packed lowest first in the order of the heights; NaN heights are unmeasured too."""
+    z, mask = heights((7, 5)), np.ones((7, 5), bool)
+    mask[2, 3] = mask[0, 1] = False
+    surface = read_surface(write_x3p(tmp_path / "a.x3p", z, kind, mask=mask, increment=increment), **RAW)
+    assert np.array_equal(surface.mask, mask) and np.isnan(surface.heights[2, 3])
+    filled = read_surface(tmp_path / "a.x3p")
+    assert np.isfinite(filled.heights).all() and np.array_equal(filled.mask, mask)
+    if kind == "D":
+        z[4, 4] = np.nan
+        both = read_surface(write_x3p(tmp_path / "b.x3p", z, mask=mask), **RAW)
+        assert not both.mask[4, 4] and np.count_nonzero(~both.mask) == 3
+
+
+def test_x3p_without_checksums_says_so(tmp_path):
+    path = write_x3p(tmp_path / "a.x3p", heights(), skip=("md5checksum.hex",),
+                     xml=lambda t: t.replace("MD5ChecksumPointData", "Nothing").encode())
+    assert sum("no checksum" in note for note in read_surface(path).notes) == 2
+
+
+def swap(old, new):
+    return lambda text: text.replace(old, new).encode()
+
+
+BOMB = ('<!DOCTYPE a [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]>')
+HOSTILE = {
+    "no main.xml": {"skip": ("main.xml",)},
+    "no data": {"skip": ("bindata/data.bin",)},
+    "no mask member": {"skip": ("bindata/valid.bin",), "mask": np.eye(7, 5, dtype=bool)},
+    "short data": {"data": b"\0" * 100},
+    "long data": {"data": b"\0" * (7 * 5 * 8 + 1)},
+    "wrong size": {"size": (7, 6)},
+    "huge size": {"size": (999_999_999, 999_999_999)},
+    "huge but plausible size": {"size": (100_000, 1_000)},
+    "size with 30 digits": {"size": ("9" * 30, 5)},
+    "zero size": {"size": (0, 5)},
+    "negative size": {"size": (-7, -5)},
+    "data checksum": {"point_md5": "0" * 32},
+    "document checksum": {"main_md5": "0" * 32},
+    "absolute path": {"data_name": "/etc/hostname"},
+    "parent path": {"data_name": "../../data.bin"},
+    "windows path": {"data_name": "C:\\data.bin"},
+    "linked elsewhere": {"stored_name": "bindata/other.bin"},
+    "entity expansion": {"xml": swap("<p:ISO5436_2", BOMB + "<p:ISO5436_2")},
+    "entity expansion in UTF-16": {"xml": lambda t: t.replace("UTF-8", "UTF-16").replace(
+        "<p:ISO5436_2", BOMB + "<p:ISO5436_2", 1).encode("utf-16")},
+    "broken XML": {"xml": swap("</Record1>", "")},
+    "unknown encoding": {"xml": swap("UTF-8", "klingon")},
+    "empty XML": {"xml": lambda t: b""},
+    "profile": {"xml": swap("SUR", "PRF")},
+    "point cloud": {"xml": swap("<SizeZ>1", "<SizeZ>2")},
+    "absolute x axis": {"xml": swap("<CX><AxisType>I", "<CX><AxisType>A")},
+    "negative increment": {"xml": swap("<Increment>1e-06", "<Increment>-1e-06")},
+    "increment NaN": {"xml": swap("<Increment>1e-06", "<Increment>nan")},
+    "increment missing": {"xml": swap("<Increment>1e-06</Increment>", "")},
+    "increment not a number": {"xml": swap("<Increment>1e-06", "<Increment>one")},
+    "unknown type": {"xml": swap("<DataType>D", "<DataType>Q")},
+    "integers without increment": {"kind": "L"},
+    "scaled floats": {"xml": swap("<DataType>D</DataType>",
+                                  "<DataType>D</DataType><Increment>1e-9</Increment>")},
+    "nothing measured": {"mask": np.zeros((7, 5), bool)},
+    "infinite heights": {"data": np.full((7, 5), np.inf).tobytes()},
+    "huge XML": {"xml": lambda t: t.encode() + b" " * 2**23},
+    "two documents": {"extra": (("main.xml", b"<a/>"),)},
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_x3p_refuses(tmp_path, case):
+    path = write_x3p(tmp_path / "a.x3p", heights(), **HOSTILE[case])
+    with pytest.raises(InputError) as error:
+        read_surface(path)
+    assert "allowed" in str(error.value) or "not a complete" in str(error.value)
+
+
+def test_x3p_refuses_a_bomb_before_unpacking_it(tmp_path):
+    """100 MB of zeros in 100 kB, declared as a 7 x 5 map: the declared size is read, not the data."""
+    import tracemalloc
+    path = write_x3p(tmp_path / "a.x3p", heights(), skip=("bindata/data.bin",))
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
+        with archive.open("bindata/data.bin", "w") as out:
+            for _ in range(100):
+                out.write(bytes(2**20))
+    tracemalloc.start()
+    with pytest.raises(InputError, match="at most 280 bytes"):
+        read_surface(path)
+    assert tracemalloc.get_traced_memory()[1] < 2**22
+    tracemalloc.stop()
+
+
+def test_x3p_refuses_every_truncation_and_damage(tmp_path):
+    whole = write_x3p(tmp_path / "a.x3p", heights()).read_bytes()
+    broken = tmp_path / "b.x3p"
+    for length in range(0, len(whole), 37):
+        broken.write_bytes(whole[:length])
+        with pytest.raises(InputError):
+            read_surface(broken)
+    rng, good = np.random.default_rng(1), read_surface(tmp_path / "a.x3p").heights
+    for _ in range(200):
+        data = bytearray(whole)
+        data[rng.integers(len(data))] ^= 1 << rng.integers(8)
+        broken.write_bytes(data)
+        try:
+            assert np.array_equal(read_surface(broken).heights, good)    # a flipped date is harmless
+        except InputError:
+            pass
+
+
+# --- text, npy, xyz ---------------------------------------------------------------------------
+
+def test_npy(tmp_path):
+    z = heights()
+    np.save(tmp_path / "a.npy", z)
+    surface = read_surface(tmp_path / "a.npy", spacing=STEP, **RAW)
+    assert np.array_equal(surface.heights, z) and surface.spacing == STEP
+    np.save(tmp_path / "b.npy", (z * 1e12).astype(np.int32))
+    whole = read_surface(tmp_path / "b.npy", spacing=1e-6, unit="nm", **RAW)
+    assert np.allclose(whole.heights, z * 1e3, atol=2e-9)
+
+
+@pytest.mark.parametrize("suffix, separator", [(".txt", " "), (".csv", ","), (".asc", "\t"), (".dat", ";")])
+def test_text_matrix(tmp_path, suffix, separator):
+    z, path = heights(), tmp_path / f"a{suffix}"
+    np.savetxt(path, z, delimiter=separator, header="spacing = 1e-6 2.5e-6")
+    assert np.allclose(read_surface(path, **RAW).heights, z, rtol=1e-12)
+    assert read_surface(path).spacing == STEP
+    np.savetxt(path, z * 1e9, delimiter=separator)
+    assert np.allclose(read_surface(path, spacing=STEP, unit="nm", **RAW).heights, z, rtol=1e-12)
+
+
+def test_text_nan_is_unmeasured(tmp_path):
+    z = heights()
+    z[3, 3] = np.nan
+    np.savetxt(tmp_path / "a.txt", z)
+    surface = read_surface(tmp_path / "a.txt", spacing=1e-6)
+    assert not surface.mask[3, 3] and np.isfinite(surface.heights).all()
+    assert surface.notes[0].startswith("levelled") and surface.notes[1].startswith("filled")
+
+
+def points(z):
+    i, j = (a.ravel() for a in np.indices(z.shape))
+    return np.stack([1.0 + STEP[0] * i, STEP[1] * j, z.ravel()], axis=1)
+
+
+def test_xyz_in_any_order_and_unit(tmp_path):
+    z, path = heights(), tmp_path / "a.xyz"
+    table = np.random.default_rng(2).permutation(points(z))
+    np.savetxt(path, table, fmt="%.12e")
+    surface = read_surface(path, **RAW)
+    assert np.allclose(surface.heights, z) and surface.spacing == pytest.approx(STEP, rel=1e-5)
+    np.savetxt(path, table * [1e6, 1e6, 1e6], fmt="%.12e")
+    assert read_surface(path, unit="um").spacing == pytest.approx(STEP, rel=1e-5)
+    np.savetxt(path, table[3:], fmt="%.12e")
+    assert np.count_nonzero(~read_surface(path).mask) == 3
+
+
+def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
+    path, good = tmp_path / "a.xyz", points(heights()) * 1e6
+    uneven = good.copy()
+    uneven[good[:, 0] > good[:, 0].max() - 0.5, 0] += 0.3
+    scattered = good.copy()
+    scattered[:, :2] = np.random.default_rng(0).random((35, 2))
+    stretched = good.copy()
+    stretched[:, 1] = stretched[:, 1] ** 1.5
+    for table, words in ((uneven, "not uniform"), (scattered, "uniform"), (stretched, "not uniform"),
+                         (np.vstack([good, good[:1]]), "more than once"), (good[:, :2], "columns"),
+                         (good[:1], "one value"), (np.where(good == good[3], np.nan, good), "NaN")):
+        np.savetxt(path, table, fmt="%.9e")
+        with pytest.raises(InputError, match=words):
+            read_surface(path, unit="um")
+
+
+@pytest.mark.parametrize("name, content, options", [
+    ("missing.npy", None, {"spacing": 1e-6}),
+    ("a.npy", b"", {"spacing": 1e-6}),
+    ("a.npy", b"\x93NUMPY\x01\x00v\x00" + b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999, 99999999), }"
+     .ljust(117) + b"\n", {"spacing": 1e-6}),
+    ("a.npy", b"not an array at all", {"spacing": 1e-6}),
+    ("a.txt", b"", {"spacing": 1e-6}),
+    ("a.txt", b"1 2 3\n4 5\n", {"spacing": 1e-6}),
+    ("a.txt", b"1 2\nthree 4\n", {"spacing": 1e-6}),
+    ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
+    ("a.csv", b"1,5;2,5\n3,5;4,5\n", {"spacing": 1e-6}),
+    ("a.csv", b"1,,3\n4,5,6\n", {"spacing": 1e-6}),
+    ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
+    ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
+    ("a.txt", b"1 2\n3 4\n", {}),
+    ("a.txt", b"1 2\n3 4\n", {"spacing": 0}),
+    ("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"}),
+    ("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6}),
+    ("a.txt", b"# spacing = fine\n1 2\n3 4\n", {}),
+    ("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}),
+    ("a.bmp", b"BM", {"spacing": 1e-6}),
+    ("a.x3p", b"PK", {}), ("a.x3p", b"PK", {"spacing": 1e-6}), ("a.x3p", b"PK", {"unit": "m"})])
+def test_reader_refuses(tmp_path, name, content, options):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError):
+        read_surface(tmp_path / name, **options)
+
+
+def test_npy_refuses_objects_vectors_and_complex_numbers(tmp_path):
+    for k, array in enumerate((np.array([[{}]], dtype=object), np.zeros(5), np.ones((2, 2), complex))):
+        np.save(tmp_path / f"{k}.npy", array, allow_pickle=True)
+        with pytest.raises(InputError):
+            read_surface(tmp_path / f"{k}.npy", spacing=1e-6)
+
+
+def test_folders_are_refused(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        read_surface(tmp_path)
+
+
+# --- measured files, where they are -----------------------------------------------------------
+
+def test_ground_surface():
+    """Sq and size as its supplier states; its lay runs along y (the slow axis of the file)."""
+    path = measured("ground-77nm.x3p")
+    surface = read_surface(path)
+    assert surface.shape == (650, 650) and surface.mask is None
+    assert surface.size == pytest.approx((82.98e-6, 204.48e-6), rel=1e-4)
+    assert surface.sq == pytest.approx(77.19e-9, abs=5e-12)
+    assert read_surface(path, **RAW).sq == pytest.approx(77.28e-9, abs=5e-12)
+    across, along = correlation_length(surface, 0), correlation_length(surface, 1)
+    assert along > 15 * across and across == pytest.approx(2.2e-6, rel=0.05)
+    assert rms_slope(surface)[0] > 1.8 * rms_slope(surface)[1]
+    assert correlation_length(surface.transposed(), 1) == across
+
+
+@pytest.mark.parametrize("name, raw, levelled, missing", [("areal-optical.al3d", 7.69e-6, 0.290e-6, 0),
+                                                          ("areal-missing.sur", 17.52e-9, 17.10e-9, 117)])
+def test_other_instrument_formats(name, raw, levelled, missing):
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    path = measured(name)
+    surface = read_instrument_file(path)
+    assert read_instrument_file(path, **RAW).sq == pytest.approx(raw, rel=1e-3)
+    assert surface.sq == pytest.approx(levelled, rel=1e-3)
+    assert (0 if surface.mask is None else np.count_nonzero(~surface.mask)) == missing
+    assert 50e-6 < min(surface.size) and max(surface.size) < 2e-3
+    with pytest.raises(InputError, match="lateral_unit"):
+        read_instrument_file(path, lateral_unit="inch")
+
+
+def test_surface_of_a_reader_is_an_ordinary_surface(tmp_path):
+    surface = read_surface(write_x3p(tmp_path / "a.x3p", heights((30, 20))))
+    assert isinstance(surface, Surface) and surface.patch((20, 20), edge=(None, "mirror")).periodic_axes[1]
