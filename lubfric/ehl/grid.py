@@ -15,10 +15,10 @@ import numpy as np
 
 from .kernel import hat_kernel
 
-GROWTH = 0.35        # relative growth of cells away from the refined points
-FINE = 0.35          # smallest cells, relative to the inlet length
-CORE = 2.0           # share of cells spread evenly over the contact
-FAR_INLET = 20.0     # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
+FAR_INLET = 20.0              # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
+RISE_CELL, RISE_GROWTH = 0.3, 0.35        # smallest cell where the pressure rises / rise length; growth
+RUPTURE_CELL, RUPTURE_GROWTH = 0.1, 0.28  # the same at the rupture point, where film and pressure spike are
+CORE = 1.2                    # cells spread evenly over the contact, relative to the above
 
 
 @dataclass(frozen=True)
@@ -42,26 +42,32 @@ class Grid:
 def node_positions(half_width: float, film: float, n: int, distance: float | None = None) -> np.ndarray:
     """n + 1 positions from the inlet (``distance`` upstream of the rupture point) to 0.
 
-    Cells are smallest at the rupture point and at the edge of the Hertz contact, where the pressure rises over
-    a length ~ film^(2/3) half_width^(-1/3), and grow in proportion to the distance from them.
+    Cells are smallest at the rupture point and just inside the edge of the Hertz contact, where the
+    pressure rises over a length that shrinks with sqrt(film)/half_width, and grow in proportion to the
+    distance from them. The constants minimise the film error at 192 cells against 1536 over
+    M = 0.1-1000, L = 0-20.
     """
     l = math.sqrt(2.0 * film)
-    s = FINE * l * (l / (l + half_width)) ** (1 / 3)
-    width = 2.0 * half_width + 0.7 * l
+    rise = l * (l / (l + half_width)) ** 0.42
+    width = 2.0 * half_width + 0.7 * l - 2.0 * rise
     far = distance or 3.0 * half_width + FAR_INLET * l + 0.7 * l
+    inner, outer = RISE_CELL * rise, RUPTURE_CELL * rise
 
     def index(x):
-        return ((np.arcsinh(GROWTH * (x + width) / s) + np.arcsinh(GROWTH * x / s)) / GROWTH
-                + CORE * np.arcsinh(x / width))
+        return (np.arcsinh(RISE_GROWTH * (x + width) / inner) / RISE_GROWTH
+                + np.arcsinh(RUPTURE_GROWTH * x / outer) / RUPTURE_GROWTH + CORE * np.arcsinh(x / scale))
 
-    away = np.geomspace(0.05 * s, 2.0 * max(far, width), 300)
+    def density(x):
+        return (1.0 / np.hypot(inner, RISE_GROWTH * (x + width)) + 1.0 / np.hypot(outer, RUPTURE_GROWTH * x)
+                + CORE / np.hypot(scale, x))
+
+    scale = 2.0 * half_width + 0.7 * l
+    away = np.geomspace(0.05 * outer, 2.0 * max(far, scale), 300)
     table = np.sort(np.concatenate([-width - away, [-width], away - width, -away, [0.0]]))
     t = np.linspace(index(-far), index(0.0), n + 1)
     x = np.interp(t, index(table), table)
     for _ in range(3):
-        density = (1 / np.hypot(s, GROWTH * (x + width)) + 1 / np.hypot(s, GROWTH * x)
-                   + CORE / np.hypot(width, x))
-        x -= (index(x) - t) / density
+        x -= (index(x) - t) / density(x)
     x[0], x[-1] = -far, 0.0
     return x
 
@@ -83,10 +89,11 @@ def make_grid(xi: np.ndarray) -> Grid:
 
 
 def _upwind(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (i-1, i, i+1) and Lagrange weights of the face between i and i+1 (the first face uses 0, 1, 2)."""
+    """Nodes (i-1, i, i+1) and Lagrange weights of the face between i and i+1 (the first: 0, 1, 2)."""
     n = x.size - 1
     columns = np.maximum(np.arange(n), 1)[:, None] + np.array([-1, 0, 1])
     a, b, c = x[columns].T
     f = 0.5 * (x[1:] + x[:-1])
-    return columns, np.stack([(f - b) * (f - c) / ((a - b) * (a - c)), (f - a) * (f - c) / ((b - a) * (b - c)),
-                              (f - a) * (f - b) / ((c - a) * (c - b))], axis=1)
+    weights = [(f - b) * (f - c) / ((a - b) * (a - c)), (f - a) * (f - c) / ((b - a) * (b - c)),
+               (f - a) * (f - b) / ((c - a) * (c - b))]
+    return columns, np.stack(weights, axis=1)

@@ -29,7 +29,14 @@ class Solution:
 
 def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float,
            max_steps: int) -> Solution:
-    """Solve the discrete equations to max(|residual|, |film defect|/H) <= ``tolerance`` from unknowns z and film H > 0."""
+    """Solve the equations from unknowns z and film H > 0 to max(|residual|, |defect|/H) <= ``tolerance``.
+
+    A step that overflows ends the iteration as "diverged"."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        return _iterate(grid, problem, z, H, tolerance, max_steps)
+
+
+def _iterate(grid, problem, z, H, tolerance, max_steps) -> Solution:
     from scipy.linalg.lapack import dgesv
 
     history = []

@@ -13,7 +13,7 @@ rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressu
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,6 +67,13 @@ class Problem:
     def half_width(self) -> float:
         """Hertz half-width in units of x."""
         return math.sqrt(8.0 * self.M / math.pi)
+
+    def softened(self, share: float) -> Problem:
+        """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
+        if share == 1.0:
+            return self
+        alpha = share * self.lubricant.pressure_viscosity_coefficient
+        return replace(self, lubricant=replace(self.lubricant, pressure_viscosity_coefficient=alpha))
 
     def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""

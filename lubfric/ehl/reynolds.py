@@ -1,13 +1,13 @@
 """Discrete equations of the line contact: residual and Jacobian.
 
 Unknowns ``z`` = pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture
-point e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P, whose ``defect`` one
-undamped Newton step removes: a film interpolated from a coarser grid is a far better start than the film
-of an interpolated pressure. Equations, each made dimensionless by its own scale:
+point e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P,
+whose ``defect`` one undamped Newton step removes: a film interpolated from a coarser grid is a far better
+start than the film of an interpolated pressure. Equations, each made dimensionless by its own scale:
 
-* n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow with the
-  logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with the film interpolated third-order upwind,
-  which sees the sawtooth in P that a centred mean would not.
+* n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille
+  flow with the logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with the film
+  interpolated third-order upwind, which sees the sawtooth in P that a centred mean would not.
 * inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and
   P = |X|/3 dP/dX; or P = 0 where the lubricant begins (starved inlet).
 * load, with the tail upstream of the inlet.
@@ -83,12 +83,13 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
         R[n] = P[0] * a / problem.M
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
-    return R, Terms(P, H, X, elastic_film(grid, z) - H, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
+    return R, Terms(P, H, X, elastic_film(grid, z) - H, q, slope, (rho, rho_slope), face_rho, face_H,
+                    fluidity, gradient, flux)
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian (n + 3, n + 3) with the film eliminated, in Fortran order so that LAPACK factorises it in place, and what
-    removing the film's defect adds to the residual (n + 3)."""
+    """Jacobian (n + 3, n + 3) with the film eliminated, and what removing the film's defect adds to the
+    residual (n + 3). Fortran order lets LAPACK factorise in place."""
     n = grid.n
     J = np.empty((n + 3, n + 3), order="F")
     shift = np.zeros(n + 3)

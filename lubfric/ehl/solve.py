@@ -8,28 +8,29 @@ import numpy as np
 
 from ..errors import InputError
 from ..lubricant import Lubricant
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..report import CONVERGED
 from ..validate import integer, number, positive
+from .assemble import assemble, grid_error
 from .grid import make_grid, node_positions
-from .kernel import hat_kernel
 from .newton import Solution, newton
 from .problem import Problem, expected_film
-from .result import EHLResult, cubic, smallest
-from .start import State, cold_start, expected_rupture, refined_start, warm_start
+from .result import EHLResult
+from .start import State, cold_start, expected_rupture, refined_start, solution_state, warm_start
 
 COARSEST, FINEST = 48, 3072
-ORDER = 2
+EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
 
-def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float, viscosity: float,
-              pressure_viscosity_coefficient: float, viscosity_law: str = "roelands", density: str = "constant",
-              tolerance: float = 3e-3, inlet_length: float | None = None, start: EHLResult | None = None,
-              max_iterations: int = 60, raise_on_failure: bool = True) -> EHLResult:
+def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float,
+              viscosity: float, pressure_viscosity_coefficient: float, viscosity_law: str = "roelands",
+              density: str = "constant", tolerance: float = 3e-3, inlet_length: float | None = None,
+              start: EHLResult | None = None, max_iterations: int = 60,
+              raise_on_failure: bool = True) -> EHLResult:
     """Film of a smooth line contact: Reynolds, elastic half-spaces, load.
 
     Solves d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx with p = dp/dx = 0 at the rupture point
-    (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx' and ∫ p dx = load_per_width, by Newton's method on
-    nested grids that move with the rupture point (`lubfric.ehl.reynolds`).
+    (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx' and ∫ p dx = load_per_width, by
+    Newton's method on nested grids that move with the rupture point (`lubfric.ehl.reynolds`).
 
     Parameters
     ----------
@@ -41,13 +42,13 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m]
         upstream of the line of centres at which the lubricant begins (starved)
-    start : the result of a neighbouring load or speed. A start that does not lead to a solution is dropped for a
-        cold one, which report.notes tells.
+    start : the result of a neighbouring load or speed. A start that does not lead to a solution is dropped
+        for a cold one, which report.notes tells.
     max_iterations : Newton steps per grid
 
     The cells are doubled until ``discretisation`` <= tolerance. report.residuals, all relative:
-    discretisation : largest change of min_film, central_film and flow_film against the grid of half the cells,
-        or a quarter of the change before that, divided by 3 (second order)
+    discretisation : largest change of min_film, central_film and flow_film against the grid of half the
+        cells, or a quarter of the change before that, divided by 3 (second order)
     domain : estimated effect of the finite inlet on flow_film
     mass : largest |flux through a face/q - 1|; load : |∫ p dx/load - 1|; both <= 1e-3 tolerance
     complementarity : largest of -p/p_max before rupture and of 1 - h/h_rupture behind it
@@ -66,39 +67,39 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     problem = Problem(positive("load_per_width", load_per_width, "N/m"), positive("radius", radius, "m"),
                       positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
                       None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+    if inlet_length is not None and inlet_length <= problem.half_width * problem.length_unit:
+        raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than its "
+                         f"half-width {problem.half_width * problem.length_unit:.4g} m")
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
 
-    levels, notes = None, ()
+    levels, first, notes = [], [], ()
     if start is not None:
         levels = _ascend(problem, tolerance, max_iterations, start.state)
         if not _sound(levels):
-            notes = ("warm start failed; solved again from a cold start",)
-    if levels is None or not _sound(levels):
-        levels = _ascend(problem, tolerance, max_iterations, None)
-    result = _result(problem, levels, tolerance, math.copysign(1.0, speed), notes)
+            notes = ("the warm start failed; solved again from a cold start",)
+    if not _sound(levels):
+        state, first = _first_state(problem, max_iterations)
+        levels = _ascend(problem, tolerance, max_iterations, state)
+    result = assemble(problem, levels, first, tolerance, math.copysign(1.0, speed), notes)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State | None) -> list[Solution]:
+def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State) -> list[Solution]:
     """Solutions on grids of doubling size until two neighbours agree to ``tolerance``."""
     n = COARSEST
-    if state is not None:
-        needed = state.pressure.size * math.sqrt(state.grid_error / tolerance)
-        while 2 * n < needed and 2 * n < FINEST:
-            n *= 2
+    needed = state.pressure.size * math.sqrt(state.grid_error / tolerance)
+    while 2 * n < min(needed, FINEST):
+        n *= 2
     rupture = expected_rupture(problem.M, problem.L)
     levels: list[Solution] = []
     while True:
         grid = make_grid(_positions(problem, n, rupture))
-        if levels:
-            z, H = refined_start(levels[-1].z, levels[-1].terms.H)
-        else:
-            z, H = cold_start(grid, problem) if state is None else warm_start(grid, problem, state)
+        z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * tolerance, max_steps))
         if levels[-1].status != CONVERGED or n >= FINEST:
             return levels
@@ -108,6 +109,20 @@ def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State | N
         n *= 2
 
 
+def _first_state(problem: Problem, max_steps: int) -> tuple[State, list[Solution]]:
+    """From nothing: rough solutions on the coarsest grid while alpha rises from where L = EASY."""
+    state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
+    while True:
+        stage = problem.softened(share)
+        grid = make_grid(_positions(stage, COARSEST, expected_rupture(stage.M, stage.L)))
+        z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
+        solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
+        state = solution_state(stage, solutions[-1], 0.0)
+        if share == 1.0 or not np.isfinite(solutions[-1].error):
+            return state, solutions
+        share = min(1.0, STAGE * share)
+
+
 def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     distance = None
     if problem.inlet_length is not None:
@@ -115,92 +130,9 @@ def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     return node_positions(problem.half_width, expected_film(problem.M, problem.L), n, distance)
 
 
-def grid_error(levels: list[Solution]) -> float:
-    """Relative discretisation error of the last solution: second-order extrapolation of the changes of smallest, central
-    and flow film between the last two grids, or, if larger, a quarter of the change before that."""
-    films = np.array([[smallest(s.terms.X, s.terms.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
-    if len(films) < 2:
-        return math.inf
-    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
-    return float(max(changes[-1], changes[0] / 2 ** (ORDER * (changes.size - 1))) / (2**ORDER - 1))
-
-
-def _at_centre(solution: Solution) -> float:
-    t = solution.terms
-    return float(cubic(t.X, t.H - 0.5 * t.X**2, np.zeros(1))[0])
-
-
-def domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the tail's next-order term: its share of the load times the departure from the bare parabola."""
-    if problem.inlet_length is not None:
-        return 0.0
-    t = solution.terms
-    a = -t.X[0]
-    return 0.5 * a * t.P[0] / problem.M * abs(2.0 * t.H[0] / a**2 - 1.0)
-
-
-def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
-    """Largest tension before rupture (share of the largest pressure) and film deficit behind it (share of h)."""
-    P, H = solution.terms.P, solution.terms.H
-    return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
-
-
 def _sound(levels: list[Solution]) -> bool:
+    """Converged, and no root with tension in the film."""
+    if not levels or levels[-1].status != CONVERGED:
+        return False
     P = levels[-1].terms.P
-    return levels[-1].status == CONVERGED and bool(P.min() >= -1e-3 * P.max())
-
-
-def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes behind the rupture point, graded like those before it, and the film there."""
-    xi = solution.grid.xi
-    reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
-    mirrored = -xi[-2::-1]
-    behind = mirrored[: max(8, int(np.searchsorted(mirrored, reach)) + 1)][1::2]
-    X = behind + solution.z[-1]
-    H = solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
-    return X, H
-
-
-def _report(problem, levels, tolerance, residuals, notes) -> Report:
-    last = levels[-1]
-    history = tuple(e for level in levels for e in level.history)
-    residual = max(residuals.values())
-    status = last.status
-    if status == CONVERGED and not residual <= tolerance:
-        status = ITERATION_LIMIT
-    notes += (f"{last.grid.n} cells before rupture; inlet at {last.terms.X[0] / problem.half_width:.4g} half-widths",)
-    return Report("line-contact EHL, Newton on nested grids", status, len(history) - len(levels), residual, tolerance,
-                  residuals, history, len(history) - len(levels), notes)
-
-
-def _result(problem: Problem, levels: list[Solution], tolerance: float, sign: float, notes: tuple) -> EHLResult:
-    last = levels[-1]
-    t, M = last.terms, problem.M
-    X_out, H_out = _outlet(problem, last)
-    n = last.grid.n
-    X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
-    P = np.concatenate([t.P, np.zeros_like(X_out)])
-    error = grid_error(levels)
-    tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet_length is None else 0.0
-    residuals = {"discretisation": error, "domain": domain_error(problem, last),
-                 "mass": float(np.max(np.abs(t.flux / t.q - 1.0))),
-                 "load": abs((last.grid.weights @ t.P + tail) / M - 1.0),
-                 "complementarity": complementarity(last, H_out)}
-    report = _report(problem, levels, tolerance, residuals, notes)
-    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
-    nodal_load = last.grid.weights @ t.P
-    bend = H - 0.5 * X * X
-    order = slice(None) if sign > 0 else slice(None, None, -1)
-    lubricant = problem.lubricant
-    pressure = (P * problem.pressure_unit)[order]
-    state = State(M, problem.L, t.P[:n], t.H, float(t.q), float(last.z[-1]), error)
-    return EHLResult(
-        x=(sign * X * length)[order], pressure=pressure, film_thickness=(H * film)[order],
-        viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
-        density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
-        central_film=float(cubic(X, bend, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
-        flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
-        approach=(float(last.z[-3]) - 4.0 / math.pi * nodal_load * math.log(b)) * film, half_width=b * length,
-        hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit, load=problem.load, radius=problem.radius,
-        e_prime=problem.e_prime, entrainment_speed=sign * problem.speed, load_number=M,
-        material_number=problem.L, report=report, state=state)
+    return bool(P.min() >= -1e-3 * P.max())

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .grid import Grid
+from .newton import Solution
 from .problem import Problem, expected_film
 from .reynolds import elastic_film
 
@@ -48,10 +49,15 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return z, gap + z[-3]
 
 
-def refined_start(z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def solution_state(problem: Problem, solution: Solution, error: float) -> State:
+    """The `State` of a solution, ``error`` its estimated discretisation error."""
+    t = solution.terms
+    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), float(solution.z[-1]), error)
+
+
+def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """(z, H) on a grid of twice the cells."""
-    P = refine(np.append(z[:-3], 0.0))
-    return np.append(P[:-1], z[-3:]), refine(H)
+    return np.append(refine(solution.terms.P)[:-1], solution.z[-3:]), refine(solution.terms.H)
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,104 @@
+"""From solutions on nested grids to errors, report and result."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..report import CONVERGED, ITERATION_LIMIT, Report
+from .kernel import hat_kernel
+from .newton import Solution
+from .problem import Problem
+from .result import EHLResult, cubic, smallest
+from .start import solution_state
+
+ORDER = 2    # of the discretisation
+
+
+def grid_error(levels: list[Solution]) -> float:
+    """Relative discretisation error of the last solution: second-order extrapolation of the changes of
+    smallest, central and flow film between the last two grids, or, if larger, of a quarter of the change
+    before that."""
+    films = np.array([[smallest(s.terms.X, s.terms.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    if len(films) < 2:
+        return math.inf
+    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
+    return float(max(changes[-1], changes[0] / 2 ** (ORDER * (changes.size - 1))) / (2**ORDER - 1))
+
+
+def _at_centre(solution: Solution) -> float:
+    t = solution.terms
+    return float(cubic(t.X, t.H - 0.5 * t.X**2, np.zeros(1))[0])
+
+
+def domain_error(problem: Problem, solution: Solution) -> float:
+    """Effect of the tail's next-order term: its share of the load times the departure from the parabola."""
+    if problem.inlet_length is not None:
+        return 0.0
+    t = solution.terms
+    a = -t.X[0]
+    return 0.5 * a * t.P[0] / problem.M * abs(2.0 * t.H[0] / a**2 - 1.0)
+
+
+def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
+    """Largest tension before rupture (of the largest pressure) or film deficit behind it (of h)."""
+    P, H = solution.terms.P, solution.terms.H
+    return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
+
+
+def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes behind the rupture point, graded like those before it, and the film there."""
+    xi = solution.grid.xi
+    reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
+    mirrored = -xi[-2::-1]
+    behind = mirrored[: max(8, int(np.searchsorted(mirrored, reach)) + 1)][1::2]
+    X = behind + solution.z[-1]
+    H = solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
+    return X, H
+
+
+def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
+    last, solutions = levels[-1], first + levels
+    history = tuple(e for solution in solutions for e in solution.history)
+    steps = len(history) - len(solutions)
+    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
+    status = last.status
+    if status == CONVERGED and not residual <= tolerance:
+        status = ITERATION_LIMIT
+    inlet = last.terms.X[0] / problem.half_width
+    notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
+    return Report("line-contact EHL, Newton on nested grids", status, steps, residual, tolerance, residuals,
+                  history, steps, notes)
+
+
+def assemble(problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, sign: float,
+            notes: tuple) -> EHLResult:
+    """The result in SI units of solutions on nested grids; sign -1 mirrors it."""
+    last = levels[-1]
+    t, M = last.terms, problem.M
+    X_out, H_out = _outlet(problem, last)
+    X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
+    P = np.concatenate([t.P, np.zeros_like(X_out)])
+    error = grid_error(levels)
+    tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet_length is None else 0.0
+    residuals = {"discretisation": error, "domain": domain_error(problem, last),
+                 "mass": float(np.max(np.abs(t.flux / t.q - 1.0))),
+                 "load": abs((last.grid.weights @ t.P + tail) / M - 1.0),
+                 "complementarity": complementarity(last, H_out)}
+    report = _report(problem, levels, first, tolerance, residuals, notes)
+    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
+    nodal_load = last.grid.weights @ t.P
+    bend = H - 0.5 * X * X
+    order = slice(None) if sign > 0 else slice(None, None, -1)
+    return EHLResult(
+        x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
+        film_thickness=(H * film)[order],
+        viscosity=problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
+        density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
+        central_film=float(cubic(X, bend, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
+        flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
+        approach=(float(last.z[-3]) - 4.0 / math.pi * nodal_load * math.log(b)) * film, half_width=b * length,
+        hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit, load=problem.load,
+        radius=problem.radius, e_prime=problem.e_prime, entrainment_speed=sign * problem.speed,
+        load_number=M, material_number=problem.L, report=report, state=solution_state(problem, last, error))
