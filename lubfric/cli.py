@@ -32,9 +32,11 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1' or 'low:high:count'")
     run.add_argument("--fields", help="speeds in m/s whose fields go to fields.npz and contact.png "
                                       "(default: the scene's own speed)")
+    run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
+    info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     info.set_defaults(command=_info)
     plot = commands.add_parser("plot", help="draw stribeck.png again from stribeck.csv")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
@@ -49,7 +51,7 @@ def _run(arguments) -> int:
     from .scene import load_scene
     from .sweep import stribeck
 
-    scene = load_scene(arguments.scene)
+    scene = load_scene(arguments.scene, surface_file=arguments.surface)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
     out = arguments.out
@@ -76,7 +78,7 @@ def _run(arguments) -> int:
 def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene import load_scene
-    print(describe_scene(load_scene(arguments.scene)))
+    print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
     return 0
 
 

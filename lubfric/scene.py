@@ -207,11 +207,13 @@ class Scene:
         return replace(self, **changed)
 
 
-def load_scene(source) -> Scene:
+def load_scene(source, *, surface_file=None) -> Scene:
     """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+
+    ``surface_file``: a height map to use instead of the scene's ``surface.file``.
 
     Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
     missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
     """
     from .scene_file import read_scene
-    return read_scene(source)
+    return read_scene(source, surface_file)

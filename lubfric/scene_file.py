@@ -21,13 +21,15 @@ EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_
 OPTIONAL = ("contact", "numerics")
 
 
-def read_scene(source) -> Scene:
+def read_scene(source, surface_file=None) -> Scene:
     """See `lubfric.load_scene`."""
     text, folder, name = _text(source)
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"scene {source} is not valid TOML: {error}") from None
+    if surface_file is not None and isinstance(table.get("surface"), dict):
+        table["surface"]["file"] = str(Path(surface_file).absolute())
     return scene_from_table(table, folder, name)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import validate
-from .errors import ConvergenceError, InputError
+from .errors import ConvergenceError
 from .mixed import FrictionResult, Model, friction, prepare
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
@@ -86,7 +86,7 @@ def _run(model, cases, fields):
     for index, speed in cases:
         try:
             start = friction(model, speed, start=start, fields=True)
-        except (ConvergenceError, InputError) as error:
+        except Exception as error:              # kept in ``errors``; raised once every point is done
             start = None
             yield index, error
         else:

@@ -1,0 +1,121 @@
+"""The command: files written, both ways of calling it, exit codes, and the library's lightness."""
+
+import csv
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.cli import main
+
+SCENE = """
+[bodies]
+radius = 2e-3
+width = 6e-3
+load = 5.5
+e_prime = 231e9
+hardness = 6e9
+boundary_friction_coefficient = 0.09
+[lubricant]
+viscosity = 0.36
+pressure_viscosity_coefficient = 25e-9
+[motion]
+entrainment_speed = 0.001
+speeds = [0.001, 0.01, 0.3]
+[surface]
+sq = 1e-7
+correlation_length = 4e-6
+seed = 7
+[contact]
+shape = [64, 64]
+spacing = 0.9e-6
+"""
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    (folder / "small.toml").write_text(SCENE)
+    assert main(["run", str(folder / "small.toml"), "--out", str(folder / "out")]) == 0
+    return folder / "out"
+
+
+def test_run_writes_its_record(run):
+    assert {p.name for p in run.iterdir()} == {"result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png"}
+    record = json.loads((run / "result.json").read_text())
+    assert record["scene"]["bodies"]["hardness"] == 6e9 and record["seed"] == 7
+    assert record["versions"]["lubfric"] == lubfric.__version__ and record["seconds"] > 0
+    assert [p["speed"] for p in record["points"]] == [0.001, 0.01, 0.3]
+    for point in record["points"]:
+        assert point["report"]["converged"] and point["report"]["residual"] <= point["report"]["tolerance"]
+
+
+def test_csv_equals_json_and_the_library(run):
+    with (run / "stribeck.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    record = json.loads((run / "result.json").read_text())
+    curve = lubfric.stribeck(lubfric.load_scene(run.parent / "small.toml"))
+    for row, point, f in zip(rows, record["points"], curve.coefficient):
+        assert float(row["coefficient [-]"]) == point["coefficient"] == pytest.approx(f, rel=1e-12)
+
+
+def test_fields_belong_to_the_chosen_speed(run):
+    with np.load(run / "fields.npz") as fields:
+        assert fields["speed"] == [0.001] and fields["contact_pressure_0"].shape == (64, 64)
+        assert fields["contact_pressure_0"].max() <= 6e9
+
+
+def test_plot_redraws_from_the_csv(run):
+    before = (run / "stribeck.png").stat().st_mtime_ns
+    assert main(["plot", str(run)]) == 0
+    assert (run / "stribeck.png").stat().st_mtime_ns > before
+
+
+def test_info_names_the_regime(capsys):
+    assert main(["info", "paper"]) == 0
+    text = capsys.readouterr().out
+    for word in ("half-width 4.496", "102.0 MPa", "lambda", "200 x 200", "25 speeds"):
+        assert word in text, text
+
+
+@pytest.mark.parametrize("arguments, word", [(["run", "papr"], "did you mean 'paper'"), (["info", "nothing.toml"], "nothing.toml"),
+                                             (["run", "paper", "--speeds", "a,b"], "speeds"),
+                                             (["plot", "nowhere"], "stribeck.csv")])
+def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert word in error and error.count("\n") == 1
+
+
+def test_python_dash_m_is_the_same_command():
+    done = subprocess.run([sys.executable, "-m", "lubfric", "info", "flat"], capture_output=True, text=True)
+    assert done.returncode == 0 and "816 x 816" in done.stdout
+
+
+def test_speeds_and_fields_can_be_chosen(tmp_path):
+    (tmp_path / "small.toml").write_text(SCENE)
+    assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.01:0.1:2",
+                 "--fields", "0.01,1.0"]) == 0
+    with np.load(tmp_path / "o" / "fields.npz") as fields:
+        np.testing.assert_allclose(fields["speed"], [0.01, 1.0])
+        assert "contact_pressure_0" in fields and "contact_pressure_1" not in fields
+
+
+def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
+    from lubfric import sweep
+    real = sweep.friction
+
+    def failing(model, speed, **kw):
+        if speed == 0.01:
+            raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
+        return real(model, speed, **kw)
+    monkeypatch.setattr(sweep, "friction", failing)
+    (tmp_path / "small.toml").write_text(SCENE)
+    assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "o")]) == 1
+    assert "1 of 3 speeds failed" in capsys.readouterr().err
+    record = json.loads((tmp_path / "o" / "result.json").read_text())
+    assert "injected" in record["points"][1]["error"] and record["points"][2]["coefficient"] > 0
+    assert (tmp_path / "o" / "stribeck.png").stat().st_size > 10_000
