@@ -21,10 +21,12 @@ h3 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
 a { color: var(--link); }
 .verdict { font-weight: 600; padding: .6rem .8rem; border-left: .3rem solid; background: var(--soft); }
 .good { color: var(--good); } .bad { color: var(--bad); } .dim { color: var(--dim); font-size: .875rem; }
-.text { white-space: pre-line; }
+.text { max-width: 46rem; }
 table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th { text-align: left; font-weight: 600; color: var(--dim); }
-th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top;
+  overflow-wrap: break-word; }
+[data-label=Verdict], [data-label=Time] { white-space: nowrap; }
 figure { margin: 1.5rem 0; }
 figure img { max-width: 100%; height: auto; display: block; background: #fff; border-radius: .3rem; }
 figcaption, caption { text-align: left; color: var(--dim); font-size: .875rem; padding: .4rem 0; }
@@ -32,11 +34,12 @@ pre { overflow-x: auto; background: var(--soft); padding: .6rem; font-size: .8re
 .scroll { overflow-x: auto; }
 @media (max-width: 44rem) {
   .cards thead { display: none; }
-  .cards tr { display: block; border-bottom: 1px solid var(--line); padding: .5rem 0; }
-  .cards td { display: flex; gap: .6rem; border: 0; padding: .1rem 0; }
+  .cards tr { display: grid; grid-template-columns: 6rem 1fr; border-bottom: 1px solid var(--line); padding: .5rem 0; }
+  .cards td { grid-column: 1 / 3; display: grid; grid-template-columns: subgrid; border: 0; padding: .1rem 0; }
   .cards td:empty { display: none; }
-  .cards td::before { content: attr(data-label); flex: 0 0 5.5rem; color: var(--dim); }
-  .cards td > * { min-width: 0; }
+  .cards td::before { content: attr(data-label); color: var(--dim); }
+  .cards td > * { min-width: 0; overflow-wrap: anywhere; }
+  .cards td:first-child { font-weight: 600; }
 }
 """
 
@@ -79,7 +82,7 @@ def overview(report) -> str:
 def section(outcome) -> str:
     """Everything one study handed over."""
     parts = [f'<h2 id="{escape(outcome.study.name)}">{escape(outcome.study.title)}</h2>',
-             f'<p class="text">{escape(outcome.description)}</p>']
+             *(f'<p class="text">{escape(" ".join(p.split()))}</p>' for p in outcome.description.split("\n\n"))]
     if outcome.error:
         parts.append(f'<p class="verdict bad">{escape(outcome.error)}</p><details><summary>Traceback</summary>'
                      f"<pre>{escape(outcome.trace)}</pre></details>")

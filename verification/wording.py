@@ -6,7 +6,7 @@ import math
 
 from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, Check
 
-ALLOWED = {RELATIVE: "{expected} ± {percent}", ABSOLUTE: "{expected} ± {tolerance}",
+ALLOWED = {RELATIVE: "{expected} ± {relative}", ABSOLUTE: "{expected} ± {tolerance}",
            AT_MOST: "≤ {expected} + {tolerance}", AT_LEAST: "≥ {expected} − {tolerance}"}
 
 
@@ -16,7 +16,12 @@ def allowed(check: Check) -> str:
     if check.kind in (AT_MOST, AT_LEAST) and check.tolerance == 0:
         return ("≤ " if check.kind == AT_MOST else "≥ ") + number(check.expected)
     return ALLOWED[check.kind].format(expected=number(check.expected), tolerance=tolerance,
-                                      percent=f"{100 * check.tolerance:.3g} %")
+                                      relative=fraction(check.tolerance))
+
+
+def fraction(value: float) -> str:
+    """A relative tolerance: in per cent, or in powers of ten where that would be mostly zeros."""
+    return f"{100 * value:.2g} %" if value >= 1e-5 or value == 0 else f"{value:.1e} relative"
 
 
 def number(value) -> str:

@@ -32,4 +32,7 @@ class Study:
 
 
 STUDIES: tuple[Study, ...] = (
+    Study("reynolds", "verification.studies.reynolds:reynolds", "Reynolds equation on a line"),
+    Study("reynolds_surface", "verification.studies.reynolds_surface:reynolds_surface",
+          "Reynolds equation on a surface"),
 )
