@@ -1,0 +1,242 @@
+"""The deterministic asperity model: every asperity an independent Hertz contact with a rigid flat.
+
+The yardstick of Akchurin et al. 2015, Sec. 3.1 (doi:10.1007/s11249-015-0536-z), which leaves open what an
+asperity is. Two definitions are in use and both are here:
+
+- "summits": points higher than their 8 neighbours; 1/R is the mean of the two second differences
+  at the point (J. A. Greenwood, J. B. P. Williamson, Proc. R. Soc. A 295 (1966) 300,
+  doi:10.1098/rspa.1966.0242; summit count as P. R. Nayak, J. Lubr. Technol. 93 (1971) 398).
+- "patches": 8-connected regions above the separation, each replaced by the paraboloid of the same base
+  area A and height delta, R = A/(2 pi delta) (M. A. Masen, M. B. de Rooij, D. J. Schipper, Wear 258 (2005)
+  339, doi:10.1016/j.wear.2004.09.031).
+
+Asperities do not interact: the load of one does not depend on where the others are. Valid for sparse, small
+contacts (delta << R); summits depend on the grid wherever the surface has no second derivative.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import validate
+from .errors import ConvergenceError, InputError
+from .report import CONVERGED, STAGNATED, Report
+from .roots import increasing_root
+
+DEFINITIONS = ("summits", "patches")
+SCAN = 1.25                     # ratio between neighbouring approaches of the scan for a load
+SCAN_RANGE = (1e-5, 4.0)        # of the height range
+
+
+@dataclass(frozen=True)
+class AsperityResult:
+    """All contacts at one separation. Arrays have one entry per contact.
+
+    separation [m] (number or (nx, ny)); load [N] on the whole map; mean_pressure [Pa] load over the map;
+    contact_area [m^2] sum of pi a^2, and its fraction of the map; plastic_area_fraction where the pressure is
+    at the hardness; contacts: how many; index (contacts, 2): their highest grid points; overlap delta
+    [m]; radii R [m]; forces [N]; report of the search when the load was given.
+    """
+
+    definition: str
+    separation: float | np.ndarray
+    load: float
+    mean_pressure: float
+    contact_area: float
+    contact_area_fraction: float
+    plastic_area_fraction: float
+    contacts: int
+    index: np.ndarray
+    overlap: np.ndarray
+    radii: np.ndarray
+    forces: np.ndarray
+    report: Report | None = None
+
+
+def asperity_contact(heights, spacing, e_prime, *, separation, definition="summits", hardness=None,
+                     periodic=True) -> AsperityResult:
+    """Contact of a rough surface with a rigid flat held at ``separation``.
+
+    Parameters
+    ----------
+    heights : (nx, ny) [m], upwards
+    spacing : (dx, dy) or one length [m]
+    e_prime : E' [Pa], ``2/E' = sum (1 - nu^2)/E``
+    separation : height of the flat [m], in the same coordinate as ``heights`` (for heights about their
+        mean: the distance of the undeformed mean planes); one number, or (nx, ny) under a curved film
+    definition : "summits" or "patches"
+    hardness : the pressure of every contact is cut off at this value [Pa]; None: elastic
+    periodic : whether neighbours wrap around (one value or one per axis); summits need all 8 neighbours
+
+    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a^2 = pi R delta``; a
+    Hertz pressure of peak p0 cut off at P_u leaves ``F = P_u pi a^2 (1 - s^2/3)``, ``s = P_u/p0 < 1``.
+    Raises `InputError` for what is out of range.
+    """
+    heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
+    try:
+        flat = np.broadcast_to(np.asarray(separation, dtype=float), heights.shape)
+    except (TypeError, ValueError):
+        raise InputError(f"separation must be a number or an array of shape {heights.shape} in m") from None
+    validate.array("separation", flat, "m", ndim=2)
+    find = _FINDERS[definition](heights, spacing, periodic)
+    return _loaded(find, flat, separation, spacing, e_prime, hardness, definition)
+
+
+def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition="summits", hardness=None,
+                        periodic=True, tolerance=1e-3, raise_on_failure=True) -> AsperityResult:
+    """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.
+
+    The flat comes down, each approach to the highest point 25 % longer than the last, until the load is
+    reached; then that step is searched (Chandrupatla). Stops when
+    ``|load - target|/target <= tolerance``. The load of summits is continuous and decreasing in the separation; that of patches jumps where cells join
+    (a tolerance of 1e-3 suits some hundred contacts) and has a largest value: patches grow together.
+    Raises `InputError`, or `ConvergenceError` with report and the closest result when the model cannot
+    carry the load or jumps over it.
+    """
+    heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
+    target = validate.positive("mean_pressure", mean_pressure, "Pa")
+    validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
+    find, top, span = _FINDERS[definition](heights, spacing, periodic), heights.max(), float(np.ptp(heights))
+    if span == 0:
+        raise InputError("heights are all equal: no asperities; allowed: a rough surface in m")
+
+    def excess(approach):
+        flat = np.broadcast_to(top - approach, heights.shape)
+        result = _loaded(find, flat, float(top - approach), spacing, e_prime, hardness, definition)
+        return result.mean_pressure / target - 1, result
+
+    before, best, count = 0.0, None, 0
+    for approach in span * np.geomspace(*SCAN_RANGE, _scan_count()):
+        value, result = excess(approach)
+        count += 1
+        best = result if best is None or result.load > best.load else best
+        if value >= 0:
+            root = increasing_root(excess, 0.5 * (before + approach), step=0.25 * (approach - before),
+                                   bounds=(before, approach), tolerance=tolerance)
+            return _found(root, count, tolerance, raise_on_failure)
+        before = approach
+    report = Report("asperity separation", STAGNATED, count, 1 - best.mean_pressure / target, tolerance,
+                    evaluations=count, notes=(f"{definition} carry {best.mean_pressure:.4g} Pa at most",))
+    result = replace(best, report=report)
+    if raise_on_failure:
+        message = (f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most "
+                   f"{best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m")
+        raise ConvergenceError(message, report, result)
+    return result
+
+
+def _scan_count() -> int:
+    return 1 + math.ceil(math.log(SCAN_RANGE[1] / SCAN_RANGE[0]) / math.log(SCAN))
+
+
+def _found(root, count, tolerance, raise_on_failure) -> AsperityResult:
+    status = CONVERGED if root.status == CONVERGED else STAGNATED
+    report = Report("asperity separation", status, len(root.history), abs(root.value), tolerance,
+                    residuals={"load": abs(root.value)}, history=root.history,
+                    evaluations=count + len(root.history))
+    result = replace(root.payload, report=report)
+    if raise_on_failure:
+        report.raise_if_failed(result)
+    return result
+
+
+def _checked(heights, spacing, e_prime, definition, hardness, periodic):
+    heights = validate.array("heights", heights, "m", ndim=2)
+    validate.positive("e_prime", e_prime, "Pa")
+    validate.choice("definition", definition, DEFINITIONS)
+    if hardness is not None:
+        validate.positive("hardness", hardness, "Pa")
+    pair = (periodic, periodic) if np.ndim(periodic) == 0 else tuple(periodic)
+    return heights, validate.spacing("spacing", spacing), (bool(pair[0]), bool(pair[1]))
+
+
+def _loaded(find, flat, separation, spacing, e_prime, hardness, definition) -> AsperityResult:
+    index, overlap, radius = find(flat)
+    area = math.pi * radius * overlap
+    force = 2 / 3 * e_prime * np.sqrt(radius) * overlap**1.5
+    plastic = np.zeros(overlap.size)
+    if hardness is not None:
+        ratio = np.minimum(hardness * area / (1.5 * force), 1.0)                 # P_u/p0
+        force = np.where(ratio < 1, hardness * area * (1 - ratio**2 / 3), force)
+        plastic = area * (1 - ratio**2)
+    whole = flat.size * spacing[0] * spacing[1]
+    return AsperityResult(definition=definition, separation=separation, load=float(force.sum()),
+                          mean_pressure=float(force.sum() / whole), contact_area=float(area.sum()),
+                          contact_area_fraction=float(area.sum() / whole),
+                          plastic_area_fraction=float(plastic.sum() / whole), contacts=overlap.size,
+                          index=index, overlap=overlap, radii=radius, forces=force)
+
+
+def _summit_finder(heights, spacing, periodic):
+    """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
+    inside = np.ones(heights.shape, bool)
+    for axis in range(2):
+        if not periodic[axis]:
+            rim = [slice(None)] * 2
+            rim[axis] = [0, -1]
+            inside[tuple(rim)] = False
+    for i in (-1, 0, 1):
+        for j in (-1, 0, 1):
+            if (i, j) > (0, 0):                     # of equal neighbours the later one is the summit
+                inside &= heights >= np.roll(heights, (-i, -j), (0, 1))
+                inside &= heights > np.roll(heights, (i, j), (0, 1))
+    index = np.argwhere(inside)
+    i, j = index.T
+    nx, ny = heights.shape
+    along_x = 2 * heights[i, j] - heights[(i + 1) % nx, j] - heights[i - 1, j]
+    along_y = 2 * heights[i, j] - heights[i, (j + 1) % ny] - heights[i, j - 1]
+    radius = 2 / (along_x / spacing[0] ** 2 + along_y / spacing[1] ** 2)
+
+    def find(flat):
+        overlap = heights[i, j] - flat[i, j]
+        touching = overlap > 0
+        return index[touching], overlap[touching], radius[touching]
+    return find
+
+
+def _patch_finder(heights, spacing, periodic):
+    """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
+    from scipy import ndimage
+
+    def find(flat):
+        overlap = heights - flat
+        label, count = _join_across_edges(*ndimage.label(overlap > 0, np.ones((3, 3))), periodic)
+        if count == 0:
+            return np.zeros((0, 2), int), np.zeros(0), np.zeros(0)
+        cells = np.flatnonzero(label)
+        order = np.lexsort((overlap.ravel()[cells], label.ravel()[cells]))
+        cells = cells[order]
+        sizes = np.bincount(label.ravel()[cells])[1:]
+        highest = cells[np.cumsum(sizes) - 1]
+        delta = overlap.ravel()[highest]
+        radius = sizes * spacing[0] * spacing[1] / (2 * math.pi * delta)
+        return np.stack(np.unravel_index(highest, heights.shape), axis=1), delta, radius
+    return find
+
+
+def _join_across_edges(label, count, periodic):
+    """Give regions that touch across a periodic edge (also diagonally) one number."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    pairs = [np.zeros((2, 0), int)]
+    for axis in range(2):
+        if periodic[axis]:
+            first, last = np.take(label, 0, axis), np.take(label, -1, axis)
+            for shift in (-1, 0, 1):
+                here, there = last.copy(), np.roll(first, shift)
+                if shift and not periodic[1 - axis]:
+                    there[0 if shift == 1 else -1] = 0
+                both = (here > 0) & (there > 0)
+                pairs.append(np.stack([here[both], there[both]]))
+    a, b = np.concatenate(pairs, axis=1)
+    if count == 0 or a.size == 0:
+        return label, count
+    graph = coo_matrix((np.ones(a.size), (a - 1, b - 1)), shape=(count, count))
+    count, number = connected_components(graph, directed=False)
+    return np.concatenate([[0], number + 1])[label], count
+
+
+_FINDERS = {"summits": _summit_finder, "patches": _patch_finder}
