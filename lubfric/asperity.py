@@ -91,8 +91,9 @@ def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition=
 
     The flat comes down, each approach to the highest point 25 % longer than the last, until the load is
     reached; then that step is searched (Chandrupatla). Stops when
-    ``|load - target|/target <= tolerance``. The load of summits is continuous and decreasing in the separation; that of patches jumps where cells join
-    (a tolerance of 1e-3 suits some hundred contacts) and has a largest value: patches grow together.
+    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the
+    separation; that of patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts)
+    and has a largest value, because patches grow together.
     Raises `InputError`, or `ConvergenceError` with report and the closest result when the model cannot
     carry the load or jumps over it.
     """
