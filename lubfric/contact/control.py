@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..roots import increasing_root
-from .pcg import load_controlled
+from .nested import load_controlled
 from .residual import length_scale
 
 

@@ -1,4 +1,9 @@
-"""Load-controlled contact by a Fourier-preconditioned conjugate gradient on a working set."""
+"""The loop around `Descent`: when to recompute, restart, stop.
+
+Keeping directions while the set changes has no convergence proof, so a residual that stalls switches
+restarts on, and one that still stalls ends the solve as stagnated. The gap is recomputed in double
+precision whenever the residual has fallen a thousandfold and before the loop may end as converged.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..halfspace.operator import filtered, wavenumber
-from ..report import CONVERGED, ITERATION_LIMIT
-from .residual import contact_residuals, length_scale
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED
+from .descent import Descent
+
+REFRESH = 1e-3          # fall of the residual between recomputations
+MARGIN = 0.9            # of the tolerance: leaves room for the final check
+PATIENCE = 40           # iterations without a better residual
 
 
 @dataclass(frozen=True)
 class Found:
-    """Pressure and approach as the iteration left them, and what they cost."""
+    """Pressure [Pa] and approach [m] as an iteration left them, and what they cost."""
 
     pressure: np.ndarray
     approach: float
@@ -21,79 +29,38 @@ class Found:
     solver: str
     iterations: int
     convolutions: int
-    history: list[float]
+    history: tuple[float, ...]
     notes: tuple[str, ...] = ()
 
 
-def load_controlled(problem, mean_pressure: float, start=None) -> Found:
-    """Minimise the elastic energy under the load; see the module."""
-    op, hardness, gap0 = problem.operator, problem.hardness, problem.gap0
-    load = mean_pressure * gap0.size
-    symbol = wavenumber(op.shape, op.spacing)
-    p = np.full_like(gap0, mean_pressure)
-    if start is not None and start.any():
-        p = with_load(start, np.ones(p.shape, bool), load, hardness)
-    u, convolutions, history, d = op.apply(p), 1, [], None
-    for iteration in range(problem.max_iterations + 1):
-        inside = (p > 0) & (p < hardness)
-        r = gap0 + u
-        approach = contact_level(r, p, inside, hardness)
-        r -= approach
-        residuals = contact_residuals(p, r, length_scale(p, u, op), hardness, mean_pressure)
-        history.append(max(residuals.values()))
-        if history[-1] <= 0.9 * problem.tolerance or iteration == problem.max_iterations:
+def conjugate_gradient(problem, pressure, *, load=None, level=None) -> Found:
+    """Solve from ``pressure`` [Pa] (overwritten) for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
+    state = Descent(problem, pressure, load=load, level=level)
+    fresh, moving, restarting = True, False, False
+    best = refreshed = np.inf
+    waiting, iteration, history, previous = 0, 0, [], None
+    while True:
+        work = state.working_set()
+        done = work.residual <= MARGIN * problem.tolerance
+        if not fresh and (done or work.residual < REFRESH * refreshed):
+            state.recompute()
+            fresh, refreshed = True, work.residual
+            continue
+        history.append(work.residual)
+        refreshed = min(refreshed, max(history))
+        if done or iteration == problem.max_iterations:
+            status = CONVERGED if done else ITERATION_LIMIT
             break
-        working = inside | ((p == 0) & (r < 0)) | ((p >= hardness) & (r > 0))
-        r = balanced(r, working)
-        z = balanced(filtered(r, symbol, op.shape, op.workers), working)
-        rz = np.vdot(r, z)
-        if d is None:
-            d = -z
-        else:
-            d = balanced(max(0.0, (rz - np.vdot(r_old, z)) / rz_old) * d - z, working)
-        r_old, rz_old = r, rz
-        kd = op.apply(d)
-        convolutions += 2
-        step = -np.vdot(r, d) / np.vdot(d, kd)
-        p = p + step * d
-        if p.min() >= 0 and p.max() <= hardness:
-            u = u + step * kd
-        else:
-            p = with_load(p, working, load, hardness)
-            u = op.apply(p)
-            convolutions += 1
-    status = CONVERGED if history[-1] <= problem.tolerance else ITERATION_LIMIT
-    return Found(p, approach, status, "preconditioned conjugate gradient", iteration, convolutions, history)
-
-
-def balanced(field, working):
-    """``field`` on the working set with its mean there removed, zero elsewhere."""
-    field = np.where(working, field, 0.0)
-    return np.where(working, field - field.sum() / max(1, np.count_nonzero(working)), 0.0)
-
-
-def contact_level(height, pressure, inside, hardness) -> float:
-    """Approach at which the mean gap over elastic contact cells is zero; without any, the level that
-    parts yielded cells (below) from free ones (above)."""
-    if inside.any():
-        return float(height[inside].mean())
-    free = pressure == 0
-    highest = height[~free].max()
-    return float(0.5 * (highest + max(highest, height[free].min()))) if free.any() else float(highest)
-
-
-def with_load(pressure, working, load: float, hardness: float):
-    """``clip(pressure + s, 0, hardness)`` on the working set, s such that the total is ``load``."""
-    inner = pressure[working]
-    rest = load - (pressure.sum() - inner.sum())
-    shift = 0.0
-    for _ in range(100):
-        trial = np.clip(inner + shift, 0.0, hardness)
-        missing = rest - trial.sum()
-        movable = np.count_nonzero((trial > 0) & (trial < hardness))
-        if abs(missing) <= 1e-15 * load or movable == 0:
-            break
-        shift += missing / movable
-    result = pressure.copy()
-    result[working] = trial
-    return result
+        best, waiting = (work.residual, 0) if work.residual < 0.9 * best else (best, waiting + 1)
+        if waiting > PATIENCE * (1 + 3 * restarting):
+            if restarting:
+                status = STAGNATED
+                break
+            restarting, waiting = True, 0
+        iteration += 1
+        changed = restarting and not np.array_equal(work.cells, previous)
+        d, slope = state.search(work, restart=changed or not moving)
+        moving, previous = state.advance(work, d, slope), work.cells
+        fresh = not moving
+    return Found(state.pressure, float(state.approach), status, "preconditioned conjugate gradient", iteration,
+                 state.convolutions, tuple(history))

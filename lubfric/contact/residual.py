@@ -6,8 +6,6 @@ import math
 
 import numpy as np
 
-ONE_CELL_DEFLECTION = 4 / math.pi
-
 
 def length_scale(pressure, displacement, operator) -> float:
     """Length [m] that gap residuals are measured in: ``max(Σ p u / Σ p, (4/pi) p_mean d/E')``.
@@ -17,14 +15,17 @@ def length_scale(pressure, displacement, operator) -> float:
     height when most of it is pressed flat. The second, the deflection of the shortest ripple that the
     grid resolves (d: the finer spacing) under the mean pressure, takes over where hardly any
     deflection is left to measure by, as in full contact. Both scale with the lengths, and not with E'
-    and p together.
+    and p together. Infinite without load.
     """
-    total = pressure.sum()
-    if total == 0:
+    return deflection_scale(np.vdot(pressure, displacement), pressure.sum(), operator)
+
+
+def deflection_scale(energy: float, total: float, operator) -> float:
+    """`length_scale` from Σ p u [Pa m] and Σ p [Pa]."""
+    if total <= 0:
         return math.inf
-    indentation = np.vdot(pressure, displacement) / total
-    return float(max(indentation, ONE_CELL_DEFLECTION * total / pressure.size
-                     * min(operator.spacing) / operator.e_prime))
+    ripple = 4 / math.pi * total / math.prod(operator.shape) * min(operator.spacing) / operator.e_prime
+    return float(max(energy / total, ripple))
 
 
 def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from .control import gap_controlled
-from .pcg import load_controlled
+from .nested import load_controlled
 from .problem import check_control, make_problem, starting_pressure
 from .residual import contact_residuals, length_scale
 from .result import ContactResult

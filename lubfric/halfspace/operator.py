@@ -45,6 +45,18 @@ class HalfSpace:
         """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""
         return replace(self, symbol=self.symbol.astype(dtype))
 
+    def coarsened(self, factors) -> HalfSpace:
+        """The operator on cells ``factors`` (fx, fy) times as long, from the low frequencies of this one.
+
+        Exact when periodic; close to the operator of the coarse grid when free. ``padded`` must be even
+        multiples of the factors.
+        """
+        shape = tuple(n // f for n, f in zip(self.shape, factors))
+        padded = tuple(m // f for m, f in zip(self.padded, factors))
+        spacing = tuple(d * f for d, f in zip(self.spacing, factors))
+        symbol = np.ascontiguousarray(self.symbol[:padded[0] // 2 + 1, :padded[1] // 2 + 1])
+        return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
+
 
 def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
     """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back."""
@@ -82,10 +94,14 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
         validate.choice(f"boundary[{axis}]", kind, KINDS)
     if workers is not None:
         workers = validate.integer("workers", workers, minimum=1)
-    padded = tuple(n if kind == "periodic" else max(2, fft.next_fast_len(2 * n - 1, real=axis == 1))
-                   for axis, (n, kind) in enumerate(zip(shape, boundary)))
+    padded = tuple(n if kind == "periodic" else _padded_length(n) for n, kind in zip(shape, boundary))
     symbol = _symbol(shape, spacing, e_prime, boundary, padded)
     return HalfSpace(shape, spacing, e_prime, boundary, padded, symbol, workers)
+
+
+def _padded_length(n: int) -> int:
+    """At least 2 n - 1, a multiple of 4 (so that grids can be halved) with small prime factors."""
+    return 4 * fft.next_fast_len(-(-(2 * n - 1) // 4), real=True)
 
 
 def _grid_shape(shape) -> tuple[int, int]:

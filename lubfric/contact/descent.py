@@ -1,0 +1,170 @@
+"""One step of the working-set conjugate gradient: find the set, search, advance.
+
+The working set holds the cells whose pressure may change: elastic contact (0 < p < H), overlap
+without pressure, yielded cells that have opened. On it the gap is the gradient of the energy. The
+preconditioner multiplies by |k|, the inverse of the half-space up to a factor. The step is exact for
+a fixed set, then cut to 0 <= p <= H and, under a given load, shifted to carry it. Directions are kept
+when the set changes, where I. A. Polonsky and L. M. Keer (Wear 231 (1999) 206-219,
+doi:10.1016/S0043-1648(99)00113-1) restart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..halfspace.operator import filtered, wavenumber
+from .residual import deflection_scale
+
+
+@dataclass(frozen=True)
+class WorkingSet:
+    """Flat indices of the set, pressure [Pa] and gap [m] there, and the worst residual of the whole field."""
+
+    cells: np.ndarray
+    pressure: np.ndarray
+    gap: np.ndarray
+    residual: float
+
+
+class Descent:
+    """The fields of one solve, changed in place, and the steps that change them.
+
+    ``pressure`` [Pa] and ``height`` = gap0 + K p [m] are double; search directions and convolutions of
+    changes are single, so ``height`` drifts by rounding until `recompute`. Exactly one of ``load``
+    (total, Pa cells) and ``level`` (approach, m) is given.
+    """
+
+    def __init__(self, problem, pressure, *, load=None, level=None):
+        self.problem, self.load, self.level = problem, load, level
+        self.pressure = pressure
+        self.fast = problem.operator.astype(np.float32)
+        self.inverse = preconditioner(problem.operator)
+        self.direction, self.residue, self.scratch = (np.zeros(pressure.shape, np.float32) for _ in range(3))
+        self.power = np.inf
+        self.convolutions = 0
+        self.recompute()
+
+    def recompute(self) -> None:
+        """Height from the pressure alone, in double precision."""
+        self.height = self.problem.operator.apply(self.pressure)
+        self.height += self.problem.gap0
+        self.convolutions += 1
+        self.approach = self._level(self.pressure.ravel(), self.height.ravel())
+
+    def _level(self, pressure, height) -> float:
+        """Prescribed approach, or the one at which the mean gap over elastic contact is zero; where nothing is
+        elastic, the level that parts yielded cells (below) from free ones (above)."""
+        if self.level is not None:
+            return self.level
+        inside = (pressure > 0) & (pressure < self.problem.hardness)
+        if inside.any():
+            return float(height[inside].mean())
+        yielded = self.pressure > 0
+        highest = self.height[yielded].max()
+        lowest_free = self.height[~yielded].min() if not yielded.all() else highest
+        return float(0.5 * (highest + max(highest, lowest_free)))
+
+    def working_set(self) -> WorkingSet:
+        """Where the pressure may change, and the worst of complementarity and penetration."""
+        hardness = self.problem.hardness
+        candidate = self.height < self.approach
+        candidate |= self.pressure > 0
+        cells = np.flatnonzero(candidate)
+        pressure, gap = self.pressure.ravel()[cells], self.height.ravel()[cells]
+        total = pressure.sum()
+        energy = pressure @ (gap - self.problem.gap0.ravel()[cells])
+        gap -= self.approach
+        if np.isfinite(hardness):
+            keep = (pressure < hardness) | (gap > 0)
+            cells, pressure, gap = cells[keep], pressure[keep], gap[keep]
+        if not cells.size:
+            return WorkingSet(cells, pressure, gap, 0.0)
+        scale = deflection_scale(energy, total, self.problem.operator)
+        overlap = max(0.0, -gap[pressure < hardness].min(initial=0.0))
+        misfit = pressure @ np.abs(gap) / total if total > 0 else 0.0
+        return WorkingSet(cells, pressure, gap, float(max(overlap, misfit) / scale))
+
+    def search(self, work: WorkingSet, restart: bool) -> tuple[np.ndarray, float]:
+        """Conjugate direction on the set (Polak-Ribiere, never negative) and its slope."""
+        r = self._balanced(work.gap)
+        self._scatter(self.scratch, work.cells, r)
+        operator = self.problem.operator
+        z = filtered(self.scratch, self.inverse, operator.shape, operator.workers).ravel()[work.cells]
+        z = self._balanced(z.astype(float))
+        self.convolutions += 1
+        d = -z
+        if not restart:
+            keep = (r @ z - self.residue.ravel()[work.cells] @ z) / self.power
+            d += max(0.0, keep) * self.direction.ravel()[work.cells]
+            d = self._balanced(d)
+        self.residue, self.scratch, self.power = self.scratch, self.residue, r @ z
+        return d, float(r @ d)
+
+    def advance(self, work: WorkingSet, d: np.ndarray, slope: float) -> bool:
+        """Exact step along ``d``, made admissible; False when there is nowhere to go."""
+        self._scatter(self.direction, work.cells, d)
+        change = self.fast.apply(self.direction)
+        self.convolutions += 1
+        curvature = float(d @ change.ravel()[work.cells])
+        if not (curvature > 0 and slope < 0):
+            return False
+        step = -slope / curvature
+        new = work.pressure + step * d
+        if new.min() >= 0 and new.max() <= self.problem.hardness:
+            change *= np.float32(step)
+        else:
+            new = self._admissible(new, work)
+            self._scatter(self.scratch, work.cells, new - work.pressure)
+            change = self.fast.apply(self.scratch)
+            self.convolutions += 1
+        self.pressure.ravel()[work.cells] = new
+        self.height += change
+        self.approach = self._level(new, self.height.ravel()[work.cells])
+        return True
+
+    def _admissible(self, trial, work: WorkingSet) -> np.ndarray:
+        if self.load is None:
+            return np.clip(trial, 0.0, self.problem.hardness)
+        yielded_outside = self.pressure.sum() - work.pressure.sum()
+        return with_load(trial, self.load - yielded_outside, self.problem.hardness)
+
+    def _balanced(self, values) -> np.ndarray:
+        return values if self.load is None else values - values.mean()
+
+    @staticmethod
+    def _scatter(field, cells, values) -> None:
+        field.fill(0)
+        field.ravel()[cells] = values
+
+
+def preconditioner(operator) -> np.ndarray:
+    """|k| [rad/m] on the unpadded grid; at k = 0 half of the smallest, for problems without a load."""
+    symbol = wavenumber(operator.shape, operator.spacing).astype(np.float32)
+    rest = symbol.ravel()[1:]
+    symbol[0, 0] = 0.5 * rest.min() if rest.size else 1.0
+    return symbol
+
+
+def with_load(pressure, load: float, hardness: float) -> np.ndarray:
+    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load`` (0 <= load <= hardness size).
+
+    Newton's method on the piecewise linear sum; where nothing can move, s jumps to the next cell that can.
+    """
+    shift = 0.0
+    for _ in range(200):
+        result = np.clip(pressure + shift, 0.0, hardness)
+        missing = load - result.sum()
+        movable = np.count_nonzero((result > 0) & (result < hardness))
+        if abs(missing) <= 1e-15 * load:
+            break
+        if movable:
+            shift += missing / movable
+        elif missing > 0 and (result < hardness).any():
+            shift = -pressure[result < hardness].max() + missing / result.size
+        elif missing < 0 and (result > 0).any():
+            shift = hardness - pressure[result > 0].min() + missing / result.size
+        else:
+            break
+    return result
