@@ -28,7 +28,7 @@ from .roots import increasing_root
 
 DEFINITIONS = ("summits", "patches")
 SCAN = 1.25                     # ratio between neighbouring approaches of the scan for a load
-SCAN_RANGE = (1e-5, 4.0)        # of the height range
+SCAN_RANGE = (1e-5, 1.0)        # of the height range: down to the deepest valley
 
 
 @dataclass(frozen=True)
@@ -89,8 +89,8 @@ def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition=
                         periodic=True, tolerance=1e-3, raise_on_failure=True) -> AsperityResult:
     """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.
 
-    The flat comes down, each approach to the highest point 25 % longer than the last, until the load is
-    reached; then that step is searched (Chandrupatla). Stops when
+    The flat comes down, each approach to the highest point 25 % longer than the last and none below the
+    deepest valley, until the load is reached; then that step is searched (Chandrupatla). Stops when
     ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the
     separation; that of patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts)
     and has a largest value, because patches grow together.
