@@ -30,19 +30,21 @@ class ContactCurve:
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
 
-        Cubic (shape-preserving) in the logarithm of the pressure between the nodes; below the lightest
-        one a single Hertz asperity: approach ~ p^(2/3), area ~ p^(2/3).
+        Cubic (shape-preserving) in the logarithm of the pressure between the nodes: the gap, the
+        logarithm of the area, the plastic share of the area. Below the lightest node a single Hertz
+        asperity: approach and area ~ p^(2/3).
         """
         from scipy.interpolate import PchipInterpolator
         pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
+        gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
         lightest = self.mean_pressure[-1]
         if pressure <= lightest:
             share = (pressure / lightest) ** (2 / 3)
-            return (self.touching_gap - share * (self.touching_gap - self.mean_gap[-1]),
-                    share * self.contact_area_fraction[-1], share * self.plastic_area_fraction[-1])
-        table = np.stack([self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction])[:, ::-1]
+            return self.touching_gap - share * (self.touching_gap - gap[-1]), share * area[-1], share * plastic[-1]
+        table = np.stack([gap, np.log(area), plastic / area])[:, ::-1]
         values = PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)(np.log(pressure))
-        return tuple(float(v) for v in values)
+        touching = float(np.exp(values[1]))
+        return float(values[0]), touching, float(values[2]) * touching
 
 
 def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, operator=None) -> ContactCurve:

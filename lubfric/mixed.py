@@ -74,10 +74,11 @@ def prepare(scene: Scene) -> Model:
     heights = surface.heights - surface.heights.mean()
     if scene.contact.geometry == "flat":
         operator = half_space(heights.shape, surface.spacing, bodies.e_prime, workers=numerics.workers)
-        curve = contact_curve(heights, surface.spacing, bodies.e_prime, heaviest=bodies.mean_hertz_pressure,
-                              hardness=bodies.hardness, tolerance=numerics.pressure_tolerance, operator=operator)
+        area = 2 * bodies.half_width * bodies.width
+        curve = contact_curve(heights, surface.spacing, bodies.e_prime, heaviest=bodies.load / area, hardness=bodies.hardness,
+                              tolerance=numerics.pressure_tolerance, operator=operator)
         x = centred_axis(STRIP_POINTS, 2 * bodies.half_width / STRIP_POINTS)
-        return Model(scene, surface, FlatPatch(curve, x, 2 * bodies.half_width * bodies.width))
+        return Model(scene, surface, FlatPatch(curve, x, area))
     step = surface.spacing[0]
     x = centred_axis(heights.shape[0], step)
     weight = np.ones(x.size) if scene.contact.region == "box" else strip_weight(x, step, bodies.half_width)

@@ -117,13 +117,13 @@ def test_pure_rolling_has_no_boundary_friction():
 
 def test_the_plastic_limit_carries_less_separation():
     elastic = lubfric.friction(prepare(SCENE.with_(bodies={"hardness": None})), 0.003)
-    soft = lubfric.friction(prepare(SCENE.with_(bodies={"hardness": 2e9})), 0.003)
+    soft = lubfric.friction(prepare(SCENE.with_(bodies={"hardness": 1e9})), 0.003)
     assert elastic.plastic_area_fraction == 0 < soft.plastic_area_fraction
     assert soft.mean_gap < elastic.mean_gap and soft.film_load > elastic.film_load
 
 
 def test_a_contact_at_the_edge_of_the_patch_is_an_error():
-    narrow = SCENE.with_(contact={"shape": (16, 96)}, surface={"sq": 2e-6})
+    narrow = SCENE.with_(surface={"sq": 2e-6})
     with pytest.raises(lubfric.InputError, match="edge columns"):
         lubfric.friction(narrow, 1e-4)
 

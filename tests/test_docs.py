@@ -1,0 +1,43 @@
+"""The documents keep their word: every scene key is described, the CI runs the README's command, examples run."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from lubfric.scene_file import EXTRA_KEYS, SECTIONS
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_every_scene_key_is_documented(section):
+    text = (ROOT / "docs" / "scene.md").read_text()
+    part = text.split(f"## [{section}]")[1].split("\n## ")[0]
+    for key in [f.name for f in fields(SECTIONS[section])] + list(EXTRA_KEYS.get(section, ())):
+        assert f"`{key}`" in part, f"[{section}] {key} is missing in docs/scene.md"
+
+
+def test_ci_runs_the_readme_test_command():
+    readme, ci = (ROOT / "README.md").read_text(), (ROOT / ".ci" / "run").read_text()
+    command = next(line for line in readme.splitlines() if line.endswith("-m pytest"))
+    environment = command.split("-m venv ")[1].split()[0]
+    assert command.replace(environment, '"$environment"').replace('"$environment"/', '"$environment/').replace(
+        "/bin/pip", '/bin/pip"').replace("/bin/python", '/bin/python"') in ci
+
+
+@pytest.mark.parametrize("script", sorted((ROOT / "docs" / "examples").glob("*.py")), ids=lambda p: p.name)
+def test_examples_run(script, tmp_path, monkeypatch):
+    import runpy
+    monkeypatch.chdir(tmp_path)
+    namespace = runpy.run_path(str(script))
+    namespace["main"]()
+
+
+def test_example_scenes_are_valid_but_for_their_file(tmp_path):
+    import numpy as np
+
+    import lubfric
+    np.save(tmp_path / "map.npy", np.zeros((4, 4)))
+    for scene in sorted((ROOT / "docs" / "examples").glob("*.toml")):
+        assert lubfric.load_scene(scene, surface_file=tmp_path / "map.npy").bodies.load > 0
