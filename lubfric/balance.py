@@ -10,7 +10,8 @@ from .patch import Closure
 from .report import CONVERGED, Report
 from .roots import increasing_root
 
-BOUNDS = (-40.0, 40.0)     # of ln(F_H/F_C): shares down to 4e-18
+BOUNDS = (-40.0, 30.0)     # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+NEARLY_SEPARATED = 3.0     # where to look next to a speed at which the film carries everything
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Balance:
     def split(self) -> float:
         """ln(F_H/F_C), the unknown of the root, as a start for a neighbouring speed."""
         if self.contact_load == 0:
-            return BOUNDS[1]
+            return NEARLY_SEPARATED
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
 

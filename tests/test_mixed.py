@@ -123,9 +123,10 @@ def test_the_plastic_limit_carries_less_separation():
 
 
 def test_a_contact_at_the_edge_of_the_patch_is_an_error():
-    narrow = SCENE.with_(surface={"sq": 2e-6})
+    ridge = np.zeros((96, 1))
+    ridge[0] = 5e-6
     with pytest.raises(lubfric.InputError, match="edge columns"):
-        lubfric.friction(narrow, 1e-4)
+        lubfric.friction(with_heights(MODEL, lambda z: z + ridge), 1e-3)
 
 
 @pytest.fixture(scope="module")
