@@ -43,8 +43,13 @@ def parser() -> argparse.ArgumentParser:
     level.add_argument("--quick", dest="level", action="store_const", const="quick", help="about a minute")
     level.add_argument("--full", dest="level", action="store_const", const="full", help="finest meshes")
     p.add_argument("--only", nargs="+", metavar="NAME", help="run only these studies")
-    p.add_argument("--out", type=Path, default=Path("out/verification"), metavar="DIR",
-                   help="where the report goes (default: %(default)s)")
+    p.add_argument(
+        "--out",
+        type=Path,
+        default=Path("out/verification"),
+        metavar="DIR",
+        help="where the report goes (default: %(default)s)",
+    )
     p.add_argument("--list", action="store_true", help="name the studies and stop")
     p.set_defaults(level="default")
     return p
@@ -82,8 +87,9 @@ def run_all(studies: tuple[Study, ...], level: str, out: Path) -> int:
     outcomes, interrupted = [], False
 
     def save(complete: bool) -> reports.Report:
-        so_far = reports.Report(level, names, tuple(outcomes), complete, started,
-                                time.perf_counter() - start, machine)
+        so_far = reports.Report(
+            level, names, tuple(outcomes), complete, started, time.perf_counter() - start, machine
+        )
         reports.save(so_far, out)
         return so_far
 
@@ -102,7 +108,11 @@ def run_all(studies: tuple[Study, ...], level: str, out: Path) -> int:
 
 def tell_study(study: Study, names: tuple[str, ...]) -> None:
     """Progress on stderr: which study starts."""
-    print(f"[{names.index(study.name) + 1}/{len(names)}] {study.name}: {study.title}", file=sys.stderr, flush=True)
+    print(
+        f"[{names.index(study.name) + 1}/{len(names)}] {study.name}: {study.title}",
+        file=sys.stderr,
+        flush=True,
+    )
 
 
 def tell_check(check: Check) -> None:

@@ -56,10 +56,14 @@ class Check:
         if not self.name.strip() or not self.source.strip():
             raise ValueError(f"check {self.name!r}: a name and a source are needed")
         if not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
-            raise ValueError(f"check {self.name!r}: expected = {self.expected}, tolerance = {self.tolerance}; "
-                             "allowed: finite, tolerance >= 0")
+            raise ValueError(
+                f"check {self.name!r}: expected = {self.expected}, tolerance = {self.tolerance}; "
+                "allowed: finite, tolerance >= 0"
+            )
         if self.kind == RELATIVE and self.expected == 0:
-            raise ValueError(f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'")
+            raise ValueError(
+                f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'"
+            )
 
     @property
     def deviation(self) -> float:
@@ -95,8 +99,9 @@ class Table:
         object.__setattr__(self, "rows", tuple(tuple(row) for row in self.rows))
         wrong = [row for row in self.rows if len(row) != len(self.columns)]
         if wrong:
-            raise ValueError(f"table {self.name!r}: a row has {len(wrong[0])} values for "
-                             f"{len(self.columns)} columns")
+            raise ValueError(
+                f"table {self.name!r}: a row has {len(wrong[0])} values for {len(self.columns)} columns"
+            )
 
 
 @dataclass(frozen=True)

@@ -52,8 +52,9 @@ class Slider:
 class Parabola:
     """Rigid parabolic film ``h0 + x^2/(2R)`` flooded from ``x = inlet sqrt(2 R h0)``, Reynolds' outlet.
 
-    In X = x/sqrt(2 R h0) the pressure is ``12 eta U sqrt(2 R h0)/h0^2 P(X)``, ``dP/dX = (X^2 - Xe^2)/(1 + X^2)^3``,
-    with Xe such that P vanishes at the inlet (Martin 1916; Gumbel; for inlet = -inf, Xe = 0.4751299).
+    In X = x/sqrt(2 R h0) the pressure is ``12 eta U sqrt(2 R h0)/h0^2 P(X)`` with
+    ``dP/dX = (X^2 - Xe^2)/(1 + X^2)^3`` and Xe such that P vanishes at the inlet (Martin 1916; Gumbel 1916;
+    for inlet = -inf, Xe = 0.4751299).
     """
 
     viscosity: float
@@ -75,7 +76,9 @@ class Parabola:
     @property
     def exit(self) -> float:
         """Xe, where both P and dP/dX vanish."""
-        return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
+        return float(
+            brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15)
+        )
 
     def film(self, x):
         """Film thickness at x[0] in m."""
@@ -91,8 +94,13 @@ class Parabola:
     def load(self) -> float:
         """``integral p dx`` in N/m, by parts: ``- integral X dP``."""
         xe = self.exit
-        lift = quad(lambda t: -np.tan(t) * (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 4, np.arctan(self.inlet),
-                    np.arctan(xe), epsabs=1e-13, epsrel=1e-13)[0]
+        lift = quad(
+            lambda t: -np.tan(t) * (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 4,
+            np.arctan(self.inlet),
+            np.arctan(xe),
+            epsabs=1e-13,
+            epsrel=1e-13,
+        )[0]
         return self.pressure_scale * self.scale * lift
 
     @property
@@ -103,14 +111,24 @@ class Parabola:
     @property
     def couette(self) -> float:
         """``integral eta dx/h`` from inlet to exit, friction for unit sliding speed, N s/m^2."""
-        return self.viscosity * self.scale / self.film_thickness * float(np.arctan(self.exit) - np.arctan(self.inlet))
+        return (
+            self.viscosity
+            * self.scale
+            / self.film_thickness
+            * float(np.arctan(self.exit) - np.arctan(self.inlet))
+        )
 
     @property
     def rolling(self) -> float:
         """``integral (h/2) dp/dx dx``, N/m."""
         xe = self.exit
-        lift = quad(lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2, np.arctan(self.inlet), np.arctan(xe),
-                    epsabs=1e-13, epsrel=1e-13)[0]
+        lift = quad(
+            lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2,
+            np.arctan(self.inlet),
+            np.arctan(xe),
+            epsabs=1e-13,
+            epsrel=1e-13,
+        )[0]
         return self.pressure_scale * self.film_thickness / 2 * lift
 
 
@@ -125,9 +143,9 @@ def antiderivative(big_x, xe: float):
 class ExponentialPad:
     """Pad of finite width with film ``inlet exp(-g x)``, from ``inlet`` to ``outlet`` over ``length``.
 
-    p = 0 on all four sides, |y| <= width/2. With p = sum_n f_n(x) cos(k_n y), k_n = n pi/width, n odd, each f_n
-    solves ``f'' - 3 g f' - k^2 f = c_n exp(2 g x)``, which exponentials do; the series is summed to ``terms`` terms.
-    The tail of its load falls like ``terms^-4``, once ``k_n length`` is beyond 1.
+    p = 0 on all four sides, |y| <= width/2. With p = sum_n f_n(x) cos(k_n y), k_n = n pi/width, n odd, each
+    f_n solves ``f'' - 3 g f' - k^2 f = c_n exp(2 g x)``, which exponentials do; the series is summed to
+    ``terms`` terms. The tail of its load falls like ``terms^-4``, once ``k_n length`` is beyond 1.
     """
 
     viscosity: float
@@ -148,7 +166,7 @@ class ExponentialPad:
         return self.inlet * np.exp(-self.decay * x[0])
 
     def modes(self):
-        """For each n: k, particular amplitude A, and the coefficients and exponents of the two homogeneous parts.
+        """For each n: k, particular amplitude, coefficients and exponents of the two homogeneous parts.
 
         The rising exponential is written about the outlet, so that neither overflows.
         """
@@ -170,8 +188,11 @@ class ExponentialPad:
         """Pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):
-            along = (special * np.exp(2 * self.decay * x[0]) + first * np.exp(down * x[0])
-                     + second * np.exp(up * (x[0] - self.length)))
+            along = (
+                special * np.exp(2 * self.decay * x[0])
+                + first * np.exp(down * x[0])
+                + second * np.exp(up * (x[0] - self.length))
+            )
             p += along * np.cos(k * x[1])
         return p
 
@@ -180,8 +201,11 @@ class ExponentialPad:
         """``integral p``, N."""
         k, special, first, second, up, down = self.modes()
         length, g = self.length, self.decay
-        along = (special * np.expm1(2 * g * length) / (2 * g) + first * np.expm1(down * length) / down
-                 - second * np.expm1(-up * length) / up)
+        along = (
+            special * np.expm1(2 * g * length) / (2 * g)
+            + first * np.expm1(down * length) / down
+            - second * np.expm1(-up * length) / up
+        )
         return float((along * 2 / k * np.sin(k * self.width / 2)).sum())
 
     @property
@@ -191,8 +215,9 @@ class ExponentialPad:
         third, second = np.expm1(3 * g * length) / (3 * g), np.expm1(2 * g * length) / (2 * g)
         neck = second / third  # Q/U times 1/inlet: makes the pressure vanish at both ends
         scale = 12 * self.viscosity * self.speed / self.inlet**2
-        lift = quad(lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length,
-                    epsrel=1e-13)[0]
+        lift = quad(
+            lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length, epsrel=1e-13
+        )[0]
         return scale * lift
 
     @property
@@ -212,12 +237,14 @@ def roelands_to_true(reduced, exponent: float, index: float, pressure: float = 1
 
     ``eta/eta0 = exp(exponent ((1 + s/pressure)^index - 1))``; solved point by point to rounding.
     """
+
     def fluidity(s):
         return np.exp(-exponent * ((1 + s / pressure) ** index - 1))
 
     def solve(q):
         def over(p):
             return quad(fluidity, 0, p, epsrel=1e-12, epsabs=0)[0] - q if p else -q
+
         high = q
         while over(high) < 0:
             high *= 1.5
@@ -235,10 +262,12 @@ def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray
     ``(p h^3/(12 eta)) dp/dx = p U h - q`` with absolute p is integrated from the outlet upstream, the stable
     direction, and the flow q found such that the inlet is at ambient pressure. Relative error below 1e-9.
     """
+
     def upstream(q, where=None):
         def rate(x, p):
             h = slider.film([x])
             return 12 * slider.viscosity * (slider.speed / h**2 - q / (p * h**3))
+
         span = (slider.length, 0.0)
         return solve_ivp(rate, span, [ambient], "LSODA", t_eval=where, rtol=1e-11, atol=1e-9 * ambient)
 

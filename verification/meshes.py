@@ -8,8 +8,13 @@ import numpy as np
 
 from .check import Field
 
-CELL_NAMES = {"MeshLine": "line", "MeshTri": "triangle", "MeshQuad": "quad", "MeshTet": "tetra",
-              "MeshHex": "hexahedron"}
+CELL_NAMES = {
+    "MeshLine": "line",
+    "MeshTri": "triangle",
+    "MeshQuad": "quad",
+    "MeshTet": "tetra",
+    "MeshHex": "hexahedron",
+}
 
 
 def read_gmsh(path) -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
@@ -39,8 +44,10 @@ def read_gmsh(path) -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.nda
     physical = mesh.cell_data.get("gmsh:physical", [np.zeros(len(b.data), dtype=int) for b in mesh.cells])
     names = dict.fromkeys(block.type for block in mesh.cells)
     cells = {n: np.concatenate([b.data for b in mesh.cells if b.type == n]) for n in names}
-    groups = {n: np.concatenate([g for b, g in zip(mesh.cells, physical, strict=True) if b.type == n])
-              for n in names}
+    groups = {
+        n: np.concatenate([g for b, g in zip(mesh.cells, physical, strict=True) if b.type == n])
+        for n in names
+    }
     return np.asarray(mesh.points, dtype=float), cells, groups
 
 
@@ -68,8 +75,12 @@ def write_vtu(path, field: Field) -> Path:
     for name, values in field.point_data.items():
         if len(values) != count:
             raise ValueError(f"field {field.name!r}: {name} has {len(values)} values for {count} points")
-    meshio.Mesh(in_space(field.points), list(field.cells.items()), point_data=dict(field.point_data),
-                cell_data=dict(field.cell_data)).write(path, file_format="vtu")
+    meshio.Mesh(
+        in_space(field.points),
+        list(field.cells.items()),
+        point_data=dict(field.point_data),
+        cell_data=dict(field.cell_data),
+    ).write(path, file_format="vtu")
     return Path(path)
 
 
@@ -98,5 +109,11 @@ def mesh_field(name: str, caption: str, mesh, point_data=None, cell_data=None) -
     if kind is None:
         raise ValueError(f"field {name!r}: no cell name is known for {type(mesh).__name__}")
     vertices = len(mesh.elem.refdom.p.T)
-    return Field(name, caption, mesh.p.T, {kind: mesh.t[:vertices].T}, dict(point_data or {}),
-                 {k: [np.asarray(v)] for k, v in (cell_data or {}).items()})
+    return Field(
+        name,
+        caption,
+        mesh.p.T,
+        {kind: mesh.t[:vertices].T},
+        dict(point_data or {}),
+        {k: [np.asarray(v)] for k, v in (cell_data or {}).items()},
+    )

@@ -16,7 +16,8 @@ CSS = """
 body { margin: 0 auto; padding: 1rem; max-width: 70rem; font: 16px/1.5 system-ui, sans-serif;
   color: var(--ink); background: var(--paper); overflow-wrap: anywhere; }
 h1 { font-size: 1.5rem; line-height: 1.25; margin: 0 0 .5rem; }
-h2 { font-size: 1.2rem; line-height: 1.3; margin: 2.5rem 0 .5rem; border-top: 1px solid var(--line); padding-top: 1rem; }
+h2 { font-size: 1.2rem; line-height: 1.3; margin: 2.5rem 0 .5rem; padding-top: 1rem;
+  border-top: 1px solid var(--line); }
 h3 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
 a { color: var(--link); }
 .verdict { font-weight: 600; padding: .6rem .8rem; border-left: .3rem solid; background: var(--soft); }
@@ -25,17 +26,22 @@ a { color: var(--link); }
 table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th { text-align: left; font-weight: 600; color: var(--dim); }
 th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top;
-  overflow-wrap: break-word; }
+  overflow-wrap: anywhere; }
+[data-label=Check] { min-width: 11rem; }
+[data-label=Measured], [data-label=Allowed] { min-width: 7rem; }
 [data-label=Verdict], [data-label=Time] { white-space: nowrap; }
 figure { margin: 1.5rem 0; }
 figure img { max-width: 100%; height: auto; display: block; background: #fff; border-radius: .3rem; }
 figcaption, caption { text-align: left; color: var(--dim); font-size: .875rem; padding: .4rem 0; }
 pre { overflow-x: auto; background: var(--soft); padding: .6rem; font-size: .8rem; overflow-wrap: normal; }
 .scroll { overflow-x: auto; }
+.scroll th, .scroll td { white-space: nowrap; padding-right: 1rem; }
 @media (max-width: 44rem) {
   .cards thead { display: none; }
-  .cards tr { display: grid; grid-template-columns: 6rem 1fr; border-bottom: 1px solid var(--line); padding: .5rem 0; }
-  .cards td { grid-column: 1 / 3; display: grid; grid-template-columns: subgrid; border: 0; padding: .1rem 0; }
+  .cards tr { display: grid; grid-template-columns: 6rem 1fr; padding: .5rem 0;
+    border-bottom: 1px solid var(--line); }
+  .cards td { min-width: 0; grid-column: 1 / 3; display: grid; grid-template-columns: subgrid; border: 0;
+    padding: .1rem 0; }
   .cards td:empty { display: none; }
   .cards td::before { content: attr(data-label); color: var(--dim); }
   .cards td > * { min-width: 0; overflow-wrap: anywhere; }
@@ -49,15 +55,18 @@ def render(report) -> str:
     state = "good" if report.passed else "bad"
     failed = [(o, c) for o in report.outcomes for c in o.checks if not c.passed]
     parts = [
-        "<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8">',
+        "<!DOCTYPE html>",
+        '<html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<link rel="icon" href="data:,">',
         f"<title>lubfric verification: {escape(report.verdict)}</title><style>{CSS}</style></head><body>",
         "<h1>lubfric verification</h1>",
         f'<p class="verdict {state}">{escape(report.verdict)}</p>',
         f'<p class="dim">Level {escape(report.level)}, {escape(report.started)}, {report.seconds:.0f} s. '
-        + escape(", ".join(f"{k} {v}" for k, v in report.environment.items())) + "</p>",
-        overview(report)]
+        + escape(", ".join(f"{k} {v}" for k, v in report.environment.items()))
+        + "</p>",
+        overview(report),
+    ]
     if failed:
         parts.append("<h2>What failed</h2>" + checks_table([c for _, c in failed]))
     parts += [section(o) for o in report.outcomes]
@@ -74,49 +83,81 @@ def overview(report) -> str:
             continue
         o = done[name]
         ok = sum(c.passed for c in o.checks)
-        rows.append((f'<a href="#{escape(name)}">{escape(o.study.title)}</a>', mark(o.passed),
-                     f"{ok} of {len(o.checks)}", seconds(o.seconds), f"{o.peak_memory / 2**30:.2f} GiB"))
+        rows.append(
+            (
+                f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
+                mark(o.passed),
+                f"{ok} of {len(o.checks)}",
+                seconds(o.seconds),
+                f"{o.peak_memory / 2**30:.2f} GiB",
+            )
+        )
     return html_table(("Study", "Verdict", "Checks", "Time", "Peak memory"), rows)
 
 
 def section(outcome) -> str:
     """Everything one study handed over."""
-    parts = [f'<h2 id="{escape(outcome.study.name)}">{escape(outcome.study.title)}</h2>',
-             *(f'<p class="text">{escape(" ".join(p.split()))}</p>' for p in outcome.description.split("\n\n"))]
+    parts = [
+        f'<h2 id="{escape(outcome.study.name)}">{escape(outcome.study.title)}</h2>',
+        *(f'<p class="text">{escape(" ".join(p.split()))}</p>' for p in outcome.description.split("\n\n")),
+    ]
     if outcome.error:
-        parts.append(f'<p class="verdict bad">{escape(outcome.error)}</p><details><summary>Traceback</summary>'
-                     f"<pre>{escape(outcome.trace)}</pre></details>")
+        parts.append(
+            f'<p class="verdict bad">{escape(outcome.error)}</p><details><summary>Traceback</summary>'
+            f"<pre>{escape(outcome.trace)}</pre></details>"
+        )
     parts.append(checks_table(outcome.checks))
     parts += [figure(f) for f in outcome.figures]
     parts += [data_table(t) for t in outcome.tables]
     if outcome.fields:
-        files = "".join(f"<li>{escape(outcome.study.name)}_{escape(f.name)}.vtu: {escape(f.caption)}</li>"
-                        for f in outcome.fields)
+        files = "".join(
+            f"<li>{escape(outcome.study.name)}_{escape(f.name)}.vtu: {escape(f.caption)}</li>"
+            for f in outcome.fields
+        )
         parts.append(f"<h3>Fields, beside this page as VTU</h3><ul>{files}</ul>")
     return "\n".join(parts)
 
 
 def checks_table(checks) -> str:
     """The checks of a study, or the failed ones of all."""
-    rows = [(mark(c.passed), escape(c.name), escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
-             escape(allowed(c)), escape(c.source + (f". {c.note}" if c.note else "")), seconds(c.seconds))
-            for c in checks]
+    rows = [
+        (
+            mark(c.passed),
+            escape(c.name),
+            escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
+            escape(allowed(c)),
+            escape(c.source + (f". {c.note}" if c.note else "")),
+            seconds(c.seconds),
+        )
+        for c in checks
+    ]
     return html_table(("Verdict", "Check", "Measured", "Allowed", "Source", "Time"), rows)
 
 
 def data_table(table) -> str:
     """A table of a study; a wide one scrolls inside its own box."""
     head = "".join(f"<th>{escape(str(c))}</th>" for c in table.columns)
-    body = "".join("<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows)
-    return (f'<div class="scroll"><table><caption>{escape(table.caption)}</caption><thead><tr>{head}</tr></thead>'
-            f"<tbody>{body}</tbody></table></div>")
+    body = "".join(
+        "<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows
+    )
+    return (
+        f'<div class="scroll"><table><caption>{escape(table.caption)}</caption><thead><tr>{head}</tr></thead>'
+        f"<tbody>{body}</tbody></table></div>"
+    )
 
 
 def html_table(columns, rows) -> str:
     """A table of ready HTML cells that turns into cards on a narrow screen."""
     head = "".join(f"<th>{c}</th>" for c in columns)
-    body = "".join("<tr>" + "".join(f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>'
-                                    for c, v in zip(columns, row, strict=True)) + "</tr>" for row in rows)
+    body = "".join(
+        "<tr>"
+        + "".join(
+            f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>'
+            for c, v in zip(columns, row, strict=True)
+        )
+        + "</tr>"
+        for row in rows
+    )
     return f'<table class="cards"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
 
 
@@ -124,8 +165,10 @@ def figure(item) -> str:
     """A figure with its bytes inside the page."""
     kind = {"svg": "image/svg+xml", "png": "image/png"}[item.format]
     data = base64.b64encode(item.data).decode("ascii")
-    return (f'<figure><img alt="{escape(item.caption)}" src="data:{kind};base64,{data}">'
-            f"<figcaption>{escape(item.caption)}</figcaption></figure>")
+    return (
+        f'<figure><img alt="{escape(item.caption)}" src="data:{kind};base64,{data}">'
+        f"<figcaption>{escape(item.caption)}</figcaption></figure>"
+    )
 
 
 def mark(passed: bool) -> str:

@@ -10,11 +10,18 @@ from .check import Figure
 from .rates import fitted_order
 
 STYLE = {
-    "font.size": 9.5, "axes.titlesize": 10, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False, "lines.linewidth": 1.5,
-    "lines.markersize": 4.5, "svg.hashsalt": "lubfric", "figure.constrained_layout.use": True,
+    "font.size": 9.5,
+    "axes.titlesize": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "lines.linewidth": 1.5,
+    "lines.markersize": 4.5,
+    "svg.hashsalt": "lubfric",
+    "figure.constrained_layout.use": True,
     # colours that stay apart for colour-blind readers (Okabe and Ito 2008)
-    "axes.prop_cycle": "cycler('color', ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '000000'])",
+    "axes.prop_cycle": "cycler('color', ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '0'])",
 }
 
 
@@ -35,26 +42,35 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     import matplotlib
 
     stream = io.BytesIO()
+    for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
+        legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
         canvas.savefig(stream, format=format, dpi=160, metadata={"Date": None} if format == "svg" else None)
     return Figure(name, caption, stream.getvalue(), format)
 
 
-def convergence(name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = "") -> Figure:
+def convergence(
+    name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = ""
+) -> Figure:
     """Errors against mesh size, log-log, each with its fitted order and a line of the expected one.
 
     ``series`` maps a label to ``(sizes, errors, expected_order)``; ``expected_order`` may be None.
     """
-    canvas, ax = axes()
+    canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
     for label, (sizes, errors, expected) in series.items():
         sizes, errors = np.asarray(sizes, dtype=float), np.asarray(errors, dtype=float)
         text = f"{label}: order {fitted_order(sizes, errors):.2f}"
         text += "" if expected is None else f" (expected {expected:g})"
-        line, = ax.loglog(sizes, errors, "o-", label=text)
+        (line,) = ax.loglog(sizes, errors, "o-", label=text)
         if expected is not None:
             finest = np.argmin(sizes)
-            ax.loglog(sizes, errors[finest] * (sizes / sizes[finest]) ** expected, ":", color=line.get_color(),
-                      linewidth=1.0)
+            ax.loglog(
+                sizes,
+                errors[finest] * (sizes / sizes[finest]) ** expected,
+                ":",
+                color=line.get_color(),
+                linewidth=1.0,
+            )
     ax.set(xlabel=size_label, ylabel=error_label, title=notes)
-    ax.legend()
+    canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)
     return finish(name, canvas, caption)

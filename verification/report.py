@@ -64,25 +64,51 @@ class Report:
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""
-        return finite({
-            "format": FORMAT, "passed": self.passed, "complete": self.complete, "verdict": self.verdict,
-            "level": self.level, "selected": list(self.selected), "started": self.started,
-            "seconds": self.seconds, "environment": self.environment,
-            "studies": [outcome_dict(o) for o in self.outcomes]})
+        return finite(
+            {
+                "format": FORMAT,
+                "passed": self.passed,
+                "complete": self.complete,
+                "verdict": self.verdict,
+                "level": self.level,
+                "selected": list(self.selected),
+                "started": self.started,
+                "seconds": self.seconds,
+                "environment": self.environment,
+                "studies": [outcome_dict(o) for o in self.outcomes],
+            }
+        )
 
 
 def outcome_dict(outcome: Outcome) -> dict:
     """One study for report.json."""
     return {
-        "name": outcome.study.name, "title": outcome.study.title, "description": outcome.description,
-        "passed": outcome.passed, "seconds": outcome.seconds, "peak_memory_bytes": outcome.peak_memory,
-        "error": outcome.error, "traceback": outcome.trace,
+        "name": outcome.study.name,
+        "title": outcome.study.title,
+        "description": outcome.description,
+        "passed": outcome.passed,
+        "seconds": outcome.seconds,
+        "peak_memory_bytes": outcome.peak_memory,
+        "error": outcome.error,
+        "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
-        "tables": [{"name": t.name, "caption": t.caption, "columns": list(t.columns),
-                    "rows": [list(r) for r in t.rows]} for t in outcome.tables],
-        "figures": [{"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption}
-                    for f in outcome.figures],
-        "fields": [{"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields]}
+        "tables": [
+            {
+                "name": t.name,
+                "caption": t.caption,
+                "columns": list(t.columns),
+                "rows": [list(r) for r in t.rows],
+            }
+            for t in outcome.tables
+        ],
+        "figures": [
+            {"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption}
+            for f in outcome.figures
+        ],
+        "fields": [
+            {"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields
+        ],
+    }
 
 
 def finite(value):
@@ -139,7 +165,9 @@ def terminal_table(report: Report) -> str:
         width = max((len(c.name) for c in outcome.checks), default=0)
         for c in outcome.checks:
             unit = "" if c.unit == "1" else f" {c.unit}"
-            lines += [f"  {'ok  ' if c.passed else 'FAIL'} {c.name:<{min(width, 60)}}  "
-                      f"{number(c.measured):>12}{unit}  ({allowed(c)})  {seconds(c.seconds)}".rstrip()]
+            lines += [
+                f"  {'ok  ' if c.passed else 'FAIL'} {c.name:<{min(width, 60)}}  "
+                f"{number(c.measured):>12}{unit}  ({allowed(c)})  {seconds(c.seconds)}".rstrip()
+            ]
             lines += [] if c.passed else [f"       source: {c.source}{'; ' + c.note if c.note else ''}"]
     return "\n".join([*lines, "", report.verdict])

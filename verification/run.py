@@ -80,8 +80,12 @@ class Collector:
             self.progress(item)
 
 
-def run(studies, level: str, progress: Callable[[Check], None] = lambda check: None,
-        announce: Callable[[Study], None] = lambda study: None) -> Iterator[Outcome]:
+def run(
+    studies,
+    level: str,
+    progress: Callable[[Check], None] = lambda check: None,
+    announce: Callable[[Study], None] = lambda study: None,
+) -> Iterator[Outcome]:
     """Yield the `Outcome` of each study; ``announce`` is called before each, ``progress`` on each check."""
     for study in studies:
         announce(study)
@@ -106,8 +110,19 @@ def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outc
     checks, tables, figures, fields = (tuple(v) for v in collector.items.values())
     if error:
         checks = (*checks, raised(study, error))
-    return Outcome(study, level, description, checks, tables, figures, fields,
-                   time.perf_counter() - start, peak_memory(), error, trace)
+    return Outcome(
+        study,
+        level,
+        description,
+        checks,
+        tables,
+        figures,
+        fields,
+        time.perf_counter() - start,
+        peak_memory(),
+        error,
+        trace,
+    )
 
 
 def load(study: Study) -> Callable[[str], object]:
@@ -126,7 +141,9 @@ def explain(exc: BaseException) -> str:
 
 def raised(study: Study, error: str) -> Check:
     """The failed check that stands for a study that did not reach its end."""
-    return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
+    return Check(
+        f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error
+    )
 
 
 def peak_memory() -> int:

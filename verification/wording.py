@@ -6,8 +6,12 @@ import math
 
 from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, Check
 
-ALLOWED = {RELATIVE: "{expected} ± {relative}", ABSOLUTE: "{expected} ± {tolerance}",
-           AT_MOST: "≤ {expected} + {tolerance}", AT_LEAST: "≥ {expected} − {tolerance}"}
+ALLOWED = {
+    RELATIVE: "{expected} ± {relative}",
+    ABSOLUTE: "{expected} ± {tolerance}",
+    AT_MOST: "≤ {expected} + {tolerance}",
+    AT_LEAST: "≥ {expected} − {tolerance}",
+}
 
 
 def allowed(check: Check) -> str:
@@ -15,8 +19,9 @@ def allowed(check: Check) -> str:
     tolerance = f"{check.tolerance:.2g}"
     if check.kind in (AT_MOST, AT_LEAST) and check.tolerance == 0:
         return ("≤ " if check.kind == AT_MOST else "≥ ") + number(check.expected)
-    return ALLOWED[check.kind].format(expected=number(check.expected), tolerance=tolerance,
-                                      relative=fraction(check.tolerance))
+    return ALLOWED[check.kind].format(
+        expected=number(check.expected), tolerance=tolerance, relative=fraction(check.tolerance)
+    )
 
 
 def fraction(value: float) -> str:

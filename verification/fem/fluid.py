@@ -46,13 +46,16 @@ class Fluid:
 
     def __post_init__(self):
         if self.viscosity_law not in VISCOSITY_LAWS or self.density_law not in DENSITY_LAWS:
-            raise InputError(f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}; "
-                             f"allowed: {VISCOSITY_LAWS} and {DENSITY_LAWS}")
+            raise InputError(
+                f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}; "
+                f"allowed: {VISCOSITY_LAWS} and {DENSITY_LAWS}"
+            )
         if not (math.isfinite(self.viscosity) and self.viscosity > 0):
             raise InputError(f"viscosity = {self.viscosity} Pa s; allowed: > 0")
         if not 0 <= self.pressure_viscosity_coefficient < math.inf:
-            raise InputError(f"pressure_viscosity_coefficient = {self.pressure_viscosity_coefficient} 1/Pa; "
-                             "allowed: >= 0")
+            raise InputError(
+                f"pressure_viscosity_coefficient = {self.pressure_viscosity_coefficient} 1/Pa; allowed: >= 0"
+            )
         if self.viscosity_law == "roelands" and not self.index > 0:
             raise InputError(f"roelands_index = {self.index}; allowed: > 0")
         if not self.bulk_modulus > 0:
@@ -72,7 +75,12 @@ class Fluid:
         if self.viscosity_law == "barus":
             return self.pressure_viscosity_coefficient * p
         z = self.index
-        return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
+        return (
+            self.pressure_viscosity_coefficient
+            * ROELANDS_PRESSURE
+            / z
+            * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
+        )
 
     def eta(self, p):
         """Viscosity in Pa s."""

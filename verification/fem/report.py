@@ -28,7 +28,7 @@ class SolveError(RuntimeError):
 
 @dataclass(frozen=True)
 class SolveReport:
-    """Outcome of an iterative solve: converged when ``residual`` (the largest of ``residuals``) <= ``tolerance``.
+    """Outcome of an iterative solve, converged when ``residual`` (largest of ``residuals``) <= ``tolerance``.
 
     Attributes
     ----------
@@ -60,8 +60,10 @@ class SolveReport:
     @property
     def message(self) -> str:
         """One line: what happened and how far it got."""
-        return (f"{self.solver}: {self.status} after {self.iterations} iterations, "
-                f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})")
+        return (
+            f"{self.solver}: {self.status} after {self.iterations} iterations, "
+            f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
+        )
 
     def raise_if_failed(self, result=None) -> None:
         """Raise `SolveError` with this report and ``result`` unless the solve converged."""

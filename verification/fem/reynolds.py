@@ -23,9 +23,12 @@ from .fluid import STEP, Fluid, slope
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, InputError, SolveReport
 
 ELEMENTS = {
-    ("MeshLine", 1): skfem.ElementLineP1, ("MeshLine", 2): skfem.ElementLineP2,
-    ("MeshTri", 1): skfem.ElementTriP1, ("MeshTri", 2): skfem.ElementTriP2,
-    ("MeshQuad", 1): skfem.ElementQuad1, ("MeshQuad", 2): skfem.ElementQuad2,
+    ("MeshLine", 1): skfem.ElementLineP1,
+    ("MeshLine", 2): skfem.ElementLineP2,
+    ("MeshTri", 1): skfem.ElementTriP1,
+    ("MeshTri", 2): skfem.ElementTriP2,
+    ("MeshQuad", 1): skfem.ElementQuad1,
+    ("MeshQuad", 2): skfem.ElementQuad2,
 }
 STABILISATIONS = ("none", "supg")
 LARGEST_STEP = 3.0
@@ -37,8 +40,8 @@ class Problem:
 
     Attributes
     ----------
-    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of motion
-    film : film thickness in m at coordinates x of shape (dim, ...)
+    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of
+    motion film : film thickness in m at coordinates x of shape (dim, ...)
     fluid : viscosity and density laws
     speed : entrainment speed U >= 0
     degree : 1 (P1, Q1) or 2 (P2, Q2)
@@ -61,12 +64,16 @@ class Problem:
 
     def __post_init__(self):
         if self.element is None:
-            raise InputError(f"mesh {type(self.mesh).__name__}, degree = {self.degree}; allowed: lines, triangles "
-                             "or quadrilaterals, degree 1 or 2")
+            raise InputError(
+                f"mesh {type(self.mesh).__name__}, degree = {self.degree}; allowed: lines, triangles "
+                "or quadrilaterals, degree 1 or 2"
+            )
         if self.stabilisation not in STABILISATIONS:
             raise InputError(f"stabilisation = {self.stabilisation!r}; allowed: {STABILISATIONS}")
         if self.stabilisation == "supg" and self.degree != 1:
-            raise InputError("stabilisation = 'supg' needs degree = 1: its residual drops second derivatives of p")
+            raise InputError(
+                "stabilisation = 'supg' needs degree = 1: its residual drops second derivatives of p"
+            )
         if not 0 <= self.speed < np.inf:
             raise InputError(f"speed = {self.speed} m/s; allowed: >= 0")
         film = self.film(self.mesh.p)
@@ -111,7 +118,9 @@ class Solution:
 
     def inflow(self, x: float) -> float:
         """Flow that enters through the boundary at this x, m^2/s or m^3/s (volume at p = 0)."""
-        return float(self.reaction[np.abs(self.basis.doflocs[0] - x) < 1e-9 * np.ptp(self.basis.doflocs[0])].sum())
+        return float(
+            self.reaction[np.abs(self.basis.doflocs[0] - x) < 1e-9 * np.ptp(self.basis.doflocs[0])].sum()
+        )
 
     def friction(self, sliding_speed: float) -> tuple[float, float]:
         """``(integral eta Du/h, integral (h/2) dp/dx)`` over the part under pressure, N/m or N."""
@@ -144,7 +153,7 @@ def weak_form(problem: Problem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]
 
 
 def upwind_flow(problem: Problem, p, gradient, mobility, w) -> np.ndarray:
-    """What the streamline-upwind form adds to the flow: ``tau a``, a the wave speed of p, times the strong residual.
+    """What the streamline-upwind form adds to the flow: ``tau`` times wave speed times strong residual.
 
     Brooks & Hughes 1982, doi:10.1016/0045-7825(82)90071-8; tau of Shakib, Hughes & Johan 1991,
     doi:10.1016/0045-7825(91)90041-4. It vanishes where the pressure solves the equation, so the order stays.
@@ -155,8 +164,12 @@ def upwind_flow(problem: Problem, p, gradient, mobility, w) -> np.ndarray:
     wave = problem.speed * w["film"] * rho_slope
     stiffening = rho_slope / rho - slope(fluid.log_viscosity, real)
     steepening = steady * (stiffening * gradient + 3 * w["film_gradient"] / w["film"])
-    strong = (wave * gradient[0] + problem.speed * fluid.rho(p) * w["film_gradient"][0]
-              - dot(steepening, gradient) - w["f"])
+    strong = (
+        wave * gradient[0]
+        + problem.speed * fluid.rho(p) * w["film_gradient"][0]
+        - dot(steepening, gradient)
+        - w["f"]
+    )
     tau = 1 / np.sqrt((2 * wave / w["size"]) ** 2 + 9 * (4 * steady / w["size"] ** 2) ** 2)
     return tau * wave * strong
 
@@ -177,6 +190,7 @@ def tangent(u, v, w):
 
 def linearised(problem: Problem, p, gradient, w) -> dict[str, np.ndarray]:
     """Derivatives of `weak_form` by a complex step, one for p and one for each component of its gradient."""
+
     def along(dp, dg):
         a, b = weak_form(problem, p + 1j * STEP * dp, gradient + 1j * STEP * dg[:, None, None], w)
         return np.imag(a) / STEP, np.imag(b) / STEP
@@ -184,17 +198,28 @@ def linearised(problem: Problem, p, gradient, w) -> dict[str, np.ndarray]:
     unit = np.eye(len(gradient))
     a_p, b_p = along(1.0, 0.0 * unit[0])
     by_gradient = [along(0.0, direction) for direction in unit]
-    return {"a_p": a_p, "b_p": b_p, "a_g": np.array([a for a, _ in by_gradient]),
-            "b_g": np.array([b for _, b in by_gradient])}
+    return {
+        "a_p": a_p,
+        "b_p": b_p,
+        "a_g": np.array([a for a, _ in by_gradient]),
+        "b_g": np.array([b for _, b in by_gradient]),
+    }
 
 
-def solve_reynolds(problem: Problem, *, start: np.ndarray | None = None, tolerance: float = 1e-8,
-                   max_iterations: int = 100, raise_on_failure: bool = True) -> Solution:
+def solve_reynolds(
+    problem: Problem,
+    *,
+    start: np.ndarray | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 100,
+    raise_on_failure: bool = True,
+) -> Solution:
     """Solve for the pressure.
 
     Stops when the largest of these is <= ``tolerance``:
 
-    - mass: ``sum |r_i|/flow_i`` over free nodes, with r the weak residual and flow_i = U h (times the width of a
+    - mass: ``sum |r_i|/flow_i`` over free nodes, with r the weak residual and flow_i = U h (times the width
+    of a
       surface mesh) there, or ``sum |(f, v_i)|`` where that is larger
     - tension: ``max(-p)/max |p|``, with cavitation
     - overlap: ``max p`` where p should be 0 because ``r_i/J_ii > p_i`` / ``max |p|``: pressure and lost flow
@@ -204,7 +229,7 @@ def solve_reynolds(problem: Problem, *, start: np.ndarray | None = None, toleran
     Parameters
     ----------
     start : first pressure at the degrees of freedom, default 0
-    raise_on_failure : raise `SolveError` (with report and last solution) rather than return an unconverged one
+    raise_on_failure : raise `SolveError`, with report and last solution, where the residual stays too large
     """
     basis = Basis(problem.mesh, problem.element(), intorder=2 * problem.degree + 4)
     held = boundary_dofs(problem, basis)
@@ -233,8 +258,16 @@ def solve_reynolds(problem: Problem, *, start: np.ndarray | None = None, toleran
         if len(history) > max_iterations:
             break
         p = p + newton_step(problem, matrix, r, p, held | cavitated)
-    report = SolveReport("Reynolds finite elements", status, len(history) - 1, history[-1], tolerance, residuals,
-                         tuple(history), len(history) - 1)
+    report = SolveReport(
+        "Reynolds finite elements",
+        status,
+        len(history) - 1,
+        history[-1],
+        tolerance,
+        residuals,
+        tuple(history),
+        len(history) - 1,
+    )
     solution = Solution(problem, basis, p, r, report)
     if raise_on_failure:
         report.raise_if_failed(solution)
@@ -273,8 +306,10 @@ def prolonged(coarse: Solution, problem: Problem) -> np.ndarray:
 
 
 def vertices_and_middles(mesh: skfem.Mesh, values: np.ndarray) -> list[np.ndarray]:
-    """Values at vertices, at the middles of edges (on surfaces), and of lines or quadrilaterals: the order in which
-    scikit-fem numbers the vertices of a refined mesh."""
+    """Values at vertices, at the middles of edges (on surfaces), and of lines or quadrilaterals.
+
+    In this order scikit-fem numbers the vertices of a refined mesh.
+    """
     found = [values]
     if mesh.dim() > 1:
         found.append(values[..., mesh.facets].mean(axis=-2))
@@ -297,17 +332,23 @@ def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
 def given_fields(problem: Problem, basis: Basis) -> dict:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
-    fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
+    fields = {
+        "film": problem.film(np.asarray(x)),
+        "f": 0.0 * x[0],
+        "size": np.asarray(basis.mesh_parameters()),
+    }
     if problem.source is not None:
         fields["f"] = problem.source(np.asarray(x))
     if problem.stabilisation != "none":
-        smooth = basis.with_element(ELEMENTS[next(k for k in ELEMENTS if ELEMENTS[k] is problem.element)[0], 2]())
+        smooth = basis.with_element(
+            ELEMENTS[next(k for k in ELEMENTS if ELEMENTS[k] is problem.element)[0], 2]()
+        )
         fields["film_gradient"] = np.asarray(grad(smooth.interpolate(problem.film(smooth.doflocs))))
     return fields
 
 
 def flow_scale(problem: Problem, basis: Basis, fields: dict) -> np.ndarray:
-    """The flow a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
+    """What a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
     width = float(np.ptp(problem.mesh.p[1])) if problem.mesh.dim() > 1 else 1.0
     made = np.abs(LinearForm(lambda v, w: w.f * v).assemble(basis, f=fields["f"])).sum()
     flow = np.maximum(problem.speed * problem.film(basis.doflocs) * width, made)
@@ -327,7 +368,7 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
 
 
 def newton_step(problem: Problem, matrix, r, p, fixed) -> np.ndarray:
-    """Step to ``r = 0`` on free nodes and ``p = 0`` on fixed ones, shortened where viscosity would run away."""
+    """Step to ``r = 0`` on free and ``p = 0`` on fixed nodes, shortened where viscosity would run away."""
     step = np.where(fixed, -p, 0.0)
     free = np.flatnonzero(~fixed)
     rhs = -(r + matrix @ step)[free]

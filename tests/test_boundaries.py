@@ -1,0 +1,115 @@
+"""Who may import whom: the two sides of the verification must not lean on each other, and imports stay light."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+HEAVY = ("skfem", "pyamg", "meshio", "verification")
+
+
+def imported(path: Path) -> set[str]:
+    """Top-level names of every package a file imports, at any depth, also by importlib.import_module("...")."""
+    package = path.relative_to(ROOT).parts[:-1]
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            found.add(node.module)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1]
+            found.add(".".join((*base, node.module or "")).rstrip("."))
+            found |= {".".join((*base, *filter(None, [node.module]), a.name)) for a in node.names}
+        elif isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in (
+            "import_module",
+            "__import__",
+        ):
+            found |= {a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)}
+    return found
+
+
+def offenders(folder: str, forbidden) -> list[str]:
+    """'file imports package' for each import of a forbidden package below ``folder``."""
+    files = sorted((ROOT / folder).rglob("*.py"))
+    assert files
+    return [
+        f"{f.relative_to(ROOT)} imports {name}"
+        for f in files
+        for name in imported(f)
+        if any(name == bad or name.startswith(bad + ".") for bad in forbidden)
+    ]
+
+
+def test_lubfric_never_imports_the_verification_nor_its_tools():
+    assert offenders("lubfric", HEAVY) == []
+
+
+def test_finite_elements_never_import_lubfric():
+    assert offenders("verification/fem", ["lubfric", "verification.studies"]) == []
+
+
+@pytest.mark.parametrize(
+    "name", ["exact", "check", "rates", "run", "report", "page", "wording", "meshes", "plotting"]
+)
+def test_closed_forms_and_the_framework_never_import_lubfric(name):
+    assert not any(n.split(".")[0] == "lubfric" for n in imported(ROOT / "verification" / f"{name}.py"))
+
+
+def test_only_one_file_knows_meshio():
+    files = sorted((ROOT / "verification").rglob("*.py"))
+    users = [str(f.relative_to(ROOT)) for f in files if any(n.split(".")[0] == "meshio" for n in imported(f))]
+    assert users == ["verification/meshes.py"]
+
+
+def test_this_test_sees_imports_of_every_kind(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "ROOT", tmp_path)
+    folder = tmp_path / "verification" / "fem"
+    folder.mkdir(parents=True)
+    (folder / "a.py").write_text(
+        "import lubfric.ehl\n"
+        "def f():\n    from lubfric import x\n    import importlib\n    importlib.import_module('lubfric.contact')\n"
+        "from ..studies import y\nfrom .. import studies\n"
+    )
+    found = offenders("verification/fem", ["lubfric", "verification.studies"])
+    assert {line.split()[-1] for line in found} == {
+        "lubfric.ehl",
+        "lubfric",
+        "lubfric.contact",
+        "verification.studies",
+        "verification.studies.y",
+    }
+
+
+def python(code: str) -> str:
+    """Output of a fresh interpreter."""
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
+    ).stdout
+
+
+def test_lubfric_works_where_the_verification_tools_are_not_installed():
+    blocked = "import sys\n" + "".join(f"sys.modules[{name!r}] = None\n" for name in HEAVY)
+    everything = (
+        "import importlib, pkgutil, lubfric\n"
+        "for m in pkgutil.walk_packages(lubfric.__path__, 'lubfric.'):\n"
+        "    if not m.name.endswith('__main__'): importlib.import_module(m.name)\n"
+        "print('imported')"
+    )
+    assert python(blocked + everything).strip() == "imported"
+
+
+@pytest.mark.parametrize("package", ["scipy.optimize", "matplotlib", *HEAVY])
+def test_import_lubfric_is_light(package):
+    assert python(f"import sys, lubfric; print({package!r} in sys.modules)").strip() == "False"
+
+
+def test_listing_the_studies_needs_none_of_the_tools():
+    code = (
+        "import sys\nfor name in ('skfem', 'meshio', 'pyamg', 'lubfric'): sys.modules[name] = None\n"
+        "from verification.__main__ import main\nmain(['--list'])"
+    )
+    assert "reynolds" in python(code)

@@ -1,0 +1,273 @@
+"""Finite-element Reynolds solver: closed forms, orders of convergence, relations, failures that must show."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import skfem
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from verification import exact
+from verification.fem.fluid import STEP, Fluid, slope
+from verification.fem.report import InputError, SolveError
+from verification.fem.reynolds import (
+    ELEMENTS,
+    Problem,
+    prolonged,
+    solve_refined,
+    solve_reynolds,
+)
+from verification.rates import fitted_order
+from verification.studies.reynolds import parabola_mesh
+from verification.studies.reynolds_surface import LENGTH, SPEED, WIDTH, Manufactured, box
+
+OIL = Fluid(0.1)
+SLIDER = exact.Slider(0.1, 1.0, 0.01, 2e-6, 1e-6)
+PARABOLA = exact.Parabola(0.1, 1.0, 0.01, 1e-6, -10.0)
+
+
+def slider_mesh(cells=40):
+    return skfem.MeshLine(np.linspace(0, SLIDER.length, cells + 1))
+
+
+def test_closed_forms_agree_with_quadrature_and_with_the_literature():
+    x = np.linspace(0, SLIDER.length, 20_001)[None]
+    assert np.isclose(np.trapezoid(SLIDER.pressure(x), x[0]), SLIDER.load, rtol=1e-7)
+    e = exact.Parabola(0.1, 1.0, 0.01, 1e-6)
+    scale = e.viscosity * e.speed * e.radius / e.film_thickness
+    root = np.sqrt(e.radius / e.film_thickness)
+    assert np.isclose(e.load / scale, 4.8950, rtol=1e-5) and np.isclose(e.exit, 0.4751299, rtol=1e-7)
+    assert np.isclose(e.couette / (e.viscosity * root), 2.848722, rtol=1e-6)
+    assert np.isclose(e.rolling / (2 * e.viscosity * e.speed * root), 2.300538, rtol=1e-6)
+    pad = exact.ExponentialPad(0.1, 1.0, 0.01, 1.0, 2e-6, 1e-6)
+    assert np.isclose(pad.load / pad.width, pad.wide_load, rtol=0.01)
+    thin = exact.ExponentialPad(0.1, 1.0, 0.01, 1e-5, 2e-6, 1e-6)
+    assert np.isclose(thin.load, thin.narrow_load, rtol=2e-3)
+
+
+def test_the_exact_pad_solves_the_equation():
+    pad = exact.ExponentialPad(0.1, 1.0, 0.01, 0.007, 2e-6, 1e-6)
+    x, d = np.array([0.004, 0.001]), 2e-5
+
+    def flow(x, axis):
+        step = d * np.eye(2)[axis]
+        rise = pad.pressure(x + step) - pad.pressure(x - step)
+        return pad.film(x) ** 3 / (12 * pad.viscosity) * rise / (2 * d)
+
+    out = sum((flow(x + d * np.eye(2)[i], i) - flow(x - d * np.eye(2)[i], i)) / (2 * d) for i in (0, 1))
+    assert np.isclose(out, -pad.speed * pad.decay * pad.film(x), rtol=1e-4)
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_slider(degree):
+    found = solve_refined(Problem(slider_mesh(10), SLIDER.film, OIL, 1.0, degree), 4)
+    assert (
+        abs(fitted_order([2.0**-i for i in range(5)], [s.error(SLIDER.pressure) for s in found]) - degree - 1)
+        < 0.1
+    )
+    assert np.isclose(found[-1].load, SLIDER.load, rtol=(1e-3, 1e-8)[degree - 1])
+    assert np.isclose(found[-1].inflow(0.0), SLIDER.flow, rtol=(1e-4, 1e-9)[degree - 1])
+    assert np.isclose(found[-1].inflow(0.0), -found[-1].inflow(SLIDER.length), rtol=1e-8)
+    couette, rolling = found[-1].friction(2.0)
+    assert np.isclose(couette, 0.1 * 2.0 * 0.01 / 1e-6 * np.log(2), rtol=1e-6)
+    # by parts, -integral p dh/dx / 2: the film falls by 1e-6 over the length
+    assert np.isclose(rolling, found[-1].load * 1e-6 / 0.01 / 2, rtol=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["line", "triangle", "quadrilateral"])
+@pytest.mark.parametrize(("degree", "stabilisation"), [(1, "none"), (1, "supg"), (2, "none")])
+def test_manufactured_solution_has_the_order_of_the_element(kind, degree, stabilisation):
+    case = Manufactured(1 if kind == "line" else 2)
+    mesh = box(kind, 8) if kind == "line" else box(kind, 8).translated((0.0, WIDTH / 2))
+    found = solve_refined(
+        Problem(mesh, case.film, case.fluid, SPEED, degree, case.source, stabilisation=stabilisation), 2
+    )
+    errors = [s.error(case.pressure) for s in found]
+    assert abs(fitted_order([1, 0.5], errors[1:]) - degree - 1) < 0.15
+    assert found[-1].report.converged and found[-1].report.residual <= found[-1].report.tolerance
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_rupture_under_a_parabola(degree):
+    s = solve_refined(Problem(parabola_mesh(50, -10.0), PARABOLA.film, OIL, 1.0, degree, cavitation=True), 4)[
+        -1
+    ]
+    assert np.isclose(s.load, PARABOLA.load, rtol=1e-4)
+    assert np.isclose(s.inflow(s.problem.mesh.p.min()), PARABOLA.flow, rtol=1e-4)
+    assert np.isclose(s.friction(1.0)[0], PARABOLA.couette, rtol=0.01)
+    assert np.isclose(s.friction(1.0)[1], PARABOLA.rolling, rtol=1e-4)
+    # complementarity of what comes back: pressure, lost flow, and never both
+    inside = (s.basis.doflocs[0] > s.problem.mesh.p.min()) & (s.basis.doflocs[0] < s.problem.mesh.p.max())
+    p, lost = s.pressure[inside] / PARABOLA.pressure_scale, s.reaction[inside] / PARABOLA.flow
+    assert p.min() >= 0 and lost.min() > -1e-8 and np.max(p * lost) < 1e-8
+    assert lost.max() > 1e-4
+
+
+def test_without_cavitation_the_outlet_is_under_tension():
+    s = solve_reynolds(Problem(parabola_mesh(200, -10.0), PARABOLA.film, OIL, 1.0))
+    assert s.pressure.min() < -0.1 * s.pressure.max()
+
+
+def test_the_start_does_not_change_the_rupture_point():
+    problem = Problem(parabola_mesh(80, -10.0), PARABOLA.film, OIL, 1.0, cavitation=True)
+    cold = solve_reynolds(problem)
+    noise = np.random.default_rng(3).normal(scale=cold.pressure.max(), size=cold.basis.N)
+    warm = solve_reynolds(problem, start=noise)
+    assert np.allclose(warm.pressure, cold.pressure, atol=1e-7 * cold.pressure.max())
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(0.1, 10), st.floats(0.1, 10), st.floats(0.2, 5))
+def test_isoviscous_pressure_scales(viscosity, speed, thickness):
+    """p is proportional to eta U and, as film and lengths stay in proportion, to 1/h^2."""
+    base = solve_reynolds(Problem(slider_mesh(16), SLIDER.film, OIL, 1.0)).pressure
+    other = solve_reynolds(
+        Problem(slider_mesh(16), lambda x: thickness * SLIDER.film(x), Fluid(0.1 * viscosity), speed)
+    ).pressure
+    assert np.allclose(other, base * viscosity * speed / thickness**2, rtol=1e-8, atol=1e-10 * other.max())
+
+
+def test_a_film_mirrored_in_the_direction_of_motion_changes_the_sign_of_the_pressure():
+    """Without rupture the pressure is odd in U, and a mirrored film is the same film run backwards."""
+    mesh = box("triangle", 6)
+    up = solve_reynolds(Problem(mesh, lambda x: 1e-6 * (2 - x[0] / LENGTH), OIL, 1.0))
+    down = solve_reynolds(
+        Problem(mesh.mirrored((1.0, 0.0), (LENGTH / 2, 0.0)), lambda x: 1e-6 * (1 + x[0] / LENGTH), OIL, 1.0)
+    )
+    assert np.isclose(up.load, -down.load, rtol=1e-10)
+
+
+@pytest.mark.parametrize("law", ["barus", "roelands"])
+def test_piezoviscous_oil_follows_from_the_reduced_pressure(law):
+    q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
+    alpha = 0.95 / q
+    fluid = Fluid(0.1, law, alpha, 0.6)
+    s = solve_refined(Problem(parabola_mesh(100, -10.0), PARABOLA.film, fluid, 1.0, 2, cavitation=True), 2)[
+        -1
+    ]
+    at = np.linspace(0, s.problem.mesh.nvertices - 1, 31).astype(int)
+    reduced = PARABOLA.pressure(s.problem.mesh.p[:, at])
+    true = (
+        exact.reduced_to_true(reduced, alpha)
+        if law == "barus"
+        else exact.roelands_to_true(reduced, alpha * 1.96e8 / 0.6, 0.6)
+    )
+    assert np.abs(s.at_vertices[at] - true).max() < 1e-4 * true.max()
+    assert true.max() > 1.2 * q
+
+
+def test_galerkin_rings_and_the_stabilised_form_does_not():
+    gas = exact.Slider(1.8e-5, 200.0, 0.01, 4e-6, 2e-6)
+    fluid, mesh = (
+        Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5),
+        skfem.MeshLine(np.linspace(0, 0.01, 21)),
+    )
+    true = exact.gas_slider(gas, 1e5, mesh.p[0])
+    peak = exact.gas_slider(gas, 1e5, np.linspace(0, 0.01, 2001)).max()
+    plain = solve_reynolds(Problem(mesh, gas.film, fluid, 200.0)).at_vertices
+    calm = solve_reynolds(Problem(mesh, gas.film, fluid, 200.0, stabilisation="supg")).at_vertices
+    assert plain.max() > 1.5 * peak and np.count_nonzero(np.diff(np.sign(np.diff(plain)))) > 10
+    assert calm.max() <= peak and np.count_nonzero(np.diff(np.sign(np.diff(calm)))) == 1
+    assert np.abs(calm - true).max() < 0.06 * peak
+
+
+def test_gas_slider_reference_is_incompressible_at_low_speed():
+    slow = exact.Slider(1.8e-5, 1e-3, 0.01, 4e-6, 2e-6)
+    x = np.linspace(0, 0.01, 11)
+    assert np.allclose(exact.gas_slider(slow, 1e5, x), slow.pressure(x[None]), rtol=1e-3, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    "fluid",
+    [
+        Fluid(0.04, "barus", 2e-8),
+        Fluid(0.04, "roelands", 2e-8),
+        Fluid(0.04, density_law="dowson_higginson"),
+        Fluid(0.04, density_law="linear", bulk_modulus=1e9),
+    ],
+)
+def test_slopes_are_derivatives(fluid):
+    p, d = np.linspace(0, 5e8, 7), 1e3
+    for law in (fluid.log_viscosity, fluid.rho):
+        assert np.allclose(slope(law, p), (law(p + d) - law(p - d)) / (2 * d), rtol=1e-5, atol=1e-18)
+    assert STEP < 1e-30
+
+
+def test_roelands_index_and_slope_at_zero_follow_alpha():
+    fluid = Fluid(0.0358, "roelands", 2.2e-8)
+    assert np.isclose(fluid.index, 0.68, atol=0.002) and np.isclose(slope(fluid.log_viscosity, 0.0), 2.2e-8)
+
+
+@pytest.mark.parametrize("key", list(ELEMENTS), ids=str)
+def test_prolongation_is_exact_for_linear_fields(key):
+    mesh = {"MeshLine": skfem.MeshLine, "MeshTri": skfem.MeshTri, "MeshQuad": skfem.MeshQuad}[
+        key[0]
+    ]().refined(2)
+    problem = Problem(mesh, lambda x: 1 + 0 * x[0], OIL, 1.0, key[1])
+    coarse = solve_reynolds(problem)
+    linear = sum((i + 1) * x for i, x in enumerate(coarse.basis.doflocs))
+    fine = Problem(mesh.refined(), problem.film, OIL, 1.0, key[1])
+    start = prolonged(replace(coarse, pressure=linear), fine)
+    where = skfem.Basis(fine.mesh, fine.element()).doflocs
+    assert np.allclose(start, sum((i + 1) * x for i, x in enumerate(where)))
+    with pytest.raises(InputError, match="not the uniform refinement"):
+        prolonged(coarse, replace(fine, mesh=mesh.refined().scaled(2.0)))
+
+
+def test_an_unconverged_solve_raises_and_carries_what_it_had():
+    problem = Problem(parabola_mesh(200, -10.0), PARABOLA.film, OIL, 1.0, cavitation=True)
+    with pytest.raises(SolveError, match="iteration_limit after 2 iterations") as stop:
+        solve_reynolds(problem, max_iterations=2)
+    assert stop.value.report.residual > stop.value.report.tolerance and len(stop.value.report.history) == 3
+    assert stop.value.result.pressure.shape == (201,)
+    assert not solve_reynolds(problem, max_iterations=2, raise_on_failure=False).report.converged
+
+
+def test_a_runaway_oil_is_not_solved():
+    """Barus at a speed above the one where the pressure becomes infinite: no solution exists, none is returned."""
+    q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
+    problem = Problem(
+        parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True
+    )
+    with pytest.raises(SolveError, match="iteration_limit|diverged"):
+        solve_reynolds(problem)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"degree": 3}, "degree = 3"),
+        ({"mesh": skfem.MeshTet()}, "MeshTet"),
+        ({"speed": -1.0}, "speed = -1.0 m/s"),
+        ({"speed": np.nan}, "speed = nan"),
+        ({"stabilisation": "more"}, "'more'"),
+        ({"stabilisation": "supg", "degree": 2}, "needs degree = 1"),
+        ({"film": lambda x: x[0] - 0.5}, "film_thickness has a minimum of -0.5 m"),
+    ],
+)
+def test_input_is_checked(change, message):
+    with pytest.raises(InputError, match=message):
+        Problem(
+            **(
+                {"mesh": skfem.MeshLine(), "film": lambda x: 1 + 0 * x[0], "fluid": OIL, "speed": 1.0}
+                | change
+            )
+        )
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"viscosity": 0.0},
+        {"viscosity": np.nan},
+        {"viscosity_law": "baros"},
+        {"density_law": "x"},
+        {"pressure_viscosity_coefficient": -1e-8},
+        {"bulk_modulus": 0.0},
+        {"viscosity_law": "roelands", "roelands_index": -1.0},
+    ],
+)
+def test_fluids_are_checked(change):
+    with pytest.raises(InputError):
+        Fluid(**({"viscosity": 0.1} | change))

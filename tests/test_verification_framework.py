@@ -1,0 +1,322 @@
+"""``python -m verification``: a failure must never look like a success, nor cost other results."""
+
+import json
+import math
+import sys
+import types
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from verification import __main__ as command
+from verification import plotting
+from verification.check import (
+    ABSOLUTE,
+    AT_LEAST,
+    AT_MOST,
+    KINDS,
+    RELATIVE,
+    Check,
+    Field,
+    Figure,
+    StudyResult,
+    Table,
+)
+from verification.fem.report import SolveError, SolveReport
+from verification.rates import fitted_order, orders
+from verification.studies import STUDIES, Study
+
+
+def good(level):
+    """One check at the given level.
+
+    A second paragraph with <angle brackets> & an ampersand.
+    """
+    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+    canvas, ax = plotting.axes()
+    ax.plot([0, 1], [0, 1])
+    yield plotting.finish("line", canvas, 'a "quoted" caption')
+    yield Table("numbers", "caption", ("a", "b"), ((1, np.float64(2.5)), ("x", math.nan)))
+    yield Field(
+        "mesh",
+        "a triangle",
+        np.array([[0.0, 0], [1, 0], [0, 1]]),
+        {"triangle": np.array([[0, 1, 2]])},
+        {"p": np.arange(3.0)},
+    )
+
+
+def wrong(level):
+    """A check that fails."""
+    return StudyResult(checks=(Check("off by one", 2.0, 1.0, 0.1, "arithmetic"),))
+
+
+def raises(level):
+    """Fails after its first check."""
+    yield Check("before", 1.0, 1.0, 0.0, "arithmetic", ABSOLUTE)
+    raise SolveError("the solve <stopped>\nshort")
+
+
+def leaves(level):
+    sys.exit(0)
+
+
+def empty(level):
+    return StudyResult()
+
+
+def no_extra(level):
+    raise ModuleNotFoundError("No module named 'skfem.helpers'", name="skfem.helpers")
+
+
+def twice(level):
+    yield Check("same", 1.0, 1.0, 1.0, "arithmetic")
+    yield Check("same", 1.0, 1.0, 1.0, "arithmetic")
+
+
+def bad_field(level):
+    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+    yield Field("mesh", "", np.zeros((2, 2)), {"triangle": np.array([[0, 1, 2]])})
+
+
+def interrupted(level):
+    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+    raise KeyboardInterrupt
+
+
+@pytest.fixture
+def run(monkeypatch, tmp_path, capsys):
+    """Run the command on some of the studies above: (exit code, report.json, report.html, stdout, stderr)."""
+
+    def go(*functions, options=(), levels=("quick", "default", "full")):
+        module = types.ModuleType("studies_under_test")
+        listed = []
+        for function in functions:
+            name = function if isinstance(function, str) else function.__name__
+            if callable(function):
+                setattr(module, name, function)
+            listed.append(Study(name, f"studies_under_test:{name}", f"study {name}", levels))
+        monkeypatch.setitem(sys.modules, "studies_under_test", module)
+        monkeypatch.setattr(command, "STUDIES", tuple(listed))
+        code = command.main([*options, "--out", str(tmp_path)])
+        said = capsys.readouterr()
+        data = json.loads((tmp_path / "report.json").read_text(), parse_constant=pytest.fail)
+        return code, data, (tmp_path / "report.html").read_text(encoding="utf-8"), said.out, said.err
+
+    return go
+
+
+class Page(HTMLParser):
+    """Collects tags, attributes and whether all tags were closed."""
+
+    VOID = ("meta", "link", "img", "br")
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.seen, self.words = [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def test_all_right_is_exit_code_0_and_a_whole_page(run, tmp_path):
+    code, data, html, out, err = run(good)
+    assert code == 0 and data["passed"] and data["complete"]
+    assert "PASSED: 1 of 1 checks passed" in out and "[1/1] good" in err and "[1/1]" not in out
+    page = Page(html)
+    assert page.open == []
+    tags = dict(page.seen)
+    assert "width=device-width" in next(a for _, a in page.seen if a.get("name") == "viewport")["content"]
+    assert tags["img"]["src"].startswith("data:image/svg+xml;base64,")
+    assert "script" not in tags
+    for _, attrs in page.seen:  # nothing is fetched
+        for key in ("src", "href"):
+            assert attrs.get(key, "data:").startswith(("data:", "#"))
+    assert "A second paragraph with <angle brackets> & an ampersand." in page.words
+    assert data["studies"][0]["tables"][0]["rows"] == [[1, 2.5], ["x", None]]
+    assert (tmp_path / "good_line.svg").read_bytes().startswith(b"<?xml")
+    assert (tmp_path / "good_mesh.vtu").is_file()
+    assert data["studies"][0]["checks"][0]["seconds"] >= 0
+
+
+def test_a_failing_check_is_exit_code_1(run):
+    code, data, html, out, _ = run(good, wrong)
+    assert code == 1 and not data["passed"]
+    assert "FAILED: 1 of 2 checks passed" in out and "What failed" in html
+    assert [s["passed"] for s in data["studies"]] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("study", "reason"),
+    [
+        (raises, "SolveError: the solve <stopped> short"),
+        (leaves, "SystemExit: 0"),
+        (empty, "without a single check"),
+        ("absent", "AttributeError"),
+        (no_extra, 'scikit-fem is not installed: pip install "lubfric[verification]"'),
+        (twice, "two checks are named 'same'"),
+        (bad_field, "name points outside 0..1"),
+    ],
+)
+def test_a_study_that_breaks_costs_no_other_result(run, study, reason):
+    code, data, html, out, _ = run(study, good)
+    assert code == 1 and not data["passed"] and data["complete"]
+    broken, other = data["studies"]
+    assert not broken["passed"] and reason in broken["checks"][-1]["note"]
+    assert reason in out and Page(html).open == []
+    assert other["passed"]
+
+
+def test_checks_before_a_failure_are_kept_with_the_traceback(run):
+    _, data, html, _, _ = run(raises)
+    assert [c["name"] for c in data["studies"][0]["checks"]] == ["before", "raises runs to its end"]
+    assert "raise SolveError" in data["studies"][0]["traceback"] and "raise SolveError" in html
+
+
+def test_interrupt_leaves_a_report_that_says_it_is_incomplete(run):
+    code, data, html, out, _ = run(good, interrupted, wrong)
+    assert code == 130 and not data["complete"] and not data["passed"]
+    assert [s["name"] for s in data["studies"]] == ["good"]
+    assert "UNFINISHED: 1 of 1 checks passed; only 1 of 3 studies finished" in out and "not run" in html
+
+
+def test_report_is_on_disk_before_the_next_study_starts(run, tmp_path):
+    seen = []
+
+    def looks(level):
+        data = json.loads((tmp_path / "report.json").read_text())
+        seen.append((data["complete"], data["passed"], [s["name"] for s in data["studies"]]))
+        yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+
+    run(good, looks)
+    assert seen == [(False, False, ["good"])]
+
+
+def test_levels_reach_the_studies_and_choose_among_them(run):
+    levels = []
+
+    def listens(level):
+        levels.append(level)
+        yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+
+    for options in ([], ["--quick"], ["--full"]):
+        run(listens, options=options)
+    assert levels == ["default", "quick", "full"]
+    code, data, _, _, err = run(listens, options=["--quick"], levels=("full",))
+    assert code == 1 and data["studies"] == [] and "not part of level 'quick': listens (full)" in err
+
+
+def test_list_and_only(run, capsys, tmp_path):
+    _, data, _, _, _ = run(good, wrong, options=["--only", "good"])
+    assert data["selected"] == ["good"]
+    with pytest.raises(SystemExit) as stop:
+        run(good, wrong, options=["--only", "goood"])
+    assert stop.value.code == 2
+    assert "unknown study 'goood' (did you mean 'good'?)" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as stop:
+        run(good, options=["--quick", "--only", "good"], levels=("full",))
+    assert stop.value.code == 2 and "good (full)" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as stop:
+        command.main(["--quick", "--full"])
+    assert stop.value.code == 2
+
+
+def test_list_names_every_real_study_without_importing_it(capsys):
+    assert command.main(["--list"]) == 0
+    listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert listed == [s.name for s in STUDIES] and len(set(listed)) == len(listed)
+
+
+@pytest.mark.parametrize("study", STUDIES, ids=lambda s: s.name)
+def test_every_registered_study_can_be_found(study):
+    from verification.run import load
+
+    assert load(study).__doc__
+
+
+def test_subcommands_are_imported_only_when_asked_for(monkeypatch, capsys):
+    module = types.ModuleType("extra_command")
+    module.main = lambda argv: len(argv)
+    monkeypatch.setitem(command.SUBCOMMANDS, "extra", "extra_command")
+    with pytest.raises(ModuleNotFoundError):
+        command.main(["extra"])
+    monkeypatch.setitem(sys.modules, "extra_command", module)
+    assert command.main(["extra", "a", "--quick"]) == 2
+    with pytest.raises(SystemExit):
+        command.main(["extre"])
+    assert "did you mean 'extra'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("measured", "kind", "passed"),
+    [
+        (2.19, RELATIVE, True),
+        (2.21, RELATIVE, False),
+        (1.79, RELATIVE, False),
+        (-2.0, RELATIVE, False),
+        (2.05, ABSOLUTE, True),
+        (2.2, ABSOLUTE, False),
+        (-50.0, AT_MOST, True),
+        (2.2, AT_MOST, False),
+        (50.0, AT_LEAST, True),
+        (1.8, AT_LEAST, False),
+    ],
+)
+def test_what_passes(measured, kind, passed):
+    assert Check("c", measured, 2.0, 0.1, "s", kind).passed is passed
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("measured", [math.nan, math.inf, -math.inf])
+def test_nothing_that_is_not_a_number_passes(kind, measured):
+    assert not Check("c", measured, 1.0, 1e300, "s", kind).passed
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"kind": "about"},
+        {"expected": math.nan},
+        {"tolerance": -1.0},
+        {"tolerance": math.inf},
+        {"source": " "},
+        {"expected": 0.0},
+    ],
+)
+def test_a_check_that_could_not_fail_is_refused(bad):
+    with pytest.raises(ValueError, match="check 'c'"):
+        Check(**({"name": "c", "measured": 1.0, "expected": 1.0, "tolerance": 0.1, "source": "s"} | bad))
+
+
+def test_names_that_become_files_are_checked():
+    with pytest.raises(ValueError, match="becomes a file name"):
+        Figure("../x", "", b"")
+    with pytest.raises(ValueError, match="2 values for 1 columns"):
+        Table("t", "", ("a",), ((1, 2),))
+
+
+def test_orders():
+    h = np.array([1, 0.5, 0.25])
+    assert np.allclose(orders(h, 3 * h**2.5), 2.5) and math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
+    for errors in ([1, 0, 1], [1, math.nan, 1], [1.0]):
+        with pytest.raises(ValueError, match="finite values > 0"):
+            fitted_order(h[: len(errors)], errors)
+
+
+def test_a_solve_report_raises_with_what_it_has():
+    report = SolveReport("s", "stagnated", 3, 1.0, 1e-6)
+    with pytest.raises(SolveError, match="stagnated after 3 iterations") as stop:
+        report.raise_if_failed("result")
+    assert stop.value.report is report and stop.value.result == "result"
+    SolveReport("s", "converged", 3, 1e-7, 1e-6).raise_if_failed()
