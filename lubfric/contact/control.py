@@ -7,33 +7,65 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..report import CONVERGED
 from ..roots import increasing_root
-from .nested import load_controlled
+from .nested import approach_controlled, load_controlled
 from .residual import length_scale
+
+LOOSEST = 1e-2        # tolerance of a solve whose mean gap is far off
+CERTAIN = 20.0        # a surplus so many tolerances away from zero has a certain sign
 
 
 def gap_controlled(problem, mean_gap: float, start=None):
-    """The load whose contact has ``mean_gap`` [m]: one bracketed root in the logarithm of the pressure.
+    """Contact whose mean gap is ``mean_gap`` [m].
 
-    The mean gap falls with the load, so the root is the only one. Each solve starts from the last.
+    Elastic and periodic: the mean deflection is zero, so the approach is known and one solve does.
+    Otherwise, or should that solve fail, the load is found.
     """
-    inner = replace(problem, tolerance=0.3 * problem.tolerance)
-    pressure, spent, iterations = start, 0, 0
+    guess = pressure_guess(problem)
+    if problem.operator.boundary == ("periodic", "periodic") and math.isinf(problem.hardness):
+        approach = float(problem.gap0.mean()) - mean_gap
+        found = approach_controlled(problem, approach, guess, start)
+        if found.status == CONVERGED:
+            return found
+        note = f"at the known approach: {found.status} after {found.iterations} iterations; load searched instead"
+        rest = by_load(problem, mean_gap, guess, found.pressure if found.pressure.any() else start)
+        return replace(rest, notes=(note,), convolutions=rest.convolutions + found.convolutions)
+    return by_load(problem, mean_gap, guess, start)
+
+
+def pressure_guess(problem) -> float:
+    """E' times rms height over the longer side: a wave of that length and height is pressed flat by it."""
+    longest = max(n * d for n, d in zip(problem.operator.shape, problem.operator.spacing))
+    return min(problem.operator.e_prime * float(problem.gap0.std()) / longest, 0.5 * problem.hardness)
+
+
+def by_load(problem, mean_gap: float, guess: float, start=None):
+    """The load with that mean gap: one bracketed root in the logarithm of the pressure, each solve begun from
+    the last and only as tight as the sign of its surplus asks. The mean gap falls with the load: one root."""
+    finest = 0.2 * problem.tolerance
+    pressure, spent, iterations = start, 0.0, 0
 
     def surplus(log_pressure):
         nonlocal pressure, spent, iterations
-        found = load_controlled(inner, math.exp(log_pressure), pressure)
-        pressure = found.pressure
-        spent, iterations = spent + found.convolutions + 1, iterations + found.iterations
-        u = problem.operator.apply(pressure)
-        volume = np.maximum(problem.gap0 + u - found.approach, 0.0).mean()
-        return (mean_gap - volume) / length_scale(pressure, u, problem.operator), found
+        tolerance = max(finest, LOOSEST)
+        while True:
+            found = load_controlled(replace(problem, tolerance=tolerance), math.exp(log_pressure), pressure)
+            pressure = found.pressure
+            spent, iterations = spent + found.convolutions + 1, iterations + found.iterations
+            u = problem.operator.apply(pressure)
+            volume = np.maximum(problem.gap0 + u - found.approach, 0.0).mean()
+            value = (mean_gap - volume) / length_scale(pressure, u, problem.operator)
+            if tolerance == finest or abs(value) > CERTAIN * tolerance:
+                return value, found
+            tolerance = max(finest, min(tolerance / 10, abs(value) / CERTAIN))
 
-    sigma, length = problem.gap0.std(), max(n * d for n, d in zip(problem.operator.shape, problem.operator.spacing))
-    guess = problem.operator.e_prime * sigma / length if start is None or not start.any() else start.mean()
+    if start is not None and start.any():
+        guess = float(start.mean())
     upper = math.log(problem.hardness) if math.isfinite(problem.hardness) else 700.0
-    root = increasing_root(surplus, math.log(guess), step=0.7, bounds=(-300.0, upper), tolerance=0.5 * problem.tolerance)
+    root = increasing_root(surplus, math.log(guess), step=0.7, bounds=(-300.0, upper),
+                           tolerance=0.5 * problem.tolerance)
     found = root.payload
-    return replace(found, iterations=iterations, convolutions=spent, history=list(root.history),
-                   status=root.status if found.status == "converged" else found.status,
+    return replace(found, iterations=iterations, convolutions=spent, history=tuple(root.history),
+                   status=root.status if found.status == CONVERGED else found.status,
                    solver="bracketed load, preconditioned conjugate gradient")

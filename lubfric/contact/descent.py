@@ -10,12 +10,16 @@ doi:10.1016/S0043-1648(99)00113-1) restart.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
+from .projection import with_load
 from .residual import deflection_scale
+
+MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3     # measured: fewest iterations from one spot to 99.99 % contact
 
 
 @dataclass(frozen=True)
@@ -40,7 +44,7 @@ class Descent:
         self.problem, self.load, self.level = problem, load, level
         self.pressure = pressure
         self.fast = problem.operator.astype(np.float32)
-        self.inverse = preconditioner(problem.operator)
+        self.inverse = wavenumber(problem.operator.shape, problem.operator.spacing).astype(np.float32)
         self.direction, self.residue, self.scratch = (np.zeros(pressure.shape, np.float32) for _ in range(3))
         self.power = np.inf
         self.convolutions = 0
@@ -83,7 +87,9 @@ class Descent:
             return WorkingSet(cells, pressure, gap, 0.0)
         scale = deflection_scale(energy, total, self.problem.operator)
         overlap = max(0.0, -gap[pressure < hardness].min(initial=0.0))
-        misfit = pressure @ np.abs(gap) / total if total > 0 else 0.0
+        if total <= 0:
+            return WorkingSet(cells, pressure, gap, math.inf if overlap > 0 else 0.0)
+        misfit = pressure @ np.abs(gap) / total
         return WorkingSet(cells, pressure, gap, float(max(overlap, misfit) / scale))
 
     def search(self, work: WorkingSet, restart: bool) -> tuple[np.ndarray, float]:
@@ -91,6 +97,7 @@ class Descent:
         r = self._balanced(work.gap)
         self._scatter(self.scratch, work.cells, r)
         operator = self.problem.operator
+        self.inverse[0, 0] = self._mean_stiffness(work.cells.size / self.pressure.size)
         z = filtered(self.scratch, self.inverse, operator.shape, operator.workers).ravel()[work.cells]
         z = self._balanced(z.astype(float))
         self.convolutions += 1
@@ -133,38 +140,13 @@ class Descent:
     def _balanced(self, values) -> np.ndarray:
         return values if self.load is None else values - values.mean()
 
+    def _mean_stiffness(self, fraction: float) -> float:
+        """|k| that stands in at k = 0: immaterial under a load, whose search has no mean. For an approach the mean
+        pressure is free, and the stiffer the less of the area is left to open."""
+        smallest = 2 * math.pi / max(n * d for n, d in zip(self.problem.operator.shape, self.problem.operator.spacing))
+        return MEAN_STIFFNESS * smallest * fraction / (1 - fraction + NEARLY_FULL)
+
     @staticmethod
     def _scatter(field, cells, values) -> None:
         field.fill(0)
         field.ravel()[cells] = values
-
-
-def preconditioner(operator) -> np.ndarray:
-    """|k| [rad/m] on the unpadded grid; at k = 0 half of the smallest, for problems without a load."""
-    symbol = wavenumber(operator.shape, operator.spacing).astype(np.float32)
-    rest = symbol.ravel()[1:]
-    symbol[0, 0] = 0.5 * rest.min() if rest.size else 1.0
-    return symbol
-
-
-def with_load(pressure, load: float, hardness: float) -> np.ndarray:
-    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load`` (0 <= load <= hardness size).
-
-    Newton's method on the piecewise linear sum; where nothing can move, s jumps to the next cell that can.
-    """
-    shift = 0.0
-    for _ in range(200):
-        result = np.clip(pressure + shift, 0.0, hardness)
-        missing = load - result.sum()
-        movable = np.count_nonzero((result > 0) & (result < hardness))
-        if abs(missing) <= 1e-15 * load:
-            break
-        if movable:
-            shift += missing / movable
-        elif missing > 0 and (result < hardness).any():
-            shift = -pressure[result < hardness].max() + missing / result.size
-        elif missing < 0 and (result > 0).any():
-            shift = hardness - pressure[result > 0].min() + missing / result.size
-        else:
-            break
-    return result

@@ -6,18 +6,39 @@ from dataclasses import replace
 
 import numpy as np
 
-from .descent import with_load
 from .pcg import Found, conjugate_gradient
+from .projection import with_load
 
 
 def load_controlled(problem, mean_pressure: float, start=None) -> Found:
-    """Conjugate gradient from ``start``, rescaled to the load, or else from coarser grids."""
+    """Conjugate gradient for a mean pressure [Pa] from ``start``, rescaled to it, or else from coarser grids."""
     load = mean_pressure * problem.gap0.size
     if start is not None and start.any():
         return conjugate_gradient(problem, rescaled(start, load, problem.hardness), load=load)
-    pressure, convolutions = first_pressure(problem, mean_pressure)
-    found = conjugate_gradient(problem, pressure, load=load)
-    return replace(found, convolutions=found.convolutions + convolutions) if convolutions else found
+
+    def solve(problem, pressure):
+        return conjugate_gradient(problem, pressure, load=mean_pressure * problem.gap0.size)
+
+    return from_coarse(problem, mean_pressure, solve)
+
+
+def approach_controlled(problem, approach: float, guess: float, start=None) -> Found:
+    """Conjugate gradient for an approach [m] from ``start``, or from coarser grids and a uniform ``guess`` [Pa]."""
+    if start is not None and start.any():
+        return conjugate_gradient(problem, start.copy(), level=approach)
+    return from_coarse(problem, guess, lambda problem, pressure: conjugate_gradient(problem, pressure, level=approach))
+
+
+def from_coarse(problem, uniform: float, solve) -> Found:
+    """``solve(problem, pressure)`` begun from a loose solution on cells twice as long, that one likewise; on a grid
+    that cannot be halved from a uniform pressure. Counts convolutions in units of this grid."""
+    coarse = problem.coarsened()
+    if coarse is None:
+        return solve(problem, np.full(problem.gap0.shape, uniform))
+    begun = from_coarse(coarse, uniform, solve)
+    fx, fy = (n // m for n, m in zip(problem.gap0.shape, coarse.gap0.shape))
+    found = solve(problem, begun.pressure.repeat(fx, axis=0).repeat(fy, axis=1))
+    return replace(found, convolutions=found.convolutions + begun.convolutions * coarse.gap0.size / problem.gap0.size)
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
@@ -28,16 +49,3 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
         return with_load(result, load, hardness)
     result[loaded] = with_load(result[loaded], load, hardness)
     return result
-
-
-def first_pressure(problem, mean_pressure: float) -> tuple[np.ndarray, float]:
-    """Pressure [Pa] prolonged from a loose solution on a grid of half the resolution, itself begun on a
-    coarser one; uniform where a grid cannot be halved. And the convolutions spent, in units of this grid."""
-    coarse = problem.coarsened()
-    if coarse is None:
-        return np.full(problem.gap0.shape, mean_pressure), 0.0
-    pressure, spent = first_pressure(coarse, mean_pressure)
-    found = conjugate_gradient(coarse, pressure, load=mean_pressure * coarse.gap0.size)
-    factor = [n // m for n, m in zip(problem.gap0.shape, coarse.gap0.shape)]
-    fine = found.pressure.repeat(factor[0], axis=0).repeat(factor[1], axis=1)
-    return fine, (found.convolutions + spent) * coarse.gap0.size / problem.gap0.size
