@@ -15,6 +15,7 @@ from .errors import InputError
 from .validate import choice, nonnegative, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
+DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
 VISCOSITY_LAWS = ("roelands", "barus", "constant")
 DENSITY_LAWS = ("constant", "dowson-higginson")
@@ -33,8 +34,9 @@ class Lubricant:
     viscosity_law : "roelands" (Roelands 1966, z = alpha p0/(ln eta0 + 9.67), p0 = 1.96e8 Pa;
         fitted to about 1 GPa, an extrapolation above), "barus" (Barus 1893, exp(alpha p);
         overestimates above a few 100 MPa) or "constant"
-    density_law : "constant" or "dowson-higginson" (Dowson & Higginson 1966, mineral oil,
-        1 + 0.6e-9 p/(1 + 1.7e-9 p); fitted to about 0.4 GPa, at most 35 % denser)
+    density_law : "constant" or "dowson-higginson" (Dowson & Higginson 1966, mineral oil, in the
+        form (5.9e8 + 1.34 p)/(5.9e8 + p) usual in EHL; some authors round it to 1 + 0.6e-9 p/(1 + 1.7e-9 p),
+        which is up to 0.7 % denser at 1 GPa; fitted to about 0.4 GPa, at most 34 % denser)
     eyring_stress : Eyring stress tau_E > 0 [Pa] (Ree-Eyring flow, typically 2-10 MPa);
         None: Newtonian
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
@@ -104,8 +106,8 @@ def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarra
     p = np.asarray(pressure, dtype=float)
     if lubricant.density_law == "constant":
         return np.ones_like(p), np.zeros_like(p)
-    d = 1.0 + 1.7e-9 * np.maximum(p, 0.0)
-    return 1.0 + 0.6e-9 * p / d, 0.6e-9 / d**2
+    d = DENSITY_PRESSURE + np.maximum(p, 0.0)
+    return 1.0 + 0.34 * p / d, 0.34 * DENSITY_PRESSURE / d**2
 
 
 def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:

@@ -23,8 +23,8 @@ CORE = 1.2                    # cells spread evenly over the contact, relative t
 
 @dataclass(frozen=True)
 class Grid:
-    """xi: node positions (n + 1); kernel: film at the nodes; face_film (n, n + 1): from nodal film to
-    faces, third-order upwind; face_kernel = face_film @ kernel; weights: of the pressure integral."""
+    """xi: node positions (n + 1); kernel: film at the nodes; face_film (n, n + 1): from nodes to faces,
+    third-order upwind; face_kernel = face_film @ kernel; weights: of the pressure integral."""
 
     xi: np.ndarray
     kernel: np.ndarray

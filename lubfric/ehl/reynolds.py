@@ -6,8 +6,8 @@ whose ``defect`` one undamped Newton step removes: a film interpolated from a co
 start than the film of an interpolated pressure. Equations, each made dimensionless by its own scale:
 
 * n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille
-  flow with the logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with the film
-  interpolated third-order upwind, which sees the sawtooth in P that a centred mean would not.
+  flow with the logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with film and
+  density interpolated third-order upwind, which sees the sawtooth in P that a centred mean would not.
 * inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and
   P = |X|/3 dP/dX; or P = 0 where the lubricant begins (starved inlet).
 * load, with the tail upstream of the inlet.
@@ -68,7 +68,7 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     X = grid.xi + e
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
-    face_rho = 0.5 * (rho[1:] + rho[:-1])
+    face_rho = grid.face_film @ rho
     face_H = grid.face_film @ H
     fluidity = log_mean_fluidity(log_eta)
     gradient = np.diff(P) / (6.0 * grid.cells)
@@ -107,14 +107,16 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
     cube = t.face_density * t.face_H**3
     by_H = t.face_density * (3.0 * t.face_H**2 * mean * t.gradient - 1.0) / q
     np.multiply(by_H[:, None], grid.face_kernel[:, :n], out=J[:n, :n])
-    rho_slope = t.density[1]
-    by_rho = 0.5 * t.face_H * (t.face_H**2 * mean * t.gradient - 1.0)
     by_P = cube * mean / (6.0 * grid.cells)
-    left = -by_P + cube * t.gradient * by_left * t.slope[:-1] + by_rho * rho_slope[:-1]
-    right = by_P + cube * t.gradient * by_right * t.slope[1:] + by_rho * rho_slope[1:]
+    left = -by_P + cube * t.gradient * by_left * t.slope[:-1]
+    right = by_P + cube * t.gradient * by_right * t.slope[1:]
     i = np.arange(n)
     J[i, i] += left / q
     J[i[:-1], i[1:]] += right[:-1] / q
+    rho_slope = t.density[1][:n]
+    if rho_slope.any():
+        by_rho = t.face_H * (t.face_H**2 * mean * t.gradient - 1.0) / q
+        J[:n, :n] += by_rho[:, None] * grid.face_film[:, :n] * rho_slope
     J[:n, n] = by_H
     J[:n, n + 1] = t.flux / q**2
     J[:n, n + 2] = by_H * (grid.face_film @ t.X)

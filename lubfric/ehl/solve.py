@@ -68,8 +68,8 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
                       positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
                       None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
     if inlet_length is not None and inlet_length <= problem.half_width * problem.length_unit:
-        raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than its "
-                         f"half-width {problem.half_width * problem.length_unit:.4g} m")
+        raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
+                         f"its half-width {problem.half_width * problem.length_unit:.4g} m")
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     if start is not None and not isinstance(start, EHLResult):
@@ -92,7 +92,7 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
 def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State) -> list[Solution]:
     """Solutions on grids of doubling size until two neighbours agree to ``tolerance``."""
     n = COARSEST
-    needed = state.pressure.size * math.sqrt(state.grid_error / tolerance)
+    needed = state.pressure.size * min(4.0, math.sqrt(state.grid_error / tolerance))
     while 2 * n < min(needed, FINEST):
         n *= 2
     rupture = expected_rupture(problem.M, problem.L)

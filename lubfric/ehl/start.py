@@ -56,8 +56,11 @@ def solution_state(problem: Problem, solution: Solution, error: float) -> State:
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H) on a grid of twice the cells."""
-    return np.append(refine(solution.terms.P)[:-1], solution.z[-3:]), refine(solution.terms.H)
+    """(z, H) on a grid of twice the cells; the pressure linear, so that a sharp spike does not ring."""
+    P = solution.terms.P
+    fine = np.empty(2 * P.size - 2)
+    fine[::2], fine[1::2] = P[:-1], 0.5 * (P[:-1] + P[1:])
+    return np.append(fine, solution.z[-3:]), refine(solution.terms.H)
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:

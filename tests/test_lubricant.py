@@ -1,0 +1,93 @@
+"""Viscosity, density and shear-stress laws."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lubfric import InputError
+from lubfric.lubricant import Lubricant, density_ratio, log_viscosity_ratio, shear_stress, viscosity
+
+OIL = Lubricant(0.04, 2.2e-8)
+
+
+def test_roelands_at_a_known_pressure():
+    p, z = 1e9, OIL.roelands_exponent
+    expected = 0.04 * math.exp((math.log(0.04) + 9.67) * ((1 + p / 1.96e8) ** z - 1))
+    assert viscosity(OIL, p) == pytest.approx(expected, rel=1e-12)
+    assert z == pytest.approx(2.2e-8 * 1.96e8 / (math.log(0.04) + 9.67))
+
+
+@pytest.mark.parametrize("law", ["roelands", "barus", "constant"])
+@pytest.mark.parametrize("density", ["constant", "dowson-higginson"])
+@given(p=st.floats(0.0, 3e9))
+def test_derivatives_match_differences(law, density, p):
+    oil = Lubricant(0.04, 2.2e-8, law, density)
+    step = 1e3
+    for function in (log_viscosity_ratio, density_ratio):
+        value, slope = function(oil, p + step)
+        difference = (function(oil, p + 2 * step)[0] - function(oil, p)[0]) / (2 * step)
+        assert float(difference) == pytest.approx(float(slope), rel=1e-4, abs=1e-18)
+
+
+@pytest.mark.parametrize("law", ["roelands", "barus"])
+def test_laws_are_smooth_through_ambient_pressure(law):
+    oil = Lubricant(0.04, 2.2e-8, law, "dowson-higginson")
+    for function in (log_viscosity_ratio, density_ratio):
+        value, slope = function(oil, np.array([-1.0, 0.0, 1.0]))
+        assert np.allclose(np.diff(value), slope[1], rtol=1e-6)
+    assert np.ndim(viscosity(oil, np.zeros((2, 3)))) == 2
+
+
+def test_laws_agree_at_low_pressure_and_roelands_stays_below_barus():
+    barus = Lubricant(0.04, 2.2e-8, "barus")
+    p = np.geomspace(1e3, 2e9, 40)
+    ratio = viscosity(OIL, p) / viscosity(barus, p)
+    assert np.all(np.diff(ratio) < 0) and ratio[0] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_density_limit():
+    oil = Lubricant(0.04, 2.2e-8, density_law="dowson-higginson")
+    assert float(density_ratio(oil, 1e14)[0]) == pytest.approx(1.34, rel=1e-4)
+
+
+def test_shear_stress_laws():
+    rate = np.array([-1e7, -1.0, 0.0, 1.0, 1e7])
+    newtonian = shear_stress(OIL, 5e8, rate)
+    assert np.allclose(newtonian, viscosity(OIL, 5e8) * rate)
+    eyring = shear_stress(Lubricant(0.04, 2.2e-8, eyring_stress=5e6), 5e8, rate)
+    assert np.allclose(np.sinh(eyring / 5e6) * 5e6, newtonian)
+    limited = shear_stress(Lubricant(0.04, 2.2e-8, limiting_stress_coefficient=0.05), 5e8, rate)
+    assert np.max(np.abs(limited)) == pytest.approx(1e6 + 0.05 * 5e8)
+    assert limited[3] == newtonian[3]
+    for tau in (newtonian, eyring, limited):
+        assert np.allclose(tau, -tau[::-1])
+
+
+@pytest.mark.parametrize("arguments, word", [
+    (dict(viscosity=0.0, pressure_viscosity_coefficient=1e-8), "viscosity"),
+    (dict(viscosity=-1.0, pressure_viscosity_coefficient=1e-8), "viscosity"),
+    (dict(viscosity=float("nan"), pressure_viscosity_coefficient=1e-8), "viscosity"),
+    (dict(viscosity=6e-5, pressure_viscosity_coefficient=1e-8), "9.67"),
+    (dict(viscosity=0.1), "constant"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=-1e-9), "pressure_viscosity_coefficient"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, viscosity_law="baros"), "barus"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, density_law="dowson"), "dowson-higginson"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, eyring_stress=0.0), "eyring_stress"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, limiting_stress_coefficient=-1),
+     "limiting_stress_coefficient"),
+    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, limiting_stress_offset=-1),
+     "limiting_stress_offset"),
+])
+def test_bad_input(arguments, word):
+    with pytest.raises(InputError, match=word):
+        Lubricant(**arguments)
+
+
+def test_frozen_and_picklable():
+    assert pickle.loads(pickle.dumps(OIL)) == OIL
+    with pytest.raises(AttributeError):
+        OIL.viscosity = 1.0
