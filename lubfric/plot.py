@@ -22,6 +22,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
 
     ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
     """
+    from matplotlib.ticker import LogLocator, NullFormatter
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {k: v[order] for k, v in columns.items()}
@@ -44,6 +45,9 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     bottom.axhline(3, color=GREY, lw=0.7, ls=":")
     bottom.annotate("λ = 3", (speed[0], 3), xytext=(2, 2), textcoords="offset points", color=GREY)
     bottom.set_ylabel("λ = central film / Sq (-)")
+    bottom.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    bottom.yaxis.set_major_formatter("{x:g}")
+    bottom.yaxis.set_minor_formatter(NullFormatter())
     bottom.set_xlabel("entrainment speed U (m/s)")
     figure.savefig(path, dpi=150)
 
