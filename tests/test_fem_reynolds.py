@@ -225,7 +225,7 @@ def test_an_unconverged_solve_raises_and_carries_what_it_had():
 
 
 def test_a_runaway_oil_is_not_solved():
-    """Barus at a speed above the one where the pressure becomes infinite: no solution exists, none is returned."""
+    """Barus above the speed where the pressure becomes infinite: no solution exists, none is returned."""
     q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
     problem = Problem(
         parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True

@@ -24,7 +24,7 @@ a { color: var(--link); }
 .good { color: var(--good); } .bad { color: var(--bad); } .dim { color: var(--dim); font-size: .875rem; }
 .text { max-width: 46rem; }
 table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; color: var(--dim); }
+th { text-align: left; white-space: nowrap; font-weight: 600; color: var(--dim); }
 th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top;
   overflow-wrap: anywhere; }
 [data-label=Check] { min-width: 11rem; }
@@ -126,7 +126,7 @@ def checks_table(checks) -> str:
             escape(c.name),
             escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
             escape(allowed(c)),
-            escape(c.source + (f". {c.note}" if c.note else "")),
+            escape(c.source + (f"; {c.note}" if c.note else "")),
             seconds(c.seconds),
         )
         for c in checks

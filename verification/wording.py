@@ -17,6 +17,8 @@ ALLOWED = {
 def allowed(check: Check) -> str:
     """What the measured value may be, in words."""
     tolerance = f"{check.tolerance:.2g}"
+    if check.kind == AT_MOST and check.expected == 0:
+        return f"≤ {tolerance}"
     if check.kind in (AT_MOST, AT_LEAST) and check.tolerance == 0:
         return ("≤ " if check.kind == AT_MOST else "≥ ") + number(check.expected)
     return ALLOWED[check.kind].format(
