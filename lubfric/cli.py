@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import time
 from pathlib import Path
@@ -87,9 +88,11 @@ def _plot(arguments) -> int:
     from .output import read_csv
     from .plot import plot_stribeck
     source = arguments.folder / "stribeck.csv"
-    if not source.is_file():
-        raise InputError(f"{arguments.folder} holds no stribeck.csv; allowed: a folder written by 'lubfric run'")
-    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), arguments.folder.resolve().name)
+    for needed in (source, arguments.folder / "result.json"):
+        if not needed.is_file():
+            raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
+    record = json.loads((arguments.folder / "result.json").read_text())
+    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
     return 0
 
 
