@@ -271,3 +271,24 @@ def test_input_is_checked(change, message):
 def test_fluids_are_checked(change):
     with pytest.raises(InputError):
         Fluid(**({"viscosity": 0.1} | change))
+
+
+def test_stabilised_form_is_consistent():
+    """Upwinding that does not vanish at the solution would leave order 1 where the flow carries the pressure."""
+    gas = exact.Slider(1.8e-5, 20.0, 0.01, 4e-6, 2e-6)
+    fluid, errors = Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5), []
+    for cells in (160, 320, 640):
+        mesh = skfem.MeshLine(np.linspace(0, 0.01, cells + 1))
+        s = solve_reynolds(Problem(mesh, gas.film, fluid, 20.0, stabilisation="supg"))
+        errors.append(np.abs(s.at_vertices - exact.gas_slider(gas, 1e5, mesh.p[0])).max())
+    assert fitted_order([1, 0.5, 0.25], errors) > 1.8
+
+
+def test_laws_at_one_gigapascal():
+    """Numbers worked out by hand from the published formulas."""
+    assert np.isclose(Fluid(0.1, density_law="dowson_higginson").rho(1e9), 1 + 0.6 / 2.7)
+    assert np.isclose(Fluid(0.1, density_law="linear", bulk_modulus=2e9).rho(1e9), 1.5)
+    assert np.isclose(Fluid(0.1, "barus", 1e-8).eta(1e9), 0.1 * np.exp(10))
+    thick = 9.67 + np.log(0.1)  # Roelands: ln eta + 9.67 grows like (1 + p/p0)^z
+    z = 2e-8 * 1.96e8 / thick
+    assert np.isclose(Fluid(0.1, "roelands", 2e-8).eta(1e9), np.exp(-9.67 + thick * (1 + 1e9 / 1.96e8) ** z))
