@@ -1,0 +1,194 @@
+"""Half-space operators against quadrature, closed forms, each other, and their own symmetries."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import dblquad, quad
+from scipy.special import k0
+
+from lubfric import InputError
+from lubfric.halfspace import (
+    half_space,
+    line_coefficients,
+    love_coefficients,
+    reciprocity_error,
+    semiperiodic_coefficients,
+)
+
+BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
+
+
+def dense(operator):
+    """The operator as a matrix."""
+    basis = np.eye(operator.shape[0] * operator.shape[1])
+    return np.array([operator.apply(row.reshape(operator.shape)).ravel() for row in basis]).T
+
+
+def test_love_coefficients_match_quadrature():
+    dx, dy, e_prime = 1.5, 0.7, 3.0
+    table = love_coefficients((4, 5), (dx, dy), e_prime)
+    for i, j in ((1, 0), (0, 2), (3, 4), (1, 1)):
+        value, _ = dblquad(lambda y, x, i=i, j=j: 1 / np.hypot(i * dx - x, j * dy - y), -dx / 2, dx / 2,
+                           -dy / 2, dy / 2, epsabs=1e-11)
+        assert table[i, j] == pytest.approx(2 / (np.pi * e_prime) * value, rel=1e-8)
+    inner, _ = quad(lambda t: 4 * (dx / 2) / np.cos(t), 0, np.arctan(dy / dx))       # polar, around the centre
+    outer, _ = quad(lambda t: 4 * (dy / 2) / np.cos(t), 0, np.arctan(dx / dy))
+    assert table[0, 0] == pytest.approx(2 / (np.pi * e_prime) * (inner + outer), rel=1e-12)
+
+
+def test_line_coefficients_match_quadrature():
+    dx, e_prime, far = 0.3, 2.0, 7.0
+    table = line_coefficients(6, dx, e_prime, far)
+    for i in range(6):
+        pieces = [quad(lambda s, i=i: np.log(abs(i * dx - s) / far), *ends, epsabs=1e-13)[0]
+                  for ends in ((-dx / 2, 0.0), (0.0, dx / 2))]
+        assert table[i] == pytest.approx(-4 / (np.pi * e_prime) * sum(pieces), rel=1e-9)
+
+
+def test_semiperiodic_coefficients_match_quadrature():
+    shape, (dx, dy), e_prime = (9, 8), (0.4, 0.3), 2.0
+    table = semiperiodic_coefficients(shape, (dx, dy), e_prime)
+    for m in (1, 2, 4):
+        k = 2 * np.pi * m / (shape[1] * dy)
+        for i in range(shape[0]):
+            low, high = (i - 0.5) * dx, (i + 0.5) * dx
+            value = 2 * quad(lambda s: k0(k * s), 0, high, epsrel=1e-12)[0] if i == 0 else \
+                quad(lambda s, k=k: k0(k * s), low, high, epsrel=1e-12)[0]
+            assert table[i, m] == pytest.approx(4 / (np.pi * e_prime) * value, abs=1e-13 * table[0, m])
+    assert table[:, 0] == pytest.approx(line_coefficients(9, dx, e_prime, 9 * dx))
+
+
+@pytest.mark.parametrize("cells_per_wavelength", [1e3, 40, 3, 0.2])
+def test_bessel_cells_over_all_scales(cells_per_wavelength):
+    from lubfric.halfspace.semiperiodic import bessel_cells
+    k = 2 * np.pi / cells_per_wavelength
+    cells = bessel_cells(12, k)
+    for i in range(1, 12):
+        assert cells[i] == pytest.approx(quad(lambda s: k0(k * s), i - .5, i + .5, epsabs=1e-16)[0], abs=2e-14)
+
+
+@settings(max_examples=40, deadline=None)
+@given(shape=st.tuples(st.integers(1, 13), st.integers(1, 13)), boundary=st.sampled_from(BOUNDARIES),
+       spacing=st.tuples(st.floats(0.02, 50), st.floats(0.02, 50)), seed=st.integers(0, 99))
+def test_reciprocity_and_positivity(shape, boundary, spacing, seed):
+    operator = half_space(shape, spacing, 2.0, boundary)
+    assert reciprocity_error(operator, seed) < 1e-14
+    assert reciprocity_error(operator.astype(np.float32), seed) < 1e-6
+    matrix = dense(operator)
+    eigenvalues = np.linalg.eigvalsh(0.5 * (matrix + matrix.T))
+    assert eigenvalues.min() >= -1e-12 * eigenvalues.max()
+    if "free" in boundary:
+        assert eigenvalues.min() > 0
+
+
+def test_reciprocity_notices_a_wrong_operator():
+    class Skewed:
+        shape = (6, 6)
+
+        def apply(self, p):
+            return np.cumsum(p, axis=0)
+
+    assert reciprocity_error(Skewed()) > 1e-3
+
+
+@pytest.mark.parametrize("shape", [(12, 10), (11, 9), (1, 8), (7, 1)])
+def test_periodic_deflection_of_a_wave(shape):
+    dx, dy, e_prime = 0.5, 0.8, 3.0
+    kx = 2 * np.pi / (shape[0] * dx) * (shape[0] > 1)
+    ky = 2 * np.pi / (shape[1] * dy) * (shape[1] > 1)
+    phase = kx * dx * np.arange(shape[0])[:, None] + ky * dy * np.arange(shape[1])
+    u = half_space(shape, (dx, dy), e_prime).apply(5.0 + np.cos(phase))
+    assert u == pytest.approx(4 / (e_prime * np.hypot(kx, ky)) * np.cos(phase), abs=1e-13)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_fft_equals_direct_sum(boundary):
+    """Padding leaves no image: a single loaded cell reproduces the kernel in every corner."""
+    shape, spacing = (6, 7), (0.4, 0.9)
+    operator = half_space(shape, spacing, 2.0, boundary)
+    p = np.zeros(shape)
+    p[0, 0] = 1.0
+    u = operator.apply(p)
+    if boundary == ("free", "free"):
+        assert u == pytest.approx(love_coefficients(shape, spacing, 2.0), rel=1e-12)
+    q = np.zeros(shape)
+    q[-1, -1] = 1.0
+    assert operator.apply(q)[::-1, ::-1] == pytest.approx(u, rel=1e-12, abs=1e-13 * abs(u).max())
+
+
+def test_transposed_semiperiodic():
+    p = np.random.default_rng(0).random((10, 6))
+    u = half_space((10, 6), (0.3, 0.5), 2.0, ("free", "periodic")).apply(p)
+    v = half_space((6, 10), (0.5, 0.3), 2.0, ("periodic", "free")).apply(p.T)
+    assert v.T == pytest.approx(u, rel=1e-12)
+
+
+def test_semiperiodic_of_uniform_pressure_is_the_line_kernel():
+    nx, ny, dx = 40, 6, 0.2
+    line = np.random.default_rng(1).random(nx)
+    u = half_space((nx, ny), (dx, 0.5), 2.0, ("free", "periodic")).apply(np.repeat(line[:, None], ny, axis=1))
+    lag = np.abs(np.arange(nx)[:, None] - np.arange(nx))
+    expected = line_coefficients(nx, dx, 2.0, nx * dx)[lag] @ line
+    assert u == pytest.approx(np.repeat(expected[:, None], ny, axis=1), rel=1e-12)
+
+
+def test_semiperiodic_is_the_limit_of_a_long_periodic_box():
+    """For a smooth pressure without y-mean (its deflection decays); the difference is the second-order error
+    of constant cells along x, which the periodic operator has not."""
+    errors = []
+    for n in (40, 80, 160):
+        dx = 8.0 / n
+        x, y = (np.arange(n) - 0.5 * (n - 1)) * dx, np.arange(12) / 12
+        p = np.exp(-x[:, None] ** 2) * np.cos(2 * np.pi * y)
+        semi = half_space((n, 12), (dx, 0.5), 2.0, ("free", "periodic")).apply(p)
+        long = np.zeros((16 * n, 12))
+        long[:n] = p
+        periodic = half_space(long.shape, (dx, 0.5), 2.0).apply(long)[:n]
+        errors.append(np.abs(semi - periodic).max() / np.abs(semi).max())
+    assert errors[-1] < 3e-4
+    assert np.log2(errors[0] / errors[1]) > 1.8 and np.log2(errors[1] / errors[2]) > 1.9
+
+
+def test_free_tends_to_semiperiodic_for_many_periods():
+    """Love's cells repeated along y, away from the ends: the part that varies along y."""
+    nx, ny, periods, dx = 24, 16, 15, 0.1
+    p = np.random.default_rng(2).random((nx, ny)) * np.hanning(nx)[:, None]
+    p -= p.mean(axis=1, keepdims=True)
+    p = (p + np.roll(p, 1, axis=1)) / 2
+    smooth = np.fft.irfft(np.fft.rfft(p, axis=1) * (np.arange(ny // 2 + 1) < 4), n=ny, axis=1)
+    u = half_space((nx, ny), (dx, dx), 2.0, ("free", "periodic")).apply(smooth)
+    v = half_space((nx, ny * periods), (dx, dx), 2.0, "free").apply(np.tile(smooth, (1, periods)))
+    middle = v[:, ny * (periods // 2):ny * (periods // 2 + 1)]
+    assert np.abs(u - middle).max() < 0.04 * np.abs(u).max()
+
+
+def test_single_precision():
+    p = np.random.default_rng(3).random((30, 20))
+    for boundary in BOUNDARIES:
+        operator = half_space((30, 20), 0.1, 2.0, boundary)
+        single = operator.astype(np.float32).apply(p.astype(np.float32))
+        u = operator.apply(p)
+        assert single.dtype == np.float32
+        assert np.abs(single - u).max() < 2e-6 * np.abs(u).max()
+
+
+def test_coarsened_operator():
+    fine = half_space((32, 16), (0.1, 0.2), 2.0)
+    coarse = fine.coarsened((2, 2))
+    assert coarse.symbol == pytest.approx(half_space((16, 8), (0.2, 0.4), 2.0).symbol)
+
+
+@pytest.mark.parametrize("arguments, word", [
+    (dict(shape=(4,)), "shape"), (dict(shape=(0, 4)), "shape"), (dict(shape=(4, 2.5)), "shape"),
+    (dict(spacing=0.0), "spacing"), (dict(spacing=(1.0, -1.0)), "spacing"), (dict(spacing=(1, 2, 3)), "spacing"),
+    (dict(e_prime=0.0), "e_prime"), (dict(e_prime=np.nan), "e_prime"), (dict(boundary=("periodic",)), "boundary"),
+    (dict(boundary=("periodic", "fre")), "free"), (dict(workers=0), "workers")])
+def test_bad_input(arguments, word):
+    with pytest.raises(InputError, match=word):
+        half_space(**({"shape": (4, 4), "spacing": 1.0, "e_prime": 1.0} | arguments))
+
+
+def test_apply_rejects_another_shape():
+    with pytest.raises(InputError, match="shape"):
+        half_space((4, 5), 1.0, 1.0).apply(np.zeros((5, 4)))
