@@ -274,14 +274,18 @@ def test_fluids_are_checked(change):
 
 
 def test_stabilised_form_is_consistent():
-    """Upwinding that does not vanish at the solution would leave order 1 where the flow carries the pressure."""
-    gas = exact.Slider(1.8e-5, 20.0, 0.01, 4e-6, 2e-6)
+    """Away from the outlet layer it is of second order on meshes that resolve nothing of the layer.
+
+    Plain artificial diffusion, which does not vanish at the solution, is of first order there.
+    """
+    gas = exact.Slider(1.8e-5, 2000.0, 0.01, 4e-6, 2e-6)
     fluid, errors = Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5), []
-    for cells in (160, 320, 640):
+    for cells in (10, 20, 40):
         mesh = skfem.MeshLine(np.linspace(0, 0.01, cells + 1))
-        s = solve_reynolds(Problem(mesh, gas.film, fluid, 20.0, stabilisation="supg"))
-        errors.append(np.abs(s.at_vertices - exact.gas_slider(gas, 1e5, mesh.p[0])).max())
-    assert fitted_order([1, 0.5, 0.25], errors) > 1.8
+        s = solve_reynolds(Problem(mesh, gas.film, fluid, 2000.0, stabilisation="supg"))
+        off = np.abs(s.at_vertices - exact.gas_slider(gas, 1e5, mesh.p[0]))
+        errors.append(off[mesh.p[0] <= 0.0051].max())
+    assert fitted_order([1, 0.5, 0.25], errors) > 1.7, errors
 
 
 def test_laws_at_one_gigapascal():
