@@ -13,6 +13,7 @@ import numpy as np
 from . import __version__
 from .mixed import FrictionResult, Model
 from .scene_file import scene_as_dict
+from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
 UNITS = {"speed": "m/s", "contact_load": "N", "film_load": "N", "shear_force": "N", "couette_force": "N",
@@ -26,7 +27,7 @@ def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) 
     record = {
         "scene": scene_as_dict(model.scene),
         "surface": {"shape": model.surface.heights.shape, "spacing": model.surface.spacing,
-                    "sq": model.surface.sq, "notes": list(model.surface.notes)},
+                    "statistics": _statistics(model.surface), "notes": list(model.surface.notes)},
         "versions": {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__,
                      "python": platform.python_version()},
         "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
@@ -65,6 +66,12 @@ def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None
         if contact is not None:
             arrays |= {f"contact_pressure_{i}": contact.pressure, f"gap_{i}": contact.gap}
     np.savez_compressed(path, **arrays)
+
+
+def _statistics(surface) -> dict:
+    return {"sq": surface.sq, "sa": surface.sa, "ssk": surface.ssk, "sku": surface.sku,
+            "rms_slope": dict(zip(("x", "y", "total"), rms_slope(surface))),
+            "missing_fraction": surface.missing_fraction}
 
 
 def _point(curve: StribeckResult, index: int) -> dict:
