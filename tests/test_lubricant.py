@@ -28,7 +28,7 @@ def test_derivatives_match_differences(law, density, p):
     oil = Lubricant(0.04, 2.2e-8, law, density)
     step = 1e3
     for function in (log_viscosity_ratio, density_ratio):
-        value, slope = function(oil, p + step)
+        _value, slope = function(oil, p + step)
         difference = (function(oil, p + 2 * step)[0] - function(oil, p)[0]) / (2 * step)
         assert float(difference) == pytest.approx(float(slope), rel=1e-4, abs=1e-18)
 
@@ -68,18 +68,18 @@ def test_shear_stress_laws():
 
 
 @pytest.mark.parametrize("arguments, word", [
-    (dict(viscosity=0.0, pressure_viscosity_coefficient=1e-8), "viscosity"),
-    (dict(viscosity=-1.0, pressure_viscosity_coefficient=1e-8), "viscosity"),
-    (dict(viscosity=float("nan"), pressure_viscosity_coefficient=1e-8), "viscosity"),
-    (dict(viscosity=6e-5, pressure_viscosity_coefficient=1e-8), "9.67"),
-    (dict(viscosity=0.1), "constant"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=-1e-9), "pressure_viscosity_coefficient"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, viscosity_law="baros"), "barus"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, density_law="dowson"), "dowson-higginson"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, eyring_stress=0.0), "eyring_stress"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, limiting_stress_coefficient=-1),
+    ({"viscosity": 0.0, "pressure_viscosity_coefficient": 1e-8}, "viscosity"),
+    ({"viscosity": -1.0, "pressure_viscosity_coefficient": 1e-8}, "viscosity"),
+    ({"viscosity": float("nan"), "pressure_viscosity_coefficient": 1e-8}, "viscosity"),
+    ({"viscosity": 6e-5, "pressure_viscosity_coefficient": 1e-8}, "9.67"),
+    ({"viscosity": 0.1}, "constant"),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": -1e-9}, "pressure_viscosity_coefficient"),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8, "viscosity_law": "baros"}, "barus"),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8, "density_law": "dowson"}, "dowson-higginson"),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8, "eyring_stress": 0.0}, "eyring_stress"),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8, "limiting_stress_coefficient": -1},
      "limiting_stress_coefficient"),
-    (dict(viscosity=0.1, pressure_viscosity_coefficient=1e-8, limiting_stress_offset=-1),
+    ({"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8, "limiting_stress_offset": -1},
      "limiting_stress_offset"),
 ])
 def test_bad_input(arguments, word):

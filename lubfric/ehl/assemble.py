@@ -13,18 +13,14 @@ from .problem import Problem
 from .result import EHLResult, cubic, smallest
 from .start import solution_state
 
-ORDER = 2    # of the discretisation
-
 
 def grid_error(levels: list[Solution]) -> float:
-    """Relative discretisation error of the last solution: second-order extrapolation of the changes of
-    smallest, central and flow film between the last two grids, or, if larger, of a quarter of the change
-    before that."""
+    """Relative discretisation error of the last solution; the formula is in `solve_ehl`."""
     films = np.array([[smallest(s.terms.X, s.terms.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
-    return float(max(changes[-1], changes[0] / 2 ** (ORDER * (changes.size - 1))) / (2**ORDER - 1))
+    return float(changes[0] / 1.5 if changes.size == 1 else max(changes[1], changes[0] / 3.0) / 2.0)
 
 
 def _at_centre(solution: Solution) -> float:
@@ -33,12 +29,14 @@ def _at_centre(solution: Solution) -> float:
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the tail's next-order term: its share of the load times the departure from the parabola."""
+    """Effect of the next order of the inlet condition, tested against longer domains: share of the tail in the
+    load times 4 (q + |H - X²/2|)/(X²/2)."""
     if problem.inlet_length is not None:
         return 0.0
     t = solution.terms
     a = -t.X[0]
-    return 0.5 * a * t.P[0] / problem.M * abs(2.0 * t.H[0] / a**2 - 1.0)
+    departure = 2.0 * t.q / a**2 + abs(2.0 * t.H[0] / a**2 - 1.0)
+    return float(4.0 * departure * 0.5 * a * t.P[0] / problem.M)
 
 
 def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:

@@ -15,7 +15,7 @@ import numpy as np
 
 from .kernel import hat_kernel
 
-FAR_INLET = 20.0              # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
+FAR_INLET = 30.0              # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
 RISE_CELL, RISE_GROWTH = 0.3, 0.35        # smallest cell where the pressure rises / rise length; growth
 RUPTURE_CELL, RUPTURE_GROWTH = 0.1, 0.28  # the same at the rupture point, where film and pressure spike are
 CORE = 1.2                    # cells spread evenly over the contact, relative to the above
