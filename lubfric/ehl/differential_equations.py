@@ -1,71 +1,129 @@
-"""The coupled equations of the differential deflection method on a uniform grid, and Newton's method on them.
+"""Reynolds' and the second-difference film equation, coupled: residual and derivatives.
 
-Unknowns are the pressures P and films H at all N nodes, in the variables of `lubfric.ehl.problem`. The
-deflection of piecewise linear pressures (hat functions of width ``step``) enters through its second difference,
+Unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 
-    H[i-1] - 2 H[i] + H[i+1] = step² + sum_k W[k] P[i-k],      W[k] = -(4/pi) step δ⁴(k² ln|k| /2),
-
-exact, with weights that fall like 1/k² where those of the deflection grow like ln k. What the second difference
-cannot see, a constant and a slope, are the films at both ends: one follows from the full integral, the other from the load.
-(H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate, H. P. Evans, ibid.
-585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.)
-
-In each Newton step the weights with |k| <= bandwidth are implicit, one banded factorisation; those of larger k are put right
-by GMRES on the banded solve (the authors lag them), so that the step is that of the full integral.
+* before the rupture point mass balances at each node (flux of face i minus flux of face i - 1, plus what the
+  film stores); behind it P = 0 and every node may only draw more than it gets. Fluxes as in
+  `lubfric.ehl.reynolds`.
+* inlet: P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
+* second difference of the film at interior nodes; what it cannot see, a constant and a slope, are the films
+  at both ends: their difference follows from the full integral, their height from the load.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
-from .newton import FILM_STEP, VISCOSITY_STEP
-from .problem import Problem
+from .differential_mesh import Mesh, convolve
+from .problem import Problem, expected_film
 from .reynolds import log_mean_fluidity
-
-KRYLOV_LIMIT = 40        # GMRES vectors in one Newton step
-FORCING = 1e-2           # share of the far deflection that a Newton step may leave to the next one
 
 
 @dataclass(frozen=True)
-class Mesh:
-    """X: node positions (N,), uniform; log_kernel, weights: of the deflection and of its second difference, by
-    distance in nodes (N,); bandwidth: largest distance that is implicit; flooded: whether the inlet is."""
+class Squeeze:
+    """d(rho H)/dT = rate rho H - past at the nodes, T = U t in units of x: an implicit step in time."""
 
-    X: np.ndarray
-    step: float
-    log_kernel: np.ndarray
-    weights: np.ndarray
-    bandwidth: int
-    flooded: bool
-
-    @property
-    def size(self) -> int:
-        """Number of nodes."""
-        return self.X.size
+    rate: float
+    past: np.ndarray
 
 
-def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bool) -> Mesh:
-    """``nodes`` positions from ``first`` to ``last`` with the weights of the deflection."""
-    X, step = np.linspace(first, last, nodes, retstep=True)
-    k = np.arange(nodes + 2.0)
-    g = 0.5 * k * k * np.log(np.maximum(k, 1.0))
-    bend = g[np.abs(np.arange(-1, nodes))] - 2.0 * g[:-1] + g[1:]            # δ² g at 0 .. nodes
-    kernel = -4.0 / math.pi * step * (bend + math.log(step))
-    weights = -4.0 / math.pi * step * (bend[np.abs(np.arange(-1, nodes - 1))] - 2.0 * bend[:-1] + bend[1:])
-    return Mesh(X, step, kernel[:-1], weights, min(bandwidth, nodes - 2), flooded)
+STEADY = Squeeze(0.0, np.zeros(()))
 
 
-def convolve(kernel: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """sum_j kernel[|i-j|] P[j] at all nodes, by FFT."""
-    from scipy.fft import irfft, next_fast_len, rfft
+@dataclass(frozen=True)
+class Terms:
+    """One evaluation of the equations.
 
-    n = P.size
-    size = next_fast_len(2 * n, real=True)
-    wrapped = np.zeros(size)
-    wrapped[:n] = kernel
-    wrapped[size - n + 1:] = kernel[:0:-1]
-    return irfft(rfft(wrapped) * rfft(P, size), size)[:n]
+    through: mass flux at the faces (N - 1) plus what is stored upstream; last: node before rupture; q: the
+    flux behind it; balance (N,): what leaves a node, P behind rupture; bend (N,): defect of the second
+    difference; ends: defects of the tilt between both ends and of the load; scale: of fluxes.
+    by_H, by_P: derivatives of a face's flux by its film and the pressures left and right of it;
+    stored_by_H, stored_by_P: those of the storage; slope: d ln(eta)/dP.
+    """
+
+    through: np.ndarray
+    last: int
+    q: float
+    balance: np.ndarray
+    bend: np.ndarray
+    ends: np.ndarray
+    scale: float
+    by_H: np.ndarray
+    by_P: np.ndarray
+    stored_by_H: np.ndarray
+    stored_by_P: np.ndarray
+    slope: np.ndarray
+
+
+def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze: Squeeze = STEADY) -> Terms:
+    """Fluxes, balances and defects at pressures P and films H."""
+    log_eta, slope = problem.log_viscosity(P)
+    rho, rho_slope = problem.density(P)
+    fluidity, by_left, by_right = log_mean_fluidity(log_eta)
+    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), _film_at_faces(H)
+    gradient = np.diff(P) / (6.0 * mesh.step)
+    flow = h - h**3 * fluidity * gradient
+    cube = face_rho * h**3
+    conductance = cube * fluidity / (6.0 * mesh.step)
+    by_P = np.stack([conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1],
+                     -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:]])
+    stored = mesh.step * (squeeze.rate * rho * H - squeeze.past)
+    through = face_rho * flow + np.cumsum(stored)[:-1]
+    balance = np.zeros_like(P)
+    balance[1:-1] = np.diff(through)
+    last = _last_wet(P, balance)
+    scale = expected_film(problem.M, problem.L)
+    balance = np.where(np.arange(P.size) <= last, balance / scale, P)
+    balance[0] = P[0] - inlet_ratio(mesh) * P[1]
+    bend = np.zeros_like(H)
+    bend[1:-1] = np.diff(H, 2) - mesh.step**2 - convolve(mesh.all_transform, P)[1:-1]
+    tilt = 0.5 * (mesh.X[-1] ** 2 - mesh.X[0] ** 2) + tilt_row(mesh) @ P - (H[-1] - H[0])
+    ends = np.array([tilt, load_row(mesh, problem) @ P - 1.0])
+    return Terms(through, last, float(through[last]), balance, bend, ends, scale,
+                 face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), by_P,
+                 mesh.step * squeeze.rate * rho, mesh.step * squeeze.rate * rho_slope * H, slope)
+
+
+def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
+    """∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
+    row = np.full(mesh.size, mesh.step / problem.M)
+    if mesh.flooded:
+        row[0] = 0.5 * (mesh.step - mesh.X[0]) / problem.M
+    return row
+
+
+def tilt_row(mesh: Mesh) -> np.ndarray:
+    """Deflection at the last node minus that at the first by P."""
+    return mesh.log_kernel[::-1] - mesh.log_kernel
+
+
+def inlet_ratio(mesh: Mesh) -> float:
+    """P at the first node as a share of P at the second."""
+    return (mesh.X[1] / mesh.X[0]) ** 3 if mesh.flooded else 0.0
+
+
+def _film_at_faces(H: np.ndarray) -> np.ndarray:
+    """Film between neighbouring nodes, third-order upwind; the first face has nothing upstream."""
+    first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]
+    return np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
+
+
+def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
+    """The node before rupture: pressures are positive up to it, and the next one would draw, not give."""
+    peak = int(np.argmax(P))
+    last = peak + int(np.argmax(P[peak:] <= 0.0)) - 1
+    while last < P.size - 2 and balance[last + 1] < 0.0:
+        last += 1
+    return max(last, 1)
+
+
+def measure(mesh: Mesh, t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
+    """Relative residuals: mass, film (against the full integral), load, complementarity."""
+    whole = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)
+    defect = (H - H[0]) - (whole - whole[0])
+    behind = t.through[t.last + 1:]
+    return {"mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),
+            "film": float(np.max(np.abs(defect) / H)), "load": abs(float(t.ends[1])),
+            "complementarity": float(max(0.0, -P.min() / P.max(), 1.0 - behind.min(initial=t.q) / t.q))}

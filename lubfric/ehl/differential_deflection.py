@@ -1,0 +1,263 @@
+"""`solve_differential_deflection`: the film by the method that the load-sharing model was first built on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import InputError
+from ..lubricant import Lubricant
+from ..report import CONVERGED, STAGNATED, Report
+from ..validate import integer, number, positive
+from .differential_equations import load_row
+from .differential_mesh import Mesh, convolve, make_mesh
+from .differential_newton import Solution, newton
+from .grid import node_positions
+from .problem import Problem, expected_film
+from .result import EHLResult, cubic, smallest
+from .start import State, expected_rupture
+
+COARSEST, FINEST = 64, 65536     # cells
+RESOLVED = 0.7                   # largest step of a first grid, relative to the length of the pressure rise
+
+
+def solve_differential_deflection(
+        *, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float, viscosity: float,
+        pressure_viscosity_coefficient: float, viscosity_law: str = "roelands", density: str = "constant",
+        tolerance: float = 3e-3, inlet_length: float | None = None, start: EHLResult | None = None,
+        max_iterations: int = 60, nodes: int | None = None, domain: tuple[float, float] | None = None,
+        bandwidth: int = 8, raise_on_failure: bool = True) -> EHLResult:
+    """Film of a smooth line contact by differential deflection, on a uniform grid.
+
+    The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
+    of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
+    ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
+    from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
+    (`lubfric.ehl.differential_equations`). A step costs O(N log N + N bandwidth²).
+
+    Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
+    H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,
+    Proc. IMechE J 215 (2001) 319-337. The far pressures are not lagged: GMRES adds them to each Newton step.
+
+    Parameters beyond those of `lubfric.solve_ehl`
+    ----------
+    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most 65537
+    domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
+        contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
+        behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0. Changes the time, not the answer.
+    max_iterations : Newton steps per grid; start : here only its fields x, pressure, film_thickness are used
+
+    report.residuals, all relative, must be <= tolerance:
+    discretisation : largest change of min_film, central_film and flow_film against the grid of half the
+        cells, or a quarter of the change before that
+    domain : estimated effect of the finite inlet on flow_film (0 with inlet_length)
+    mass : largest |flux through a face before rupture/q - 1|; load : |∫ p dx/load - 1|
+    film : largest |h - full integral|/h
+    complementarity : largest of -p/p_max and of 1 - flux/q behind rupture
+    (the last four are <= 1e-3 tolerance where Newton's method converged)
+    report.evaluations counts banded solves, each with one convolution.
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : residuals above tolerance, with report and result; not if raise_on_failure is False
+
+    ``x`` in the result is the uniform grid with the rupture point added as a node. Checked for M = 1e-3 to
+    1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
+    needs about 50 times the nodes of a graded one at M = 1000.
+    """
+    speed = number("entrainment_speed", entrainment_speed, "m/s")
+    if speed == 0.0:
+        raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
+    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density)
+    problem = Problem(positive("load_per_width", load_per_width, "N/m"), positive("radius", radius, "m"),
+                      positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
+                      None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+    tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
+    max_iterations = integer("max_iterations", max_iterations, minimum=1)
+    bandwidth = integer("bandwidth", bandwidth, minimum=0)
+    nodes = None if nodes is None else integer("nodes", nodes, minimum=COARSEST + 1)
+    if start is not None and not isinstance(start, EHLResult):
+        raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    ends = _domain(problem, domain)
+
+    levels, notes = [], ()
+    if start is not None:
+        levels = _ascend(problem, ends, nodes, bandwidth, tolerance, max_iterations, start)
+        if levels[-1].status != CONVERGED:
+            notes = ("the warm start failed; solved again from a cold start",)
+    if not levels or levels[-1].status != CONVERGED:
+        levels = _ascend(problem, ends, nodes, bandwidth, tolerance, max_iterations, None)
+    result = _assemble(problem, levels, tolerance, math.copysign(1.0, speed), notes)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def _domain(problem: Problem, domain) -> tuple[float, float]:
+    """First and last node in units of X."""
+    b, unit = problem.half_width, problem.length_unit
+    inlet_length = math.sqrt(2.0 * expected_film(problem.M, problem.L))
+    first = -2.0 * b - 20.0 * inlet_length
+    last = expected_rupture(problem.M, problem.L) + 0.2 * b + inlet_length
+    if problem.inlet_length is not None:
+        if domain is not None:
+            raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
+        first = -problem.inlet_length / unit
+        if -first <= b:
+            raise InputError(f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; allowed: "
+                             f"more than its half-width {b * unit:.4g} m")
+    if domain is not None:
+        if np.shape(domain) != (2,):
+            raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
+        first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
+        last = number("domain[1]", domain[1], "m", minimum=b * unit) / unit
+    return first, last
+
+
+def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> list[int]:
+    """Cells of the nested grids, coarse to fine; the first resolves the rise of the pressure if the last does."""
+    film, b = math.sqrt(2.0 * expected_film(problem.M, problem.L)), problem.half_width
+    enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
+    if nodes is None:
+        cells = [2 ** math.ceil(math.log2(enough))]
+        while 2 * cells[-1] <= FINEST:
+            cells.append(2 * cells[-1])
+        return cells
+    cells = [nodes - 1]
+    while cells[0] // 2 >= min(enough, max(COARSEST, (nodes - 1) // 2)):
+        cells.insert(0, cells[0] // 2)
+    return cells
+
+
+def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
+    """Solutions on grids of doubling size; without ``nodes`` until two neighbours agree to ``tolerance``."""
+    cells = _cells(problem, ends, nodes)
+    while start is not None and len(cells) > 2 and (nodes is not None or 2 * cells[0] < 0.75 * start.x.size):
+        cells.pop(0)
+    levels: list[Solution] = []
+    for n in cells:
+        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
+        if levels:
+            P, H = _transfer(mesh, levels[-1].mesh.X, levels[-1].P, levels[-1].H)
+        else:
+            P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
+        levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_steps))
+        if levels[-1].status != CONVERGED or nodes is None and grid_error(levels) <= tolerance:
+            break
+    return levels
+
+
+def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+    """A semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
+    film = expected_film(problem.M, problem.L)
+    width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
+    place = (mesh.X - expected_rupture(problem.M, problem.L)) / width
+    P = np.sqrt(np.maximum(0.0, 1.0 - (place + 1.0) ** 2))
+    P /= load_row(mesh, problem) @ P
+    gap = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)
+    return P, gap - gap.min() + film
+
+
+def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure and film of ``start``, stretched to the expected rupture and film and to the load."""
+    M, L = start.load_number, start.material_number
+    film_unit = start.load / (start.e_prime * M)
+    X = start.x * math.copysign(1.0, start.entrainment_speed) / math.sqrt(start.radius * film_unit)
+    order = np.argsort(X)
+    X, P, H = X[order], start.pressure[order], start.film_thickness[order] / film_unit
+    place = mesh.X * (expected_rupture(M, L) / expected_rupture(problem.M, problem.L))
+    P = np.interp(place, X, P, left=0.0)
+    H = np.interp(place, X, H - 0.5 * X**2) + 0.5 * place**2
+    return P / (load_row(mesh, problem) @ P), H * (expected_film(problem.M, problem.L) / expected_film(M, L))
+
+
+def _transfer(mesh: Mesh, X: np.ndarray, P: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (linear) and film (cubic) on another mesh."""
+    return np.interp(mesh.X, X, P), cubic(X, H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
+
+
+def grid_error(levels: list[Solution]) -> float:
+    """Largest relative change of smallest, central and flow film between the last two grids, or a quarter of the
+    change before that. About three times the error, for a rupture point bound to nodes makes it uneven."""
+    films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    if len(films) < 2:
+        return math.inf
+    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
+    return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
+
+
+def _at_centre(solution: Solution) -> float:
+    X = solution.mesh.X
+    return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
+
+
+def _domain_error(problem: Problem, solution: Solution) -> float:
+    """Effect of the tail's next-order term: its share of the load times the departure from the parabola."""
+    if problem.inlet_length is not None:
+        return 0.0
+    a = -solution.mesh.X[0]
+    return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))
+
+
+def _report(problem: Problem, levels: list[Solution], tolerance: float, notes: tuple) -> Report:
+    last = levels[-1]
+    residuals = {"discretisation": grid_error(levels), "domain": _domain_error(problem, last), **last.residuals}
+    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
+    status = last.status
+    if status == CONVERGED and not residual <= tolerance:
+        status = STAGNATED
+    history = tuple(e for level in levels for e in level.history)
+    first, end = last.mesh.X[[0, -1]] / problem.half_width
+    notes += (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths; {last.mesh.bandwidth} implicit",)
+    if last.terms.last >= last.mesh.size - 2:
+        notes += ("the film did not rupture inside the domain",)
+    return Report("line-contact EHL, differential deflection", status, len(history) - len(levels), residual,
+                  tolerance, residuals, history, sum(level.solves for level in levels), notes)
+
+
+def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+    """Rupture point, where the film is that of the flow, and X, P, H with a node there."""
+    X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
+    before, behind = 0.5 * (H[last] + H[last + 1]), 0.5 * (H[last + 1] + H[min(last + 2, H.size - 1)])
+    share = np.clip((q - before) / (behind - before), 0.0, 1.0) if behind > before else 0.5
+    e = X[last] + (0.5 + float(share)) * solution.mesh.step
+    i = int(np.searchsorted(X, e))
+    if min(abs(X[i] - e), abs(X[i - 1] - e)) < 1e-3 * solution.mesh.step:
+        return float(X[i] if X[i] - e < e - X[i - 1] else X[i - 1]), X, P, H
+    film = cubic(X, H - 0.5 * X**2, np.array([e]))[0] + 0.5 * e * e
+    return e, np.insert(X, i, e), np.insert(P, i, 0.0), np.insert(H, i, film)
+
+
+def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
+    """The `State` from which `solve_ehl` can start: the solution on its graded grid."""
+    xi = node_positions(problem.half_width, expected_film(problem.M, problem.L), 2 * COARSEST)
+    X = xi + rupture
+    P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
+    H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
+    return State(problem.M, problem.L, P[:-1], H, solution.terms.q, rupture, error)
+
+
+def _assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: float, notes: tuple) -> EHLResult:
+    """The result in SI units; sign -1 mirrors it."""
+    last = levels[-1]
+    rupture, X, P, H = _with_rupture(last)
+    mesh, q, lubricant = last.mesh, last.terms.q, problem.lubricant
+    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
+    constant = last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P
+    order = slice(None) if sign > 0 else slice(None, None, -1)
+    report = _report(problem, levels, tolerance, notes)
+    return EHLResult(
+        x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
+        film_thickness=(H * film)[order],
+        viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
+        density_ratio=problem.density(P)[0][order], min_film=smallest(mesh.X, last.H) * film,
+        central_film=_at_centre(last) * film, flow_film=q * film, flux=q * film * problem.speed * sign,
+        rupture=rupture * length * sign,
+        approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
+        half_width=b * length, hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
+        load=problem.load, radius=problem.radius, e_prime=problem.e_prime, entrainment_speed=sign * problem.speed,
+        load_number=problem.M, material_number=problem.L, report=report,
+        state=_state(problem, last, rupture, report.residuals["discretisation"]))

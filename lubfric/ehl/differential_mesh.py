@@ -1,0 +1,80 @@
+"""Uniform grid and convolutions of the differential deflection method.
+
+The film of piecewise linear pressures (hat functions of width ``step``), in the variables of
+`lubfric.ehl.problem`, is H00 + X²/2 + sum_k log_kernel[k] P[i-k]. Its second difference is
+
+    H[i-1] - 2 H[i] + H[i+1] = step² + sum_k weights[k] P[i-k],  weights[k] = -(4/pi) step δ⁴(k² ln|k|/2),
+
+without any error of discretisation. The weights fall like 1/k²; those of the deflection grow like ln k.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """X: node positions (N,); log_kernel, weights: of the film and of its second difference, by distance in
+    nodes (N,); bandwidth: largest distance that is near; log_transform, all_transform, far_transform: Fourier
+    transforms of log_kernel, weights, and the weights beyond the bandwidth; flooded: whether the pressure
+    goes on upstream of the first node."""
+
+    X: np.ndarray
+    step: float
+    log_kernel: np.ndarray
+    weights: np.ndarray
+    bandwidth: int
+    log_transform: np.ndarray
+    all_transform: np.ndarray
+    far_transform: np.ndarray
+    flooded: bool
+
+    @property
+    def size(self) -> int:
+        """Number of nodes."""
+        return self.X.size
+
+
+def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bool) -> Mesh:
+    """``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
+    X, step = np.linspace(first, last, nodes, retstep=True)
+    k = np.arange(nodes + 2.0)
+    bend = _second_difference(0.5 * k * k * np.log(np.maximum(k, 1.0)))
+    log_kernel = -4.0 / math.pi * step * (bend[:-1] + math.log(step) - 1.5)
+    weights = -4.0 / math.pi * step * _second_difference(bend)
+    far = weights.copy()
+    far[: bandwidth + 1] = 0.0
+    transforms = (_transform(kernel) for kernel in (log_kernel, weights, far))
+    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), *transforms, flooded)
+
+
+def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
+    """sum_j kernel[|i-j|] P[j] at all nodes."""
+    from scipy.fft import irfft, rfft
+
+    size = _padded(P.size)
+    return irfft(transform * rfft(P, size), size)[: P.size]
+
+
+def _second_difference(even: np.ndarray) -> np.ndarray:
+    """Of an even sequence given from 0 on; one value shorter."""
+    return np.append(even[1], even[:-2]) - 2.0 * even[:-1] + even[1:]
+
+
+def _padded(n: int) -> int:
+    from scipy.fft import next_fast_len
+
+    return next_fast_len(2 * n, real=True)
+
+
+def _transform(kernel: np.ndarray) -> np.ndarray:
+    from scipy.fft import rfft
+
+    wrapped = np.zeros(_padded(kernel.size))
+    wrapped[: kernel.size] = kernel
+    wrapped[-kernel.size + 1:] = kernel[:0:-1]
+    return rfft(wrapped)
