@@ -254,8 +254,8 @@ def test_converges_everywhere(law, density):
 @pytest.mark.parametrize("law", ["roelands", "barus"])
 @pytest.mark.parametrize("density", ["constant", "dowson-higginson"])
 def test_converges_everywhere_finely(law, density):
-    for M in np.geomspace(1e-6, 3e3, 40):
-        for L in np.linspace(0.0, 25.0, 26):
+    for M in np.geomspace(1e-6, 1e3, 37):
+        for L in np.linspace(0.0, 20.0, 21):
             for tolerance in (3e-3, 1e-3):
                 found = moes_film(M, L, viscosity_law=law, density=density, tolerance=tolerance)[2]
                 assert found == pytest.approx(film.moes_film(M, L), rel=0.25), (M, L)

@@ -29,8 +29,8 @@ def _at_centre(solution: Solution) -> float:
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the next order of the inlet condition, tested against longer domains: share of the tail in the
-    load times 4 (q + |H - X²/2|)/(X²/2)."""
+    """Effect of the next order of the inlet condition, tested against longer domains: the tail's share of
+    the load times 4 (q + |H - X²/2|)/(X²/2)."""
     if problem.inlet_length is not None:
         return 0.0
     t = solution.terms
@@ -88,11 +88,13 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
     nodal_load = last.grid.weights @ t.P
     bend = H - 0.5 * X * X
+    with np.errstate(over="ignore"):        # Barus far above its range: infinite beyond e^709
+        viscosity = problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
     return EHLResult(
         x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
         film_thickness=(H * film)[order],
-        viscosity=problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
+        viscosity=viscosity[order],
         density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
         central_film=float(cubic(X, bend, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
         flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
