@@ -1,0 +1,225 @@
+"""Full-system finite-element solution of the elastohydrodynamic line contact.
+
+Displacement of an elastic body, pressure on a part of its surface and the approach are the unknowns of one Newton
+iteration on one sparse system (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); `ehl_body`,
+`ehl_film` and `ehl_newton` hold the parts. Hertz variables throughout: X = x/b, P = p/p_h, H = h R/b^2. Nested meshes:
+on the coarsest a first-order upwind solution comes first, from a Hertz pressure; every solution, film included, starts
+the next finer one.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
+from .ehl_film import Film
+from .ehl_newton import Iterate, film_thickness, newton
+from .fluid import Fluid
+from .report import InputError, SolveReport
+
+ROUGH = 1e-2  # tolerance of the first guess
+RAISING = (0.25, 0.5, 0.75, 1.0)  # shares of ln(eta/eta0)
+
+
+@dataclass(frozen=True)
+class LineContact:
+    """What is solved, SI units.
+
+    Attributes
+    ----------
+    load_per_width : N/m
+    radius : reduced radius R, m
+    e_prime : E' in Pa, ``2/E' = sum (1 - nu^2)/E``
+    entrainment_speed : U = (u1 + u2)/2 > 0, m/s
+    fluid : viscosity and density laws
+    """
+
+    load_per_width: float
+    radius: float
+    e_prime: float
+    entrainment_speed: float
+    fluid: Fluid
+
+    def __post_init__(self):
+        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
+            if not 0 < getattr(self, name) < math.inf:
+                raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
+
+    @property
+    def half_width(self) -> float:
+        """Hertz half-width b, m."""
+        return math.sqrt(8 * self.load_per_width * self.radius / (math.pi * self.e_prime))
+
+    @property
+    def hertz_pressure(self) -> float:
+        """p_h, Pa."""
+        return 2 * self.load_per_width / (math.pi * self.half_width)
+
+    @property
+    def film_unit(self) -> float:
+        """b^2/R, m."""
+        return self.half_width**2 / self.radius
+
+    @property
+    def speed_parameter(self) -> float:
+        """lambda = 12 eta0 U R^2/(b^3 p_h)."""
+        return (12 * self.fluid.viscosity * self.entrainment_speed * self.radius**2
+                / (self.half_width**3 * self.hertz_pressure))
+
+    @property
+    def load_number(self) -> float:
+        """Moes' M; lambda = 3 pi^2/(8 M^2)."""
+        return math.pi * math.sqrt(3 / (8 * self.speed_parameter))
+
+    @property
+    def material_number(self) -> float:
+        """Moes' L, 0 for a constant viscosity; alpha p_h = L sqrt(M/2 pi)."""
+        if self.fluid.viscosity_law == "constant":
+            return 0.0
+        alpha = self.fluid.pressure_viscosity_coefficient
+        return alpha * self.hertz_pressure * math.sqrt(2 * math.pi / self.load_number)
+
+    @property
+    def moes_film(self) -> float:
+        """The film that is 1 in Moes' units, m."""
+        return math.pi / (8 * self.load_number) * self.film_unit
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A film and how it was found. Arrays on the line are at its degrees of freedom ``body.x``, not in ascending order.
+
+    Attributes
+    ----------
+    contact, layout, body, film, report : what was solved, on which mesh, with which flow; how it went
+    displacement : at the free degrees of freedom of the body, b^2/R
+    P, H : pressure in p_h and film in b^2/R on the line
+    approach : H0 in b^2/R
+    flow_film : mass flow/(rho0 U), m
+    """
+
+    contact: LineContact
+    layout: Layout
+    body: Body
+    film: Film
+    displacement: np.ndarray
+    P: np.ndarray
+    H: np.ndarray
+    approach: float
+    flow_film: float
+    report: SolveReport
+
+    @property
+    def min_film(self) -> float:
+        """Smallest film, m: that of the parabolas in the cells."""
+        left, right, middle = self.H[self.body.line.element_dofs]
+        slope, bend = (right - left) / 2, (left + right) / 2 - middle
+        lowest = np.clip(-slope / np.where(bend > 0, 2 * bend, 1.0), -1, 1)
+        inside = np.where(bend > 0, middle + slope * lowest + bend * lowest**2, np.inf)
+        return float(min(inside.min(), self.H.min())) * self.contact.film_unit
+
+    @property
+    def cell_length(self) -> float:
+        """Smallest cell of the line, m."""
+        return float(np.diff(np.sort(self.body.line.mesh.p[0])).min()) * self.contact.half_width
+
+    def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Pressure (Pa) and film (m) at positions x (m) between inlet and outlet."""
+        probe = self.body.line.probes(np.atleast_2d(np.asarray(x) / self.contact.half_width))
+        return probe @ self.P * self.contact.hertz_pressure, probe @ self.H * self.contact.film_unit
+
+
+def solve_ehl(contact: LineContact, *, refinements: int = 2, fineness: float = 0.7, side: float = 240.0,
+              projection: float = 1.0, tolerance: float = 1e-8, max_iterations: int = 40,
+              raise_on_failure: bool = True) -> list[Solution]:
+    """Solve on a graded mesh and on its uniform refinements; the solutions, coarsest first.
+
+    Parameters
+    ----------
+    refinements : each halves the cells and costs about five times the one before
+    fineness : of the coarsest mesh, see `make_layout`
+    side : of the body in units of sqrt(b^2 + 2 R h), h the film expected
+    projection : 1, or 0 for plain Galerkin
+    tolerance : on the largest of the residuals that `ehl_newton.measure` defines
+    max_iterations : Newton steps on a mesh
+    raise_on_failure : raise `SolveError` with report and solution of the mesh that failed; if False, that solution is
+        the last of the list and its report says so
+    """
+    if refinements < 0 or not fineness > 0 or not side >= 10 or not tolerance > 0 or max_iterations < 1:
+        raise InputError(f"refinements = {refinements}, fineness = {fineness}, side = {side}, tolerance = {tolerance}, "
+                         f"max_iterations = {max_iterations}; allowed: >= 0, > 0, >= 10, > 0, >= 1")
+    mesh, layout = graded_mesh(make_layout(contact, fineness, side))
+    solutions = []
+    for level in range(refinements + 1):
+        mesh = mesh.refined() if level else mesh
+        body = make_body(mesh, layout)
+        film = Film(body.line, contact.fluid, contact.hertz_pressure, contact.speed_parameter, projection)
+        if level:
+            start = refined(solutions[-1], body)
+        else:
+            start = first_guess(contact, body, film, max_iterations)
+        end, flow, report = newton(body, film, start, tolerance, max_iterations)
+        solutions.append(Solution(contact, layout, body, film, end.u, end.P, film_thickness(body, end), end.H0,
+                                  flow * contact.film_unit, report))
+        if raise_on_failure:
+            report.raise_if_failed(solutions[-1])
+        if not report.converged:
+            break
+    return solutions
+
+
+def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
+    """Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l exceeds b many times."""
+    film = film_estimate(contact.load_number, contact.material_number) * contact.moes_film / contact.film_unit
+    l = math.sqrt(2 * film)
+    edge = 1 + 0.475 * l
+    return Layout(side * math.hypot(1, l), -(3 + 20 * l), 2 + 2 * l, (-edge, edge),
+                  0.5 * l * (l / (1 + l)) ** (1 / 3) / fineness, 0.5 / fineness)
+
+
+def film_estimate(M: float, L: float) -> float:
+    """Flow film in Moes' units by the regression of Moes 1992, doi:10.1016/0043-1648(92)90017-C (within some 10 %).
+
+    Only the mesh and the first guess are made from it.
+    """
+    rigid, elastic = 3 / M, 2.621 * M**-0.2
+    isoviscous = (rigid ** (7 / 3) + elastic ** (7 / 3)) ** (3 / 7)
+    if L < 0.01:
+        return isoviscous
+    piezo = ((1.287 * L ** (2 / 3)) ** -3.5 + (1.311 * M**-0.125 * L**0.75) ** -3.5) ** (-2 / 7)
+    s = (7 + 8 * math.exp(-2 * elastic / rigid)) / 5
+    smaller, larger = sorted((isoviscous, piezo))
+    return larger * (1 + (smaller / larger) ** s) ** (1 / s)
+
+
+def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: int) -> Iterate:
+    """First-order upwind solution; if Newton does not find it from a Hertz pressure, by raising the viscosity in steps.
+
+    It need not have converged: whether the solution that starts from it has, is what counts.
+    """
+    for shares in ((1.0,), RAISING):
+        guess = hertz_start(contact, body, shares[0])
+        for share in shares:
+            guess, _, report = newton(body, replace(film, upwind=1.0, piezo=share), guess, ROUGH, max_iterations)
+        if report.converged:
+            break
+    return guess
+
+
+def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
+    """Hertz pressure, spread to the width of the film where that is wider, and the film expected at X = 0."""
+    film = film_estimate(contact.load_number, piezo * contact.material_number) * contact.moes_film / contact.film_unit
+    width = math.sqrt(1 + 2 * film)
+    P = np.sqrt(np.maximum(1 - (body.x / width) ** 2, 0)) / width
+    u = body.displacement(P)
+    centre = int(np.argmin(np.abs(body.x)))
+    return Iterate(u, P, film + float((body.trace @ u)[centre]), P <= 0)
+
+
+def refined(coarse: Solution, body: Body) -> Iterate:
+    """A solution on the next finer mesh. The film is carried over as it is: that of the interpolated pressure is rougher."""
+    P = coarse.body.line.probes(body.x[None]) @ coarse.P
+    return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

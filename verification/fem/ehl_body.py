@@ -1,0 +1,172 @@
+"""The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the film.
+
+One body stands for both: plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of E'
+(2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R, stresses in p_h;
+in these units E' is 4. A square below the contact, bottom fixed and sides free, stands for the half-space (Habchi,
+Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); against a half-space its surface is bent by a part
+that falls like (b/D)^2 with its side D, besides a constant that the approach takes up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+import skfem
+from scipy.sparse.linalg import SuperLU, splu
+from scipy.spatial import cKDTree
+from skfem import Basis, BilinearForm, ElementLineP2, ElementTriP2, ElementVector, MeshLine, MeshTri
+from skfem.element.discrete_field import DiscreteField
+from skfem.helpers import sym_grad
+from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_stress
+
+POISSON = 0.3
+YOUNG = 2 * (1 - POISSON**2)
+NEAR = 1e-9  # of the side: the same point
+QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P2 nodes of the four parts of a triangle
+
+
+class ElementLineP2Hess(ElementLineP2):
+    """P2 on a line with its second derivative, which the stabilisation needs."""
+
+    def gbasis(self, mapping, X, i, tind=None):
+        """Value, gradient and second derivative of shape function ``i``."""
+        field, = super().gbasis(mapping, X, i, tind)
+        bend = (4.0, 4.0, -8.0)[i] * mapping.invDF(X, tind)[0, 0] ** 2
+        return (DiscreteField(np.asarray(field), field.grad, hess=bend[None, None]),)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the mesh is fine; lengths in b.
+
+    Attributes
+    ----------
+    side : D of the square body
+    inlet, outlet : ends of the surface that carries the film
+    edges : where pressure rises and where the film ruptures
+    fine : cell length there
+    growth : cell length per distance from there
+    """
+
+    side: float
+    inlet: float
+    outlet: float
+    edges: tuple[float, float]
+    fine: float
+    growth: float
+
+
+def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
+    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``.
+
+    The layout that comes back has the ends of the film moved outwards to vertices.
+    """
+    half = layout.side / 2
+    mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
+    while True:
+        corners = mesh.p[:, mesh.t]
+        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+        distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
+        large = np.flatnonzero(longest > np.hypot(layout.fine, layout.growth * distance))
+        if not large.size:
+            break
+        mesh = mesh.refined(large)
+    x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < NEAR * layout.side])
+    return mesh, replace(layout, inlet=float(x[np.searchsorted(x, layout.inlet) - 1]),
+                         outlet=float(x[np.searchsorted(x, layout.outlet)]))
+
+
+@dataclass(frozen=True)
+class Body:
+    """The discrete body and the line on top of it.
+
+    Attributes
+    ----------
+    basis : P2 displacement on the body; ``free`` are its degrees of freedom off the bottom
+    line : P2 on the surface that carries the film
+    stiffness : (free, free)
+    traction : (free, line) ``integral P v_z`` for a pressure P on the line
+    trace : (line, free) upward displacement at the degrees of freedom of the line
+    """
+
+    basis: Basis
+    line: Basis
+    free: np.ndarray
+    stiffness: sp.csc_matrix
+    traction: sp.csc_matrix
+    trace: sp.csc_matrix
+
+    @property
+    def x(self) -> np.ndarray:
+        """Coordinates of the degrees of freedom of the line."""
+        return self.line.doflocs[0]
+
+    @cached_property
+    def factors(self) -> SuperLU:
+        """Factors of the stiffness alone."""
+        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
+                    options={"SymmetricMode": True})
+
+    @cached_property
+    def order(self) -> np.ndarray:
+        """An order of elimination with little fill, found once for every matrix that holds this stiffness."""
+        return np.argsort(self.factors.perm_c)
+
+    def displacement(self, pressure: np.ndarray) -> np.ndarray:
+        """Under a pressure on the line, at the free degrees of freedom."""
+        return -self.factors.solve(self.traction @ pressure)
+
+    def everywhere(self, displacement: np.ndarray) -> np.ndarray:
+        """Displacement at all degrees of freedom of ``basis``."""
+        full = np.zeros(self.basis.N)
+        full[self.free] = displacement
+        return full
+
+    def stress(self, displacement: np.ndarray) -> np.ndarray:
+        """(3, vertices): sigma_xx, sigma_zz, sigma_xz, projected on continuous linear functions."""
+        field = self.basis.interpolate(self.everywhere(displacement))
+        sigma = linear_stress(*lame_parameters(YOUNG, POISSON))(sym_grad(field))
+        linear = self.basis.with_element(skfem.ElementTriP1())
+        return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])
+
+
+def make_body(mesh: MeshTri, layout: Layout) -> Body:
+    """The body on a `graded_mesh` or a uniform refinement of it."""
+    basis = Basis(mesh, ElementVector(ElementTriP2()), intorder=2)
+    near = NEAR * layout.side
+    free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(lambda x: x[1] < near - layout.side).all())
+    stiffness = linear_elasticity(*lame_parameters(YOUNG, POISSON)).assemble(basis)[free][:, free]
+    x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < near])
+    x = x[(x > layout.inlet - near) & (x < layout.outlet + near)]
+    line = Basis(MeshLine(x), ElementLineP2Hess(), intorder=8)
+    trace = trace_matrix(basis, line)[:, free]
+    mass = BilinearForm(lambda u, v, w: u * v).assemble(line)
+    return Body(basis, line, free, stiffness.tocsc(), (trace.T @ mass).tocsc(), trace.tocsc())
+
+
+def trace_matrix(basis: Basis, line: Basis) -> sp.csr_matrix:
+    """(line, body): picks the vertical displacement at every degree of freedom of the line."""
+    near = NEAR * np.ptp(basis.mesh.p[1])
+    vertical = basis.get_dofs(lambda x: np.abs(x[1]) < near).all("u^2")
+    at = basis.doflocs[0, vertical]
+    ascending = np.argsort(at)
+    found = ascending[np.searchsorted(at[ascending], line.doflocs[0] - near)]
+    if np.abs(at[found] - line.doflocs[0]).max() > near:
+        raise AssertionError("the line is not made of the facets of the body")
+    return sp.csr_matrix((np.ones(line.N), (np.arange(line.N), vertical[found])), shape=(line.N, basis.N))
+
+
+def refined_displacement(coarse: Body, fine: Body, displacement: np.ndarray) -> np.ndarray:
+    """The same displacement on the uniform refinement of the mesh, exactly."""
+    lattice = Basis(coarse.basis.mesh, coarse.basis.elem, quadrature=(QUARTERS, np.ones(QUARTERS.shape[1])))
+    values = np.asarray(lattice.interpolate(coarse.everywhere(displacement))).reshape(2, -1)
+    points = np.asarray(lattice.global_coordinates()).reshape(2, -1)
+    away, nearest = cKDTree(points.T).query(fine.basis.doflocs.T)
+    if away.max() > NEAR * np.ptp(points[1]):
+        raise AssertionError("the fine mesh is not the uniform refinement of the coarse one")
+    component = np.zeros(fine.basis.N, dtype=int)
+    component[fine.basis.nodal_dofs[1]] = component[fine.basis.facet_dofs[1]] = 1
+    return values[component, nearest][fine.free]
