@@ -53,7 +53,7 @@ def test_semiperiodic_coefficients_match_quadrature():
         k = 2 * np.pi * m / (shape[1] * dy)
         for i in range(shape[0]):
             low, high = (i - 0.5) * dx, (i + 0.5) * dx
-            value = 2 * quad(lambda s: k0(k * s), 0, high, epsrel=1e-12)[0] if i == 0 else \
+            value = 2 * quad(lambda s, k=k: k0(k * s), 0, high, epsrel=1e-12)[0] if i == 0 else \
                 quad(lambda s, k=k: k0(k * s), low, high, epsrel=1e-12)[0]
             assert table[i, m] == pytest.approx(4 / (np.pi * e_prime) * value, abs=1e-13 * table[0, m])
     assert table[:, 0] == pytest.approx(line_coefficients(9, dx, e_prime, 9 * dx))
@@ -180,10 +180,10 @@ def test_coarsened_operator():
 
 
 @pytest.mark.parametrize("arguments, word", [
-    (dict(shape=(4,)), "shape"), (dict(shape=(0, 4)), "shape"), (dict(shape=(4, 2.5)), "shape"),
-    (dict(spacing=0.0), "spacing"), (dict(spacing=(1.0, -1.0)), "spacing"), (dict(spacing=(1, 2, 3)), "spacing"),
-    (dict(e_prime=0.0), "e_prime"), (dict(e_prime=np.nan), "e_prime"), (dict(boundary=("periodic",)), "boundary"),
-    (dict(boundary=("periodic", "fre")), "free"), (dict(workers=0), "workers")])
+    ({"shape": (4,)}, "shape"), ({"shape": (0, 4)}, "shape"), ({"shape": (4, 2.5)}, "shape"),
+    ({"spacing": 0.0}, "spacing"), ({"spacing": (1.0, -1.0)}, "spacing"), ({"spacing": (1, 2, 3)}, "spacing"),
+    ({"e_prime": 0.0}, "e_prime"), ({"e_prime": np.nan}, "e_prime"), ({"boundary": ("periodic",)}, "boundary"),
+    ({"boundary": ("periodic", "fre")}, "free"), ({"workers": 0}, "workers")])
 def test_bad_input(arguments, word):
     with pytest.raises(InputError, match=word):
         half_space(**({"shape": (4, 4), "spacing": 1.0, "e_prime": 1.0} | arguments))

@@ -23,6 +23,8 @@ def gap_controlled(problem, mean_gap: float, start=None):
     Otherwise, or should that solve fail, the load is found.
     """
     guess = pressure_guess(problem)
+    if problem.roughness > 0:       # the smaller the gap, the more exactly its zeros have to be met
+        problem = replace(problem, tolerance=max(problem.tolerance * min(1.0, 0.3 * mean_gap / problem.roughness), 1e-13))
     if problem.operator.boundary == ("periodic", "periodic") and math.isinf(problem.hardness):
         approach = float(problem.gap0.mean()) - mean_gap
         found = approach_controlled(problem, approach, guess, start)
@@ -37,7 +39,7 @@ def gap_controlled(problem, mean_gap: float, start=None):
 def pressure_guess(problem) -> float:
     """E' times rms height over the longer side: a wave of that length and height is pressed flat by it."""
     longest = max(n * d for n, d in zip(problem.operator.shape, problem.operator.spacing))
-    return min(problem.operator.e_prime * float(problem.gap0.std()) / longest, 0.5 * problem.hardness)
+    return min(problem.operator.e_prime * problem.roughness / longest, 0.5 * problem.hardness)
 
 
 def by_load(problem, mean_gap: float, guess: float, start=None):
@@ -55,7 +57,7 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
             spent, iterations = spent + found.convolutions + 1, iterations + found.iterations
             u = problem.operator.apply(pressure)
             volume = np.maximum(problem.gap0 + u - found.approach, 0.0).mean()
-            value = (mean_gap - volume) / length_scale(pressure, u, problem.operator)
+            value = (mean_gap - volume) / min(mean_gap, length_scale(pressure, u, problem.gap0, problem.operator))
             if tolerance == finest or abs(value) > CERTAIN * tolerance:
                 return value, found
             tolerance = max(finest, min(tolerance / 10, abs(value) / CERTAIN))

@@ -19,6 +19,7 @@ from ..halfspace.operator import filtered, wavenumber
 from .projection import with_load
 from .residual import deflection_scale
 
+CAPACITY = 0.999       # of hardness times the set, beyond which the set has to grow
 MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3     # measured: fewest iterations from one spot to 99.99 % contact
 
 
@@ -59,7 +60,7 @@ class Descent:
 
     def _level(self, pressure, height) -> float:
         """Prescribed approach, or the one at which the mean gap over elastic contact is zero; where nothing is
-        elastic, the level that parts yielded cells (below) from free ones (above)."""
+        elastic, halfway between the highest yielded cell and the lowest free one."""
         if self.level is not None:
             return self.level
         inside = (pressure > 0) & (pressure < self.problem.hardness)
@@ -68,7 +69,7 @@ class Descent:
         yielded = self.pressure > 0
         highest = self.height[yielded].max()
         lowest_free = self.height[~yielded].min() if not yielded.all() else highest
-        return float(0.5 * (highest + max(highest, lowest_free)))
+        return float(0.5 * (highest + lowest_free))
 
     def working_set(self) -> WorkingSet:
         """Where the pressure may change, and the worst of complementarity and penetration."""
@@ -82,15 +83,23 @@ class Descent:
         gap -= self.approach
         if np.isfinite(hardness):
             keep = (pressure < hardness) | (gap > 0)
-            cells, pressure, gap = cells[keep], pressure[keep], gap[keep]
+            cells, pressure, gap = self._enough(cells[keep], pressure[keep], gap[keep], total)
         if not cells.size:
             return WorkingSet(cells, pressure, gap, 0.0)
-        scale = deflection_scale(energy, total, self.problem.operator)
+        scale = deflection_scale(energy, total, self.problem.roughness, self.problem.operator)
         overlap = max(0.0, -gap[pressure < hardness].min(initial=0.0))
         if total <= 0:
             return WorkingSet(cells, pressure, gap, math.inf if overlap > 0 else 0.0)
         misfit = pressure @ np.abs(gap) / total
         return WorkingSet(cells, pressure, gap, float(max(overlap, misfit) / scale))
+
+    def _enough(self, cells, pressure, gap, total):
+        """The set itself, or everything that has not yielded for good when the set could not carry its share."""
+        hardness = self.problem.hardness
+        if self.load is None or self.load - (total - pressure.sum()) <= CAPACITY * hardness * cells.size:
+            return cells, pressure, gap
+        cells = np.flatnonzero((self.pressure < hardness) | (self.height > self.approach))
+        return cells, self.pressure.ravel()[cells], self.height.ravel()[cells] - self.approach
 
     def search(self, work: WorkingSet, restart: bool) -> tuple[np.ndarray, float]:
         """Conjugate direction on the set (Polak-Ribiere, never negative) and its slope."""

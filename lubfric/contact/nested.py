@@ -42,10 +42,14 @@ def from_coarse(problem, uniform: float, solve) -> Found:
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor, then shifted within 0..hardness where it is loaded, to carry ``load``."""
-    result = pressure * (load / pressure.sum())
-    loaded = result > 0
-    if np.count_nonzero(loaded) * hardness <= load:
-        return with_load(result, load, hardness)
-    result[loaded] = with_load(result[loaded], load, hardness)
-    return result
+    """``pressure`` times a factor, then shifted to carry ``load`` within 0..hardness: where it is elastic if
+    those cells can do it, else anywhere it is loaded, else everywhere."""
+    result = np.minimum(pressure * (load / pressure.sum()), hardness)
+    result[pressure >= hardness] = hardness
+    yielded = result >= hardness
+    for movable in ((result > 0) & ~yielded, result > 0, np.ones(result.shape, bool)):
+        share = load - result[~movable].sum()
+        if 0 < share < hardness * np.count_nonzero(movable):
+            result[movable] = with_load(result[movable], share, hardness)
+            return result
+    return np.full(pressure.shape, load / pressure.size)

@@ -14,13 +14,18 @@ from ..halfspace import HalfSpace, half_space
 COARSEST = 24              # cells along an axis below which it is not halved
 COARSE_TOLERANCE = 1e-2    # coarse grids only give a start
 COARSE_ITERATIONS = 60
+ABSURD = 1e6               # times E': no start has such a pressure
 
 
 @dataclass(frozen=True)
 class Problem:
-    """gap0 [m] (nx, ny), deflection operator, hardness [Pa] (inf: elastic), and when to stop."""
+    """gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection operator, hardness [Pa]
+    (inf: elastic), and when to stop. ``offset`` [m] is what was taken from the caller's gap0: near first touch
+    heights around zero keep the most digits."""
 
     gap0: np.ndarray
+    offset: float
+    roughness: float
     operator: HalfSpace
     hardness: float
     tolerance: float
@@ -34,7 +39,7 @@ class Problem:
             return None
         (nx, ny), (fx, fy) = self.gap0.shape, factors
         gap0 = self.gap0.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
-        return Problem(gap0, self.operator.coarsened(factors), self.hardness, COARSE_TOLERANCE, COARSE_ITERATIONS)
+        return Problem(gap0, self.offset, self.roughness, self.operator.coarsened(factors), self.hardness, COARSE_TOLERANCE, COARSE_ITERATIONS)
 
 
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
@@ -48,7 +53,9 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
     else:
         _check_operator(operator, gap0.shape, validate.spacing("spacing", spacing),
                         validate.positive("e_prime", e_prime, "Pa"), boundary)
-    return Problem(gap0, operator, hardness, tolerance, max_iterations)
+    offset = float(gap0.min())
+    gap0 = gap0 - offset
+    return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
 def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
@@ -80,6 +87,8 @@ def starting_pressure(problem: Problem, start) -> np.ndarray | None:
     pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)
     if pressure.shape != problem.gap0.shape:
         raise InputError(f"start has shape {pressure.shape}; allowed: {problem.gap0.shape}, the shape of gap0")
-    if pressure.min() < 0:
-        raise InputError(f"start has pressures down to {pressure.min():g} Pa; allowed: >= 0 Pa")
+    limit = ABSURD * problem.operator.e_prime
+    if pressure.min() < 0 or pressure.max() > limit:
+        raise InputError(f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; "
+                         f"allowed: 0 to {limit:g} Pa")
     return np.minimum(pressure, problem.hardness)

@@ -4,25 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 
+NEWTON = 12          # steps before every other one halves the bracket
+
 
 def with_load(pressure, load: float, hardness: float) -> np.ndarray:
-    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load`` (0 <= load <= hardness size).
+    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
 
-    Newton's method on the piecewise linear sum; where nothing can move, s jumps to the next cell that can.
+    The Euclidean projection for 0 <= load <= hardness size. Newton's method on the piecewise linear sum
+    inside a shrinking bracket: exact once the right piece is found, but for the
+    rounding of a pressure far above the load, which the last factor removes; cells at the hardness stay there.
     """
-    shift = 0.0
-    for _ in range(200):
+    upper = min(hardness, load) - pressure.min()
+    lower, shift = -pressure.max(), 0.0
+    for attempt in range(200):
         result = np.clip(pressure + shift, 0.0, hardness)
         missing = load - result.sum()
+        if abs(missing) <= 4e-16 * load:
+            break
+        lower, upper = (shift, upper) if missing > 0 else (lower, shift)
         movable = np.count_nonzero((result > 0) & (result < hardness))
-        if abs(missing) <= 1e-15 * load:
+        newton = shift + missing / movable if movable else np.nan
+        if newton == shift:
             break
-        if movable:
-            shift += missing / movable
-        elif missing > 0 and (result < hardness).any():
-            shift = -pressure[result < hardness].max() + missing / result.size
-        elif missing < 0 and (result > 0).any():
-            shift = hardness - pressure[result > 0].min() + missing / result.size
-        else:
-            break
+        halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
+        shift = 0.5 * (lower + upper) if halve else newton
+    elastic = result < hardness
+    carried = result[elastic].sum()
+    if carried > 0:
+        result[elastic] *= (load - (result.sum() - carried)) / carried
+        np.clip(result, 0.0, hardness, out=result)
     return result

@@ -7,25 +7,27 @@ import math
 import numpy as np
 
 
-def length_scale(pressure, displacement, operator) -> float:
-    """Length [m] that gap residuals are measured in: ``max(Σ p u / Σ p, (4/pi) p_mean d/E')``.
+def length_scale(pressure, displacement, gap0, operator) -> float:
+    """Length L [m] that gap residuals are measured in.
 
-    The first is the load-weighted elastic deflection (twice the elastic energy per load): the
-    indentation of one touching cell, about the approach of a Hertz contact, about the roughness
-    height when most of it is pressed flat. The second, the deflection of the shortest ripple that the
-    grid resolves (d: the finer spacing) under the mean pressure, takes over where hardly any
-    deflection is left to measure by, as in full contact. Both scale with the lengths, and not with E'
-    and p together. Infinite without load.
+    ``max(Σ p u / Σ p, min((4/pi) p_mean d/E', rms gap0))``. The first term is the load-weighted elastic
+    deflection (twice the elastic energy per load): the indentation of one touching cell, about the
+    approach of a Hertz contact, about the roughness height when most of it is pressed flat. In full
+    contact, where hardly any deflection per load is left to measure by, the second takes over: the
+    deflection of the shortest ripple the grid resolves (d: the finer spacing) under the mean
+    pressure, or the roughness if that is less. Scales with the lengths, and not with E' and p
+    together. Never below 1e-9 of that ripple, which is where rounding begins (flat on flat). Infinite
+    without load.
     """
-    return deflection_scale(np.vdot(pressure, displacement), pressure.sum(), operator)
+    return deflection_scale(np.vdot(pressure, displacement), pressure.sum(), float(gap0.std()), operator)
 
 
-def deflection_scale(energy: float, total: float, operator) -> float:
-    """`length_scale` from Σ p u [Pa m] and Σ p [Pa]."""
+def deflection_scale(energy: float, total: float, roughness: float, operator) -> float:
+    """`length_scale` from Σ p u [Pa m], Σ p [Pa] and the rms of gap0 [m]."""
     if total <= 0:
         return math.inf
     ripple = 4 / math.pi * total / math.prod(operator.shape) * min(operator.spacing) / operator.e_prime
-    return float(max(energy / total, ripple))
+    return float(max(energy / total, min(ripple, roughness), 1e-9 * ripple))
 
 
 def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:

@@ -44,7 +44,8 @@ def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, 
 
     - complementarity ``Σ p m / (L Σ p)``, misfit m = |gap|, or max(gap, 0) where p = H;
     - penetration ``max(-gap)/L`` over cells with p < H;
-    - load ``|mean p - mean_pressure|/mean_pressure``, or volume ``|mean max(gap, 0) - mean_gap|/L``.
+    - load ``|mean p - mean_pressure|/mean_pressure``, or volume
+      ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``.
 
     Converged when the largest is <= tolerance. Raises `InputError` before any work, and
     `ConvergenceError` with report and result when the tolerance is not met.
@@ -52,7 +53,7 @@ def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, 
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     check_control(problem, mean_pressure, mean_gap)
     start = starting_pressure(problem, start)
-    touching = problem.gap0.mean() - problem.gap0.min()
+    touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
         return _separated(problem, touching if mean_gap is None else mean_gap)
     if mean_gap is None:
@@ -70,7 +71,8 @@ def _separated(problem, mean_gap) -> ContactResult:
     zero = np.zeros_like(problem.gap0)
     report = Report("none", CONVERGED, 0, 0.0, problem.tolerance, notes=("the bodies carry no load",),
                     residuals={"complementarity": 0.0, "penetration": 0.0, "load": 0.0})
-    return ContactResult(zero, problem.gap0 - approach, zero.copy(), approach, 0.0, float(mean_gap), 0.0, 0.0, report)
+    return ContactResult(zero, problem.gap0 - approach, zero.copy(), approach + problem.offset, 0.0,
+                         float(mean_gap), 0.0, 0.0, report)
 
 
 def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
@@ -78,19 +80,19 @@ def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
     displacement = problem.operator.apply(pressure)
     gap = problem.gap0 + displacement
     gap -= found.approach
-    scale = length_scale(pressure, displacement, problem.operator)
+    scale = length_scale(pressure, displacement, problem.gap0, problem.operator)
     carried = float(pressure.mean())
     residuals = contact_residuals(pressure, gap, scale, problem.hardness,
                                   carried if mean_pressure is None else mean_pressure)
     volume = float(np.maximum(gap, 0.0).mean())
     if mean_gap is not None:
         del residuals["load"]
-        residuals["volume"] = abs(volume - mean_gap) / scale
+        residuals["volume"] = abs(volume - mean_gap) / min(scale, mean_gap)
     worst = max(residuals.values())
     status = CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED
                                                            else ITERATION_LIMIT)
     report = Report(found.solver, status, found.iterations, worst if math.isfinite(worst) else math.inf,
                     problem.tolerance, residuals, tuple(found.history), found.convolutions + 1, tuple(found.notes))
     saturated = float(np.count_nonzero(pressure >= problem.hardness)) / pressure.size
-    return ContactResult(pressure, gap, displacement, float(found.approach), carried, volume,
+    return ContactResult(pressure, gap, displacement, float(found.approach) + problem.offset, carried, volume,
                          np.count_nonzero(pressure) / pressure.size, saturated, report)

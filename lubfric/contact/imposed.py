@@ -1,0 +1,132 @@
+"""Contact under an imposed film: the separation h - epsilon is given in shape, Eq. (8) gives epsilon.
+
+What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8),
+doi:10.1007/s11249-015-0536-z. In the sign of this library the gap is ``g = h - epsilon - z + K p``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from .problem import Problem, make_problem, starting_pressure
+from .residual import contact_residuals, length_scale
+from .result import ContactResult
+
+
+@dataclass(frozen=True)
+class Imposed:
+    """gap0 = h - z [m] (its minimum moved to zero) with operator and limits (``problem``); area A as weights that
+    sum to 1; mean film [m] over A. Offsets epsilon [m] inside are against that gap0."""
+
+    problem: Problem
+    weight: np.ndarray
+    mean_film: float
+
+    def mean(self, field) -> float:
+        """Mean over the area A."""
+        return float(np.vdot(self.weight, field))
+
+    @property
+    def separated(self) -> bool:
+        """The film fits between the undeformed surfaces without a touch."""
+        return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
+
+    def lubricated_offset(self, displacement, pressure) -> float:
+        """epsilon of Eq. (8) as printed: the lubricated part of A holds the volume of the film.
+
+        NaN when the pressure leaves no cell of A free: then Eq. (8) has no solution.
+        """
+        free = self.weight * (pressure == 0)
+        wet = free.sum()
+        volume = np.vdot(free, self.problem.gap0 + displacement)
+        return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
+
+    def offset(self, displacement, overlap=0.0) -> float:
+        """epsilon of Eq. (8) with the contact spots, where the gap is zero, counted in: the same in the solution.
+
+        ``overlap`` [m] (field): the overlap of yielded cells, which holds no lubricant.
+        """
+        return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
+
+    def scale(self, pressure, displacement) -> float:
+        """Length [m] that gaps are measured in, as in `lubfric.solve_contact`."""
+        return length_scale(pressure, displacement, self.problem.gap0, self.problem.operator)
+
+    def first_pressure(self) -> np.ndarray:
+        """In proportion to the overlap at the offset of the undeformed surfaces, with the best factor."""
+        overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
+        stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
+        return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
+
+    def certify(self, state: Outcome, solver: str) -> ContactResult:
+        """Residuals of what an iteration left behind, from the pressure alone, and the result."""
+        problem, p = self.problem, state.pressure
+        u = problem.operator.apply(p)
+        gap = problem.gap0 + u - state.offset
+        scale = self.scale(p, u)
+        residuals = contact_residuals(p, gap, scale, problem.hardness, p.mean())
+        del residuals["load"]
+        film = self.mean(np.maximum(gap, 0.0))
+        residuals["volume"] = abs(film - self.mean_film) / min(scale, self.mean_film)
+        worst = max(residuals.values())
+        worst = worst if math.isfinite(worst) else math.inf
+        status = state.status
+        if worst <= problem.tolerance:
+            status = CONVERGED
+        elif status == CONVERGED:
+            status = STAGNATED
+        report = Report(solver, status, state.iterations, worst, problem.tolerance, residuals, tuple(state.history),
+                        state.convolutions + 1, tuple(state.notes))
+        size = p.size
+        return ContactResult(p, gap, u, float(state.offset) + problem.offset, float(p.mean()), float(np.maximum(gap, 0.0).mean()),
+                             np.count_nonzero(p) / size, np.count_nonzero(p >= problem.hardness) / size, report)
+
+    def touchless(self) -> ContactResult:
+        """The result when the film keeps the surfaces apart."""
+        zero = np.zeros_like(self.problem.gap0)
+        state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
+        return self.certify(state, "none")
+
+
+@dataclass
+class Outcome:
+    """Where an iteration stands, or ended."""
+
+    pressure: np.ndarray
+    offset: float
+    status: str = ITERATION_LIMIT
+    iterations: int = 0
+    convolutions: float = 0
+    history: list = None
+    notes: list = None
+
+
+def impose(heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator,
+           max_iterations) -> tuple[Imposed, np.ndarray | None]:
+    """Validated `Imposed` contact and starting pressure (None: to be guessed)."""
+    heights = validate.array("heights", heights, "m", ndim=2)
+    film = _on_grid("film", film, heights.shape, "m")
+    weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
+    if weight.min() < 0 or weight.sum() == 0:
+        raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
+    weight = weight / weight.sum()
+    problem = make_problem(film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
+    return Imposed(problem, weight, mean_film), starting_pressure(problem, start)
+
+
+def _on_grid(name, value, shape, unit) -> np.ndarray:
+    field = np.asarray(value, dtype=float)
+    if field.ndim == 1:
+        field = field[:, None]                 # along x
+    try:
+        field = np.broadcast_to(field, shape)
+    except ValueError:
+        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
+    return validate.array(name, field, unit, ndim=2)

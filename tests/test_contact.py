@@ -1,0 +1,294 @@
+"""Dry contact: what must hold for any surface, load and boundary; edges; faults; certification."""
+
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lubfric import ConvergenceError, InputError, solve_contact
+from lubfric.contact.residual import contact_residuals, length_scale
+from lubfric.halfspace import half_space
+
+E_PRIME = 231e9
+BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
+DX = 2e-6
+
+
+def rough(shape, seed=0, sq=240e-9, smooth=6.0):
+    """Gaussian gap [m] with a Gaussian spectrum, periodic."""
+    noise = np.random.default_rng(seed).standard_normal(shape)
+    k2 = np.fft.fftfreq(shape[0])[:, None] ** 2 + np.fft.rfftfreq(shape[1]) ** 2
+    z = np.fft.irfft2(np.fft.rfft2(noise) * np.exp(-0.5 * k2 * (2 * np.pi * smooth / 2) ** 2), s=shape)
+    return sq * (z - z.mean()) / max(z.std(), 1e-30)
+
+
+def certify(result, gap0, operator, hardness=np.inf, tolerance=1e-6):
+    """The statement itself, from pressure and approach alone."""
+    u = operator.apply(result.pressure)
+    gap = gap0 - result.approach + u
+    rounding = 4e-16 * np.abs(gap0).max()
+    scale = length_scale(result.pressure, u, gap0, operator)
+    assert result.gap == pytest.approx(gap, abs=1e-12 * np.abs(gap0).max() + 1e-13 * np.abs(u).max())
+    assert result.pressure.min() >= 0 and result.pressure.max() <= hardness
+    assert gap[result.pressure < hardness].min(initial=0.0) >= -1.01 * tolerance * scale - rounding
+    loaded = (result.pressure > 0) & (result.pressure < hardness)
+    assert (result.pressure * np.abs(gap))[loaded].sum() <= (1.01 * tolerance * scale + rounding) * result.pressure.sum()
+    assert result.report.converged and result.report.residual <= tolerance
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("hardness", [None, 4e9])
+def test_every_boundary_and_law(boundary, hardness):
+    gap0 = rough((48, 40))
+    operator = half_space(gap0.shape, DX, E_PRIME, boundary)
+    result = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, hardness=hardness, boundary=boundary,
+                           operator=operator)
+    certify(result, gap0, operator, np.inf if hardness is None else hardness)
+    assert result.pressure.mean() == pytest.approx(5e8, rel=1e-12)
+    assert (result.plastic_area_fraction > 0) == (hardness is not None)
+    assert result.mean_gap == pytest.approx(np.maximum(result.gap, 0).mean(), rel=1e-12)
+
+
+@settings(max_examples=60, deadline=None)
+@given(shape=st.tuples(st.integers(1, 37), st.integers(1, 37)), boundary=st.sampled_from(BOUNDARIES),
+       spacing=st.tuples(st.floats(0.2, 5), st.floats(0.2, 5)), exponent=st.floats(-12, -0.5),
+       cap=st.one_of(st.none(), st.floats(0.01, 10)), seed=st.integers(0, 9))
+def test_any_problem_is_solved_or_said_not_to_be(shape, boundary, spacing, exponent, cap, seed):
+    gap0 = np.random.default_rng(seed).random(shape)
+    pressure = 10.0**exponent
+    hardness = None if cap is None else pressure * (1 + cap)
+    operator = half_space(shape, spacing, 1.0, boundary)
+    result = solve_contact(gap0, spacing, 1.0, mean_pressure=pressure, hardness=hardness, boundary=boundary,
+                           operator=operator)
+    certify(result, gap0, operator, np.inf if hardness is None else hardness)
+
+
+def pressure_of(gap0, mean_pressure=5e8, e_prime=E_PRIME, spacing=DX, tolerance=1e-8, **options):
+    return solve_contact(gap0, spacing, e_prime, mean_pressure=mean_pressure, tolerance=tolerance, **options).pressure
+
+
+@pytest.mark.parametrize("hardness", [None, 4e9])
+@pytest.mark.parametrize("boundary", [("periodic", "periodic"), ("free", "periodic")])
+def test_mirror_transpose_translate_and_offset(boundary, hardness):
+    gap0 = rough((36, 30), seed=1)
+    options = {"hardness": hardness}
+    p = pressure_of(gap0, boundary=boundary, **options)
+    tiny = 1e-5 * p.max()
+    assert pressure_of(gap0[::-1], boundary=boundary, **options)[::-1] == pytest.approx(p, abs=tiny)
+    assert pressure_of(gap0[:, ::-1], boundary=boundary, **options)[:, ::-1] == pytest.approx(p, abs=tiny)
+    assert pressure_of(gap0.T, boundary=boundary[::-1], **options).T == pytest.approx(p, abs=tiny)
+    assert pressure_of(np.roll(gap0, 7, axis=1), boundary=boundary, **options) == pytest.approx(
+        np.roll(p, 7, axis=1), abs=tiny)
+    assert pressure_of(gap0 + 3e-6, boundary=boundary, **options) == pytest.approx(p, abs=tiny)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_scaling(boundary):
+    """E' and p together change nothing else; all lengths together scale every length."""
+    gap0 = rough((30, 36), seed=2)
+    a = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, boundary=boundary, tolerance=1e-8)
+    b = solve_contact(gap0, DX, 1.0, mean_pressure=5e8 / E_PRIME, boundary=boundary, tolerance=1e-8)
+    c = solve_contact(1e6 * gap0, 1e6 * DX, E_PRIME, mean_pressure=5e8, boundary=boundary, tolerance=1e-8)
+    tiny = 1e-5 * a.pressure.max()
+    assert E_PRIME * b.pressure == pytest.approx(a.pressure, abs=tiny)
+    assert c.pressure == pytest.approx(a.pressure, abs=tiny)
+    assert (b.approach, 1e-6 * c.approach) == pytest.approx((a.approach, a.approach), rel=1e-6)
+    assert a.report.residual == pytest.approx(c.report.residual, rel=0.9, abs=1e-8)
+
+
+def test_area_is_linear_in_a_light_load():
+    """A/A0 = kappa p/(E* h'), kappa near 2, for a resolved surface; the same at three loads."""
+    gap0 = rough((256, 256), seed=3, smooth=10.0)
+    slope = np.sqrt(np.mean(np.gradient(gap0, DX, axis=0) ** 2 + np.gradient(gap0, DX, axis=1) ** 2))
+    kappa = []
+    for share in (0.01, 0.02, 0.04):
+        pressure = share * E_PRIME / 2 * slope
+        area = solve_contact(gap0, DX, E_PRIME, mean_pressure=pressure).contact_area_fraction
+        kappa.append(area / share)
+    assert np.all(np.array(kappa) > 1.4) and np.all(np.array(kappa) < 2.9)
+    assert max(kappa) < 1.25 * min(kappa)
+
+
+def test_refinement_converges():
+    """The same band-limited surface on finer grids: mean gap settles at first order or better."""
+    coarse = np.fft.rfft2(rough((32, 32), seed=4, smooth=8.0))
+    gaps = []
+    for n in (32, 64, 128, 256):
+        fine = np.zeros((n, n // 2 + 1), complex)
+        for i in range(-8, 9):
+            fine[i, :9] = coarse[i, :9]
+        gap0 = np.fft.irfft2(fine, s=(n, n)) * (n / 32) ** 2
+        gaps.append(solve_contact(gap0, 32 * DX / n, E_PRIME, mean_pressure=5e8, tolerance=1e-8).mean_gap)
+    steps = np.abs(np.diff(gaps))
+    assert steps[2] < 1e-3 * gaps[-1]
+    assert np.log2(steps[0] / steps[2]) / 2 > 0.9
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("hardness", [None, 4e9])
+@pytest.mark.parametrize("pressure", [1e6, 5e8, 2.5e9])
+def test_gap_control_returns_the_load(boundary, hardness, pressure):
+    gap0 = rough((40, 32), seed=5)
+    options = {"hardness": hardness, "boundary": boundary}
+    by_load = solve_contact(gap0, DX, E_PRIME, mean_pressure=pressure, tolerance=1e-8, **options)
+    by_gap = solve_contact(gap0, DX, E_PRIME, mean_gap=by_load.mean_gap, tolerance=1e-8, **options)
+    assert by_gap.mean_pressure == pytest.approx(pressure, rel=2e-5)
+    assert by_gap.mean_gap == pytest.approx(by_load.mean_gap, rel=1e-5)
+    assert by_gap.pressure == pytest.approx(by_load.pressure, abs=1e-4 * by_load.pressure.max())
+
+
+def test_gap_control_from_first_touch_to_almost_full():
+    gap0 = rough((64, 64), seed=6)
+    touching = gap0.mean() - gap0.min()
+    pressures = [solve_contact(gap0, DX, E_PRIME, mean_gap=share * touching).mean_pressure
+                 for share in (0.999, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4)]
+    assert np.all(np.diff(pressures) > 0)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5])
+def test_separated_bodies_carry_nothing(factor):
+    gap0 = rough((20, 20))
+    wanted = factor * (gap0.mean() - gap0.min())
+    result = solve_contact(gap0, DX, E_PRIME, mean_gap=wanted)
+    assert not result.pressure.any() and result.mean_pressure == 0 and result.contact_area_fraction == 0
+    assert result.gap.mean() == pytest.approx(wanted) and result.mean_gap == pytest.approx(wanted)
+    assert result.report.converged and result.gap.min() >= -1e-20
+
+
+def test_no_load_just_touches():
+    gap0 = rough((20, 20))
+    result = solve_contact(gap0, DX, E_PRIME, mean_pressure=0.0)
+    assert result.gap.min() == 0 and not result.pressure.any() and result.approach == gap0.min()
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("hardness", [None, 4e9])
+def test_warm_start_gives_the_same_answer_sooner(boundary, hardness):
+    gap0 = rough((64, 60), seed=7)
+    options = {"boundary": boundary, "hardness": hardness}
+    near = solve_contact(gap0, DX, E_PRIME, mean_pressure=4.8e8, **options)
+    cold = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, **options)
+    for start in (near, near.pressure):
+        warm = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, start=start, **options)
+        assert warm.pressure == pytest.approx(cold.pressure, abs=2e-4 * cold.pressure.max())
+        assert warm.report.evaluations < cold.report.evaluations
+    before = near.pressure.copy()
+    assert solve_contact(gap0, DX, E_PRIME, mean_pressure=4.8e8, start=near, **options).report.iterations <= 2
+    assert np.array_equal(near.pressure, before)
+
+
+@pytest.mark.parametrize("start", [0.0, 1.0, 1e12, 1e17])
+def test_any_start_will_do(start):
+    gap0 = rough((32, 32), seed=8)
+    for control in ({"mean_pressure": 5e8}, {"mean_gap": 2e-7}, {"mean_pressure": 5e8, "hardness": 3e9}):
+        far = solve_contact(gap0, DX, E_PRIME, start=np.full((32, 32), start), **control)
+        cold = solve_contact(gap0, DX, E_PRIME, **control)
+        assert far.pressure == pytest.approx(cold.pressure, abs=2e-4 * cold.pressure.max())
+
+
+def test_more_load_more_area_less_gap():
+    gap0, start = rough((64, 64), seed=9), None
+    results = []
+    for pressure in np.geomspace(1e4, 1e10, 9):
+        start = solve_contact(gap0, DX, E_PRIME, mean_pressure=pressure, start=start)
+        results.append((start.contact_area_fraction, -start.mean_gap, start.approach))
+    assert np.all(np.diff(results, axis=0)[:, 0] >= 0) and np.all(np.diff(results, axis=0)[:, 1:] > 0)
+
+
+@pytest.mark.parametrize("shape, spacing", [((1, 64), DX), ((64, 1), DX), ((1, 1), DX), ((2, 2), DX),
+                                            ((31, 37), DX), ((8, 400), DX), ((4, 200), (DX, 20 * DX))])
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_odd_thin_and_stretched_grids(shape, spacing, boundary):
+    gap0 = rough(shape, seed=10, smooth=1.0)
+    operator = half_space(shape, spacing, E_PRIME, boundary)
+    for pressure in (1e-12 * E_PRIME, 1e-3 * E_PRIME):
+        result = solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, boundary=boundary, operator=operator)
+        certify(result, gap0, operator)
+
+
+@pytest.mark.parametrize("hardness", [None, 2e6])
+def test_flat_on_flat(hardness):
+    result = solve_contact(np.full((24, 18), 5e-7), DX, E_PRIME, mean_pressure=1e6, hardness=hardness)
+    assert result.pressure == pytest.approx(1e6) and result.gap == pytest.approx(0, abs=1e-18)
+    assert result.contact_area_fraction == 1 and result.plastic_area_fraction == 0
+
+
+def test_one_high_cell_carries_what_it_can():
+    """A single touching cell is no solution while its neighbours overlap."""
+    gap0 = np.full((40, 40), 1e-6)
+    gap0[20, 20] = 0.0
+    light = solve_contact(gap0, DX, E_PRIME, mean_pressure=1e2)
+    assert np.count_nonzero(light.pressure) == 1 and light.gap.min() >= 0
+    heavy = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e9)
+    assert np.count_nonzero(heavy.pressure) > 1000 and heavy.report.converged
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9, 0.999, 1.0])
+@pytest.mark.parametrize("boundary", [("periodic", "periodic"), ("free", "periodic")])
+def test_yielding_up_to_the_whole_area(share, boundary):
+    gap0 = rough((40, 40), seed=11)
+    hardness = 2e8
+    result = solve_contact(gap0, DX, E_PRIME, mean_pressure=share * hardness, hardness=hardness, boundary=boundary)
+    assert result.pressure.max() == hardness and result.pressure.mean() == pytest.approx(share * hardness)
+    assert share - 0.05 < result.plastic_area_fraction <= share + 1e-12
+
+
+def test_iteration_limit_raises_with_everything():
+    gap0 = rough((64, 64), seed=12)
+    with pytest.raises(ConvergenceError) as caught:
+        solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, max_iterations=2)
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert error.report.status == "iteration_limit" and error.report.iterations == 2
+    assert error.report.residual > 1e-6 and error.result.pressure.shape == (64, 64)
+    quiet = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, max_iterations=2, raise_on_failure=False)
+    assert not quiet.report.converged and quiet.pressure.mean() == pytest.approx(5e8)
+
+
+def test_certification_does_not_believe_the_iteration(monkeypatch):
+    """An iteration that claims success with a wrong field is found out."""
+    from lubfric.contact import solve
+    honest = solve.load_controlled
+
+    def liar(problem, mean_pressure, start):
+        from dataclasses import replace
+        found = honest(problem, mean_pressure, start)
+        return replace(found, pressure=np.roll(found.pressure, 1, axis=0))
+
+    monkeypatch.setattr(solve, "load_controlled", liar)
+    with pytest.raises(ConvergenceError) as caught:
+        solve_contact(rough((32, 32)), DX, E_PRIME, mean_pressure=5e8)
+    assert caught.value.report.residuals["penetration"] > 1e-3
+
+
+@pytest.mark.parametrize("fault, residual", [
+    (lambda p, g: (p * 1.1, g), "load"), (lambda p, g: (p, g - 1e-8), "penetration"),
+    (lambda p, g: (p, g + 1e-8), "complementarity"), (lambda p, g: (np.zeros_like(p), g - 1e-8), "penetration")])
+def test_each_residual_sees_its_fault(fault, residual):
+    gap0 = rough((32, 32), seed=13)
+    good = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8)
+    pressure, gap = fault(good.pressure, good.gap)
+    scale = length_scale(good.pressure, good.displacement, gap0, half_space((32, 32), DX, E_PRIME))
+    assert contact_residuals(good.pressure, good.gap, scale, np.inf, 5e8)[residual] < 1e-6
+    assert contact_residuals(pressure, gap, scale, np.inf, 5e8)[residual] > 1e-3
+
+
+GOOD = {"gap0": np.zeros((4, 4)), "spacing": 1.0, "e_prime": 1.0, "mean_pressure": 1.0}
+
+
+@pytest.mark.parametrize("change, word", [
+    ({"gap0": np.full((4, 4), np.nan)}, "gap0"), ({"gap0": np.zeros(4)}, "axes"), ({"gap0": np.zeros((0, 4))}, "empty"),
+    ({"gap0": [["a"]]}, "gap0"), ({"spacing": 0.0}, "spacing"), ({"spacing": -1.0}, "spacing"),
+    ({"e_prime": 0.0}, "e_prime"), ({"mean_pressure": -1.0}, "mean_pressure"),
+    ({"mean_pressure": np.inf}, "mean_pressure"), ({"mean_gap": 1.0}, "exactly one"),
+    ({"mean_pressure": None}, "exactly one"), ({"mean_pressure": None, "mean_gap": 0.0}, "mean_gap"),
+    ({"hardness": 0.5}, "hardness"), ({"hardness": -1.0}, "hardness"), ({"tolerance": 0.0}, "tolerance"),
+    ({"max_iterations": -1}, "max_iterations"), ({"boundary": ("free", "open")}, "boundary"),
+    ({"start": np.zeros((3, 3))}, "start"), ({"start": np.full((4, 4), -1.0)}, "start"),
+    ({"start": np.full((4, 4), 1e30)}, "start"),
+    ({"operator": half_space((4, 5), 1.0, 1.0)}, "operator"), ({"operator": half_space((4, 4), 2.0, 1.0)}, "spacing"),
+    ({"operator": half_space((4, 4), 1.0, 1.0, "free")}, "boundary")])
+def test_bad_input_is_refused_before_any_work(change, word):
+    with pytest.raises(InputError, match=word):
+        solve_contact(**(GOOD | change))
