@@ -8,17 +8,18 @@ import numpy as np
 
 from ..errors import InputError
 from ..lubricant import Lubricant
-from ..report import CONVERGED, STAGNATED, Report
+from ..report import CONVERGED
 from ..validate import integer, number, positive
 from .differential_equations import load_row
 from .differential_mesh import Mesh, convolve, make_mesh
 from .differential_newton import Solution, newton
-from .grid import node_positions
+from .differential_result import assemble, grid_error
 from .problem import Problem, expected_film
-from .result import EHLResult, cubic, smallest
-from .start import State, expected_rupture
+from .result import EHLResult, cubic
+from .start import expected_rupture
 
 COARSEST, FINEST = 64, 65536     # cells
+STARVED = 0.1                    # film of a badly starved contact, relative to inlet_length²
 RESOLVED = 0.7                   # largest step of a first grid, relative to the length of the pressure rise
 
 
@@ -46,7 +47,7 @@ def solve_differential_deflection(
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
         contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
         behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
-    bandwidth : largest distance in nodes whose pressures are implicit, >= 0. Changes the time, not the answer.
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
     max_iterations : Newton steps per grid; start : here only its fields x, pressure, film_thickness are used
 
     report.residuals, all relative, must be <= tolerance:
@@ -68,13 +69,8 @@ def solve_differential_deflection(
     1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
     needs about 50 times the nodes of a graded one at M = 1000.
     """
-    speed = number("entrainment_speed", entrainment_speed, "m/s")
-    if speed == 0.0:
-        raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
-    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density)
-    problem = Problem(positive("load_per_width", load_per_width, "N/m"), positive("radius", radius, "m"),
-                      positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
-                      None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+    problem = _problem(load_per_width, radius, e_prime, entrainment_speed, inlet_length,
+                       Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density))
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     bandwidth = integer("bandwidth", bandwidth, minimum=0)
@@ -90,25 +86,46 @@ def solve_differential_deflection(
             notes = ("the warm start failed; solved again from a cold start",)
     if not levels or levels[-1].status != CONVERGED:
         levels = _ascend(problem, ends, nodes, bandwidth, tolerance, max_iterations, None)
-    result = _assemble(problem, levels, tolerance, math.copysign(1.0, speed), notes)
+    result = assemble(problem, levels, tolerance, math.copysign(1.0, entrainment_speed), notes)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
+def _problem(load, radius, e_prime, speed, inlet_length, lubricant: Lubricant) -> Problem:
+    speed = number("entrainment_speed", speed, "m/s")
+    if speed == 0.0:
+        raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
+    return Problem(positive("load_per_width", load, "N/m"), positive("radius", radius, "m"),
+                   positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
+                   None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+
+
+def _film(problem: Problem) -> float:
+    """Expected film, less where the lubricant begins within the length on which a flooded film builds up."""
+    film = expected_film(problem.M, problem.L)
+    if problem.inlet_length is None:
+        return film
+    return min(film, STARVED * (problem.inlet_length / problem.length_unit) ** 2)
+
+
+def _rupture(problem: Problem) -> float:
+    return min(expected_rupture(problem.M, problem.L), problem.half_width + math.sqrt(2.0 * _film(problem)))
+
+
 def _domain(problem: Problem, domain) -> tuple[float, float]:
     """First and last node in units of X."""
     b, unit = problem.half_width, problem.length_unit
-    inlet_length = math.sqrt(2.0 * expected_film(problem.M, problem.L))
-    first = -2.0 * b - 20.0 * inlet_length
-    last = expected_rupture(problem.M, problem.L) + 0.2 * b + inlet_length
+    rise = math.sqrt(2.0 * _film(problem))
+    first = -2.0 * b - 20.0 * rise
+    last = _rupture(problem) + 0.2 * b + rise
     if problem.inlet_length is not None:
         if domain is not None:
             raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
         first = -problem.inlet_length / unit
         if -first <= b:
-            raise InputError(f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; allowed: "
-                             f"more than its half-width {b * unit:.4g} m")
+            raise InputError(f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; "
+                             f"allowed: more than its half-width {b * unit:.4g} m")
     if domain is not None:
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
@@ -118,8 +135,8 @@ def _domain(problem: Problem, domain) -> tuple[float, float]:
 
 
 def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> list[int]:
-    """Cells of the nested grids, coarse to fine; the first resolves the rise of the pressure if the last does."""
-    film, b = math.sqrt(2.0 * expected_film(problem.M, problem.L)), problem.half_width
+    """Cells of the nested grids; the coarsest resolves the rise of the pressure if the finest does."""
+    film, b = math.sqrt(2.0 * _film(problem)), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
     if nodes is None:
         cells = [2 ** math.ceil(math.log2(enough))]
@@ -133,7 +150,7 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> li
 
 
 def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
-    """Solutions on grids of doubling size; without ``nodes`` until two neighbours agree to ``tolerance``."""
+    """Solutions on grids of doubling size, without ``nodes`` until two neighbours agree to ``tolerance``."""
     cells = _cells(problem, ends, nodes)
     while start is not None and len(cells) > 2 and (nodes is not None or 2 * cells[0] < 0.75 * start.x.size):
         cells.pop(0)
@@ -145,6 +162,9 @@ def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLRes
         else:
             P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_steps))
+        if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
+            levels.pop()                                   # too coarse to start on
+            continue
         if levels[-1].status != CONVERGED or nodes is None and grid_error(levels) <= tolerance:
             break
     return levels
@@ -152,9 +172,9 @@ def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLRes
 
 def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """A semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
-    film = expected_film(problem.M, problem.L)
+    film = _film(problem)
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
-    place = (mesh.X - expected_rupture(problem.M, problem.L)) / width
+    place = (mesh.X - _rupture(problem)) / width
     P = np.sqrt(np.maximum(0.0, 1.0 - (place + 1.0) ** 2))
     P /= load_row(mesh, problem) @ P
     gap = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)
@@ -171,93 +191,12 @@ def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, n
     place = mesh.X * (expected_rupture(M, L) / expected_rupture(problem.M, problem.L))
     P = np.interp(place, X, P, left=0.0)
     H = np.interp(place, X, H - 0.5 * X**2) + 0.5 * place**2
-    return P / (load_row(mesh, problem) @ P), H * (expected_film(problem.M, problem.L) / expected_film(M, L))
+    load = load_row(mesh, problem) @ P
+    if not load > 0.0:                                         # no pressure on this mesh
+        return _cold(mesh, problem)
+    return P / load, H * (expected_film(problem.M, problem.L) / expected_film(M, L))
 
 
 def _transfer(mesh: Mesh, X: np.ndarray, P: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pressure (linear) and film (cubic) on another mesh."""
     return np.interp(mesh.X, X, P), cubic(X, H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
-
-
-def grid_error(levels: list[Solution]) -> float:
-    """Largest relative change of smallest, central and flow film between the last two grids, or a quarter of the
-    change before that. About three times the error, for a rupture point bound to nodes makes it uneven."""
-    films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
-    if len(films) < 2:
-        return math.inf
-    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
-    return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
-
-
-def _at_centre(solution: Solution) -> float:
-    X = solution.mesh.X
-    return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
-
-
-def _domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the tail's next-order term: its share of the load times the departure from the parabola."""
-    if problem.inlet_length is not None:
-        return 0.0
-    a = -solution.mesh.X[0]
-    return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))
-
-
-def _report(problem: Problem, levels: list[Solution], tolerance: float, notes: tuple) -> Report:
-    last = levels[-1]
-    residuals = {"discretisation": grid_error(levels), "domain": _domain_error(problem, last), **last.residuals}
-    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
-    status = last.status
-    if status == CONVERGED and not residual <= tolerance:
-        status = STAGNATED
-    history = tuple(e for level in levels for e in level.history)
-    first, end = last.mesh.X[[0, -1]] / problem.half_width
-    notes += (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths; {last.mesh.bandwidth} implicit",)
-    if last.terms.last >= last.mesh.size - 2:
-        notes += ("the film did not rupture inside the domain",)
-    return Report("line-contact EHL, differential deflection", status, len(history) - len(levels), residual,
-                  tolerance, residuals, history, sum(level.solves for level in levels), notes)
-
-
-def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-    """Rupture point, where the film is that of the flow, and X, P, H with a node there."""
-    X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
-    before, behind = 0.5 * (H[last] + H[last + 1]), 0.5 * (H[last + 1] + H[min(last + 2, H.size - 1)])
-    share = np.clip((q - before) / (behind - before), 0.0, 1.0) if behind > before else 0.5
-    e = X[last] + (0.5 + float(share)) * solution.mesh.step
-    i = int(np.searchsorted(X, e))
-    if min(abs(X[i] - e), abs(X[i - 1] - e)) < 1e-3 * solution.mesh.step:
-        return float(X[i] if X[i] - e < e - X[i - 1] else X[i - 1]), X, P, H
-    film = cubic(X, H - 0.5 * X**2, np.array([e]))[0] + 0.5 * e * e
-    return e, np.insert(X, i, e), np.insert(P, i, 0.0), np.insert(H, i, film)
-
-
-def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
-    """The `State` from which `solve_ehl` can start: the solution on its graded grid."""
-    xi = node_positions(problem.half_width, expected_film(problem.M, problem.L), 2 * COARSEST)
-    X = xi + rupture
-    P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
-    H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
-    return State(problem.M, problem.L, P[:-1], H, solution.terms.q, rupture, error)
-
-
-def _assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: float, notes: tuple) -> EHLResult:
-    """The result in SI units; sign -1 mirrors it."""
-    last = levels[-1]
-    rupture, X, P, H = _with_rupture(last)
-    mesh, q, lubricant = last.mesh, last.terms.q, problem.lubricant
-    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
-    constant = last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P
-    order = slice(None) if sign > 0 else slice(None, None, -1)
-    report = _report(problem, levels, tolerance, notes)
-    return EHLResult(
-        x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
-        film_thickness=(H * film)[order],
-        viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
-        density_ratio=problem.density(P)[0][order], min_film=smallest(mesh.X, last.H) * film,
-        central_film=_at_centre(last) * film, flow_film=q * film, flux=q * film * problem.speed * sign,
-        rupture=rupture * length * sign,
-        approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
-        half_width=b * length, hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
-        load=problem.load, radius=problem.radius, e_prime=problem.e_prime, entrainment_speed=sign * problem.speed,
-        load_number=problem.M, material_number=problem.L, report=report,
-        state=_state(problem, last, rupture, report.residuals["discretisation"]))

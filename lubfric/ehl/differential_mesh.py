@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+NEAR = 20
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -42,10 +44,9 @@ class Mesh:
 def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bool) -> Mesh:
     """``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
     X, step = np.linspace(first, last, nodes, retstep=True)
-    k = np.arange(nodes + 2.0)
-    bend = _second_difference(0.5 * k * k * np.log(np.maximum(k, 1.0)))
-    log_kernel = -4.0 / math.pi * step * (bend[:-1] + math.log(step) - 1.5)
-    weights = -4.0 / math.pi * step * _second_difference(bend)
+    second, fourth = _differences(nodes)
+    log_kernel = -4.0 / math.pi * step * (second + math.log(step) - 1.5)
+    weights = -4.0 / math.pi * step * fourth
     far = weights.copy()
     far[: bandwidth + 1] = 0.0
     transforms = (_transform(kernel) for kernel in (log_kernel, weights, far))
@@ -60,9 +61,17 @@ def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
     return irfft(transform * rfft(P, size), size)[: P.size]
 
 
-def _second_difference(even: np.ndarray) -> np.ndarray:
-    """Of an even sequence given from 0 on; one value shorter."""
-    return np.append(even[1], even[:-2]) - 2.0 * even[:-1] + even[1:]
+def _differences(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Second and fourth differences of g = k² ln|k|/2 at k = 0 .. n - 1.
+
+    From k = NEAR on by Taylor's series (g'' = ln k + 3/2), where differencing would lose its digits.
+    """
+    k = np.arange(-2.0, NEAR + 2)
+    g = 0.5 * k * k * np.log(np.maximum(np.abs(k), 1.0))
+    x = 1.0 / np.arange(NEAR, max(n, NEAR + 1)) ** 2.0
+    second = -0.5 * np.log(x) + 1.5 - x * (1 / 12 + x * (1 / 60 + x / 168))
+    fourth = -x * (1 + x * (1 + x * (3 / 2 + x * 17 / 6)))
+    return np.append(np.diff(g, 2)[1:-1], second)[:n], np.append(np.diff(g, 4), fourth)[:n]
 
 
 def _padded(n: int) -> int:

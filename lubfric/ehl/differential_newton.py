@@ -1,9 +1,9 @@
 """Newton's method on the coupled equations.
 
 The weights of near pressures are implicit, in one banded factorisation with a border for the two unknown end
-films; those of far pressures are added by GMRES around it. So the step, and not only the answer, is that of the
-full integral; without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as with the method's
-authors.
+films; those of far pressures are added by GMRES around it. So the step, and not only the answer, is that of
+the full integral; without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as with the
+method's authors.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
            squeeze: Squeeze = STEADY) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film
     ruptures inside the grid."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):     # met by the test for finite values
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):    # history tests for it
         return _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze)
 
 

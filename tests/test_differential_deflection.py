@@ -1,0 +1,254 @@
+"""Differential deflection against the full integral, the default solver, closed forms and published limits."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import lubfric
+from lubfric.analytic import film
+from lubfric.ehl import differential_deflection, differential_newton
+from lubfric.ehl.differential_deflection import solve_differential_deflection
+from lubfric.ehl.differential_mesh import convolve, make_mesh
+from lubfric.ehl.differential_newton import Squeeze, newton
+from lubfric.ehl.kernel import hat_kernel
+from lubfric.ehl.problem import Problem
+from lubfric.ehl.result import cubic, smallest
+from lubfric.lubricant import Lubricant
+
+PAPER = {"load_per_width": 5.5 / 6e-3, "radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36,
+             "pressure_viscosity_coefficient": 25e-9}
+ALPHA, R, E = 2.2e-8, 0.01, 2.2e11
+ETA = math.exp(ALPHA * 1.96e8 / 0.68 - 9.67)              # Roelands z = 0.68
+
+
+def moes(M, L, **options):
+    load, speed = film.load_and_speed(M, L, radius=R, e_prime=E, viscosity=ETA,
+                                      pressure_viscosity_coefficient=ALPHA)
+    return {"load_per_width": load, "radius": R, "e_prime": E, "entrainment_speed": speed, "viscosity": ETA,
+                "pressure_viscosity_coefficient": ALPHA} | options
+
+
+def numbers(result):
+    unit = result.load / (result.e_prime * result.load_number)
+    return np.array([result.min_film, result.central_film, result.flow_film]) / unit
+
+
+# The deflection
+
+def test_weights_are_the_second_difference_of_the_full_integral():
+    mesh = make_mesh(-3.0, 2.0, 201, 8, True)
+    P = (1 - mesh.X**2 / 4) ** 2 * (np.abs(mesh.X) < 2)
+    full = hat_kernel(mesh.X, mesh.X) @ P
+    np.testing.assert_allclose(convolve(mesh.log_transform, P), full, atol=1e-13)
+    np.testing.assert_allclose(convolve(mesh.all_transform, P)[1:-1], np.diff(full, 2), atol=1e-13)
+
+
+def test_weights_decay_like_the_inverse_square_and_sum_to_zero():
+    mesh = make_mesh(0.0, 1.0, 4001, 8, True)
+    k = np.arange(100, 4001)
+    np.testing.assert_allclose(mesh.weights[k] * k**2, 4 / math.pi * mesh.step, rtol=1e-3)
+    rest = 4 / math.pi * mesh.step * 2 / 4000.5               # what lies beyond the mesh
+    assert mesh.weights[0] + 2 * mesh.weights[1:].sum() == pytest.approx(-rest, rel=1e-3)
+
+
+@pytest.mark.parametrize("M, L", [(2, 5), (50, 10)])
+def test_the_answer_does_not_depend_on_the_band(M, L):
+    runs = [solve_differential_deflection(**moes(M, L), nodes=801, bandwidth=m, tolerance=1e-2)
+            for m in (0, 2, 8, 40, 800)]
+    films = np.array([numbers(r) for r in runs])
+    assert np.max(np.abs(films / films[-1] - 1)) < 2e-5
+    solves = [r.report.evaluations for r in runs]
+    assert sorted(solves, reverse=True) == solves and solves[0] > 3 * solves[-1]
+    assert solves[-1] == runs[-1].report.iterations           # full band: every step is exact at once
+
+
+def test_lagging_the_far_pressures_gives_the_same_answer_more_slowly(monkeypatch):
+    kw = moes(5, 5, nodes=401, tolerance=1e-2, bandwidth=32, max_iterations=200)
+    exact = solve_differential_deflection(**kw)
+    monkeypatch.setattr(differential_newton, "KRYLOV_LIMIT", 0)
+    lagged = solve_differential_deflection(**kw)
+    np.testing.assert_allclose(numbers(lagged), numbers(exact), rtol=1e-4)
+    assert lagged.report.iterations > exact.report.iterations
+
+
+# Against others
+
+@pytest.mark.parametrize("M", [1e-3, 0.1, 1, 20, 300])
+@pytest.mark.parametrize("L", [0.1, 5, 15])
+def test_agrees_with_the_default_solver(M, L):
+    ours = solve_differential_deflection(**moes(M, L))
+    default = lubfric.solve_ehl(**moes(M, L), tolerance=5e-4)
+    np.testing.assert_allclose(numbers(ours), numbers(default), rtol=3.5e-3)
+    assert ours.flux == pytest.approx(default.flux, rel=3.5e-3)
+    assert abs(ours.approach - default.approach) < 0.01 * default.flow_film
+    assert abs(ours.rupture - default.rupture) < 0.05 * math.sqrt(2 * R * default.flow_film)
+
+
+def test_agrees_with_the_default_solver_to_five_digits():
+    kw = moes(20, 5, density="dowson-higginson")
+    ours = solve_differential_deflection(**kw, tolerance=3e-5)
+    np.testing.assert_allclose(numbers(ours), numbers(lubfric.solve_ehl(**kw, tolerance=2e-5)), rtol=4e-5)
+
+
+@pytest.mark.parametrize("M, L, smallest_film, flow", [(5, 5, 3.105, 4.082), (20, 5, 2.572, 3.423),
+                                                       (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)])
+def test_converged_table(M, L, smallest_film, flow):
+    """An independent solver with its inlet at -6 b, which at M = 5 lies within the inlet zone."""
+    h = numbers(solve_differential_deflection(**moes(M, L), tolerance=1e-3))
+    assert h[0] == pytest.approx(smallest_film, rel=5e-3) and h[2] == pytest.approx(flow, rel=5e-3)
+
+
+def test_rigid_isoviscous_cylinder():
+    M = 1e-3
+    h = numbers(solve_differential_deflection(**moes(M, 1, viscosity_law="constant"), tolerance=1e-4))
+    assert h[0] == pytest.approx(2.447484 / M, rel=2e-4) and h[2] == pytest.approx(3.0 / M, rel=2e-4)
+
+
+def test_starved_inlet():
+    kw = moes(5, 5)
+    half_width = math.sqrt(8 * kw["load_per_width"] * R / (math.pi * E))
+    kw |= {"inlet_length": 2 * half_width, "tolerance": 1e-3}
+    ours, default = solve_differential_deflection(**kw), lubfric.solve_ehl(**kw)
+    np.testing.assert_allclose(numbers(ours), numbers(default), rtol=2e-3)
+    assert ours.flow_film < 0.9 * solve_differential_deflection(**moes(5, 5)).flow_film
+
+
+@pytest.mark.parametrize("speed", [1e-4, 1e-3, 1e-2, 0.1, 1.0])
+def test_grid_of_the_paper(speed):
+    """2000 points at 0.8 micrometres. At 1e-4 m/s six of them span a Hertz half-width: the film is within
+    1 %, and the solver says that the grid cannot show it."""
+    kw = PAPER | {"entrainment_speed": speed}
+    ours = solve_differential_deflection(**kw, nodes=2000, domain=(-1.2e-3, 1999 * 0.8e-6 - 1.2e-3),
+                                         tolerance=0.1)
+    default = lubfric.solve_ehl(**kw, tolerance=3e-4)
+    assert np.diff(ours.x)[0] == pytest.approx(0.8e-6)
+    error = np.abs(numbers(ours) / numbers(default) - 1)
+    assert max(error) < 0.01 and error[2] < 1e-3
+    assert ours.report.residuals["discretisation"] + 1e-3 > max(error)
+
+
+def test_second_order():
+    q = [numbers(solve_differential_deflection(**moes(20, 5), nodes=n + 1, tolerance=0.1))[2]
+         for n in (400, 800, 1600, 3200)]
+    change = np.abs(np.diff(q))
+    assert 1.7 < math.log2(change[0] / change[2]) / 2 < 2.6
+
+
+@settings(max_examples=12, deadline=None, derandomize=True)
+@given(st.floats(-3, 2.5), st.floats(0.1, 15), st.sampled_from(["constant", "dowson-higginson"]))
+def test_converges_from_cold(log_M, L, density):
+    r = solve_differential_deflection(**moes(10**log_M, L, density=density), tolerance=5e-3)
+    assert r.report.converged and r.report.residual <= 5e-3
+    default = lubfric.solve_ehl(**moes(10**log_M, L, density=density), tolerance=1e-3)
+    np.testing.assert_allclose(numbers(r), numbers(default), rtol=6e-3)
+
+
+# What the result says of itself
+
+@pytest.fixture(scope="module")
+def heavy():
+    return solve_differential_deflection(**moes(50, 10), tolerance=1e-3)
+
+
+def test_the_film_is_that_of_the_full_integral(heavy):
+    """Recomputed on the nodes of the result by the dense kernel, whatever the report says."""
+    r = heavy
+    s = r.x / r.half_width
+    bend = hat_kernel(s, s) @ r.pressure * r.half_width / r.e_prime
+    h = r.approach + r.x**2 / (2 * R) + bend
+    np.testing.assert_allclose(r.film_thickness, h, rtol=2e-4)
+    assert np.trapezoid(r.pressure, r.x) == pytest.approx(r.load, rel=2e-4)
+    assert r.pressure.min() == 0 and np.all(r.pressure[r.x >= r.rupture] == 0)
+    assert np.interp(r.rupture, r.x, r.film_thickness) == pytest.approx(r.flow_film, rel=1e-3)
+    assert set(r.report.residuals) == {"discretisation", "domain", "mass", "film", "load", "complementarity"}
+
+
+def test_reversed_motion_mirrors(heavy):
+    kw = moes(50, 10)
+    kw["entrainment_speed"] *= -1
+    back = solve_differential_deflection(**kw, tolerance=1e-3)
+    np.testing.assert_array_equal(back.x, -heavy.x[::-1])
+    np.testing.assert_array_equal(back.pressure, heavy.pressure[::-1])
+    assert back.flux == -heavy.flux and back.rupture == -heavy.rupture
+
+
+def test_starts_from_a_neighbour_and_starts_the_default(heavy):
+    near = moes(60, 9)
+    cold = solve_differential_deflection(**near, tolerance=1e-3)
+    for start in (heavy, lubfric.solve_ehl(**moes(50, 10))):
+        warm = solve_differential_deflection(**near, tolerance=1e-3, start=start)
+        assert not any("failed" in note for note in warm.report.notes)
+        np.testing.assert_allclose(numbers(warm), numbers(cold), rtol=1e-3)
+    default = lubfric.solve_ehl(**near, tolerance=1e-3, start=heavy)
+    assert not any("failed" in note for note in default.report.notes)
+    np.testing.assert_allclose(numbers(default), numbers(cold), rtol=2e-3)
+
+
+def test_wrong_weights_are_found_out(monkeypatch):
+    """A far deflection 1 % too large solves its own equations, but not the film equation."""
+    def spoilt(*args):
+        mesh = make_mesh(*args)
+        object.__setattr__(mesh, "all_transform", 1.01 * mesh.all_transform)
+        return mesh
+
+    monkeypatch.setattr(differential_deflection, "make_mesh", spoilt)
+    with pytest.raises(lubfric.ConvergenceError) as failure:
+        solve_differential_deflection(**moes(5, 5), nodes=201, tolerance=0.1)
+    assert failure.value.report.residuals["film"] > 1e-4
+
+
+def test_a_failed_solve_says_so():
+    with pytest.raises(lubfric.ConvergenceError) as failure:
+        solve_differential_deflection(**moes(20, 5), max_iterations=1)
+    assert failure.value.report.status == "iteration_limit" and failure.value.result.x.size > 0
+    coarse = solve_differential_deflection(**moes(300, 1), nodes=129, raise_on_failure=False)
+    assert not coarse.report.converged
+
+
+def test_a_domain_that_ends_before_rupture_says_so():
+    kw = moes(0.1, 5)
+    b = math.sqrt(8 * kw["load_per_width"] * R / (math.pi * E))
+    r = solve_differential_deflection(**kw, nodes=401, domain=(-300 * b, 1.5 * b), raise_on_failure=False)
+    assert not r.report.converged and "did not rupture" in r.report.notes[-1]
+
+
+@pytest.mark.parametrize("bad, name", [
+    ({"nodes": 20}, "nodes"), ({"bandwidth": -1}, "bandwidth"), ({"domain": (0, 1e-3)}, "domain"),
+    ({"domain": (-1e-3,)}, "domain"), ({"inlet_length": 1e-9}, "inlet_length"), ({"start": 1}, "start"),
+    ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"), ({"tolerance": 0}, "tolerance"),
+    ({"load_per_width": math.nan}, "load_per_width"), ({"entrainment_speed": 0}, "entrainment_speed")])
+def test_bad_input(bad, name):
+    with pytest.raises(lubfric.InputError, match=name):
+        solve_differential_deflection(**moes(5, 5) | bad)
+
+
+# The squeeze term
+
+def test_speed_halved_at_once():
+    """H(0) and smallest film in units of the first speed, T = U0 t/b, M = 20, L = 5; BDF2, constant step.
+    At T = 2 the front of the new film stands at the centre."""
+    kw = moes(20, 5)
+    oil = Lubricant(ETA, ALPHA, density_law="dowson-higginson")
+    first = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"], oil)
+    later = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"] / 2, oil)
+    stretch, unit = first.length_unit / later.length_unit, later.film_unit / first.film_unit
+    b = first.half_width
+    steady = newton(mesh := make_mesh(-4 * b, 1.5 * b, 601, 8, False), first,
+                    *differential_deflection._cold(mesh, first), 1e-6, 60)
+    mesh = make_mesh(-4 * b * stretch, 1.5 * b * stretch, 601, 8, False)
+    P, H, step = steady.P * first.pressure_unit / later.pressure_unit, steady.H / unit, 0.05
+    rate = 2 / (step * b * stretch)                            # 1/(U t) of the later speed
+    stored, table = [later.density(P)[0] * H], {}
+    for k in range(1, 101):
+        past = 2 * stored[-1] - 0.5 * stored[-2] if k > 1 else stored[-1]
+        s = newton(mesh, later, P, H, 1e-6, 60, Squeeze((1.5 if k > 1 else 1.0) * rate, rate * past))
+        assert s.status == "converged"
+        P, H = s.P, s.H
+        stored.append(later.density(P)[0] * H)
+        table[k] = (unit * cubic(mesh.X, H - 0.5 * mesh.X**2, np.zeros(1))[0], unit * smallest(mesh.X, H))
+    for T, centre, least in [(0.5, 3.079, 2.301), (1, 3.076, 2.119), (3, 1.963, 1.939), (5, 1.914, 1.621)]:
+        assert table[round(T / step)] == pytest.approx((centre, least), rel=0.01)
+    assert table[40][1] == pytest.approx(1.982, rel=0.01) and 2.4 < table[40][0] < 2.6
