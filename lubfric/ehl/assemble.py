@@ -16,7 +16,7 @@ from .start import solution_state
 
 def grid_error(levels: list[Solution]) -> float:
     """Relative discretisation error of the last solution; the formula is in `solve_ehl`."""
-    films = np.array([[smallest(s.terms.X, s.terms.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
@@ -65,6 +65,9 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     if status == CONVERGED and not residual <= tolerance:
         status = ITERATION_LIMIT
     inlet = last.terms.X[0] / problem.half_width
+    centre = abs(_at_centre(levels[-2]) / _at_centre(last) - 1.0) if len(levels) > 1 else 0.0
+    if centre > 2.0 * tolerance:
+        notes += (f"central_film changed by {centre:.1e} between the last two grids",)
     notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
     return Report("line-contact EHL, Newton on nested grids", status, steps, residual, tolerance, residuals,
                   history, steps, notes)

@@ -48,10 +48,11 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     max_iterations : Newton steps per grid
 
     The cells are doubled until ``discretisation`` <= tolerance. report.residuals, all relative:
-    discretisation : c1 = largest change of min_film, central_film and flow_film against the grid of half
+    discretisation : c1 = largest change of min_film and flow_film against the grid of half
         the cells, c0 = the change before that: max(c1, c0/3)/2 (2/3 c1 on two grids). Second order
         would allow c1/3. At random M, L and laws it bounds the error in nine cases of ten, and the rest
-        mostly within a factor of two
+        mostly within a factor of two. central_film follows, but where the pressure spike sits at x = 0
+        (M near 2, L above 12) no grid converges it, and a note tells its change
     domain : estimated effect of the finite inlet on flow_film
     mass : largest |flux through a face/q - 1|; load : |∫ p dx/load - 1|; both <= 1e-3 tolerance
     complementarity : largest of -p/p_max before rupture and of 1 - h/h_rupture behind it
