@@ -37,8 +37,8 @@ class Terms:
     """One evaluation of the equations.
 
     through: mass flux at the faces (N - 1) plus what is stored upstream; last: node before rupture; q: the
-    flux behind it; balance (N,): what leaves a node, P behind rupture; bend (N,): defect of the second
-    difference; ends: defects of the tilt between both ends and of the load; scale: of fluxes.
+    flux behind it; balance (N,): what leaves a node, P behind rupture; defect (N,): film less the full
+    integral, from the first node; ends: defects of the tilt between both ends and of the load; scale: of fluxes.
     by_H, by_P: derivatives of a face's flux by its film and the pressures left and right of it;
     stored_by_H, stored_by_P: those of the storage; slope: d ln(eta)/dP.
     """
@@ -47,7 +47,7 @@ class Terms:
     last: int
     q: float
     balance: np.ndarray
-    bend: np.ndarray
+    defect: np.ndarray
     ends: np.ndarray
     scale: float
     by_H: np.ndarray
@@ -77,11 +77,9 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
     scale = expected_film(problem.M, problem.L)
     balance = np.where(np.arange(P.size) <= last, balance / scale, P)
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
-    bend = np.zeros_like(H)
-    bend[1:-1] = np.diff(H, 2) - mesh.step**2 - convolve(mesh.all_transform, P)[1:-1]
-    tilt = 0.5 * (mesh.X[-1] ** 2 - mesh.X[0] ** 2) + tilt_row(mesh) @ P - (H[-1] - H[0])
-    ends = np.array([tilt, load_row(mesh, problem) @ P - 1.0])
-    return Terms(through, last, float(through[last]), balance, bend, ends, scale,
+    defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)
+    ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
+    return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale,
                  face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), by_P,
                  mesh.step * squeeze.rate * rho, mesh.step * squeeze.rate * rho_slope * H, slope)
 
@@ -119,11 +117,9 @@ def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
     return max(last, 1)
 
 
-def measure(mesh: Mesh, t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
+def measure(t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
     """Relative residuals: mass, film (against the full integral), load, complementarity."""
-    whole = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)
-    defect = (H - H[0]) - (whole - whole[0])
     behind = t.through[t.last + 1:]
     return {"mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),
-            "film": float(np.max(np.abs(defect) / H)), "load": abs(float(t.ends[1])),
+            "film": float(np.max(np.abs(t.defect) / H)), "load": abs(float(t.ends[1])),
             "complementarity": float(max(0.0, -P.min() / P.max(), 1.0 - behind.min(initial=t.q) / t.q))}

@@ -21,9 +21,8 @@ NEAR = 20
 @dataclass(frozen=True)
 class Mesh:
     """X: node positions (N,); log_kernel, weights: of the film and of its second difference, by distance in
-    nodes (N,); bandwidth: largest distance that is near; log_transform, all_transform, far_transform: Fourier
-    transforms of log_kernel, weights, and the weights beyond the bandwidth; flooded: whether the pressure
-    goes on upstream of the first node."""
+    nodes (N,); bandwidth: largest distance that is near; log_transform, far_transform: Fourier transforms of
+    log_kernel and of the weights beyond the bandwidth; flooded: whether the pressure goes on upstream."""
 
     X: np.ndarray
     step: float
@@ -31,7 +30,6 @@ class Mesh:
     weights: np.ndarray
     bandwidth: int
     log_transform: np.ndarray
-    all_transform: np.ndarray
     far_transform: np.ndarray
     flooded: bool
 
@@ -44,13 +42,13 @@ class Mesh:
 def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bool) -> Mesh:
     """``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
     X, step = np.linspace(first, last, nodes, retstep=True)
-    second, fourth = _differences(nodes)
-    log_kernel = -4.0 / math.pi * step * (second + math.log(step) - 1.5)
-    weights = -4.0 / math.pi * step * fourth
+    second = _second_difference(nodes + 1)
+    log_kernel = -4.0 / math.pi * step * (second[:-1] + math.log(step) - 1.5)
+    weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
     far[: bandwidth + 1] = 0.0
-    transforms = (_transform(kernel) for kernel in (log_kernel, weights, far))
-    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), *transforms, flooded)
+    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel), _transform(far),
+                flooded)
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
@@ -61,17 +59,14 @@ def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
     return irfft(transform * rfft(P, size), size)[: P.size]
 
 
-def _differences(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Second and fourth differences of g = k² ln|k|/2 at k = 0 .. n - 1.
-
-    From k = NEAR on by Taylor's series (g'' = ln k + 3/2), where differencing would lose its digits.
-    """
-    k = np.arange(-2.0, NEAR + 2)
+def _second_difference(n: int) -> np.ndarray:
+    """Of g = k² ln|k|/2 at k = 0 .. n - 1; from k = NEAR on by Taylor's series, g'' = ln k + 3/2, where differencing
+    loses its digits."""
+    k = np.arange(-1.0, NEAR + 1)
     g = 0.5 * k * k * np.log(np.maximum(np.abs(k), 1.0))
     x = 1.0 / np.arange(NEAR, max(n, NEAR + 1)) ** 2.0
-    second = -0.5 * np.log(x) + 1.5 - x * (1 / 12 + x * (1 / 60 + x / 168))
-    fourth = -x * (1 + x * (1 + x * (3 / 2 + x * 17 / 6)))
-    return np.append(np.diff(g, 2)[1:-1], second)[:n], np.append(np.diff(g, 4), fourth)[:n]
+    series = -0.5 * np.log(x) + 1.5 - x * (1 / 12 + x * (1 / 60 + x / 168))
+    return np.append(np.diff(g, 2), series)[:n]
 
 
 def _padded(n: int) -> int:

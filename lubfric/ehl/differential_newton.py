@@ -120,7 +120,9 @@ def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int
         f[[0, -1]] = 0.0
         return f
 
-    z = near(-t.balance, -t.bend, -t.ends)
+    bend = np.zeros(mesh.size)
+    bend[1:-1] = np.diff(t.defect, 2)
+    z = near(-t.balance, -bend, -t.ends)
     f = far(z)
     size, still = float(np.linalg.norm(f)), np.zeros(mesh.size)
     if mesh.bandwidth >= mesh.size - 1 or size == 0.0:
@@ -154,7 +156,7 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
         t = evaluate(mesh, problem, P, H, squeeze)
-        residuals = measure(mesh, t, P, H)
+        residuals = measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1:])
         if history[-1] <= tolerance and ruptured:
