@@ -17,7 +17,7 @@ import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
 from .projection import with_load
-from .residual import deflection_scale
+from .residual import deflection_scale, dot
 
 CAPACITY = 0.999       # of hardness times the set, beyond which the set has to grow
 MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3     # measured: fewest iterations from one spot to 99.99 % contact
@@ -79,7 +79,9 @@ class Descent:
         cells = np.flatnonzero(candidate)
         pressure, gap = self.pressure.ravel()[cells], self.height.ravel()[cells]
         total = pressure.sum()
-        energy = pressure @ (gap - self.problem.gap0.ravel()[cells])
+        undeformed = self.problem.gap0.ravel()[cells]
+        energy = dot(pressure, np.subtract(gap, undeformed, out=undeformed))
+        del undeformed
         gap -= self.approach
         if np.isfinite(hardness):
             keep = (pressure < hardness) | (gap > 0)
@@ -90,7 +92,7 @@ class Descent:
         overlap = max(0.0, -gap[pressure < hardness].min(initial=0.0))
         if total <= 0:
             return WorkingSet(cells, pressure, gap, math.inf if overlap > 0 else 0.0)
-        misfit = pressure @ np.abs(gap) / total
+        misfit = dot(pressure, np.abs(gap)) / total
         return WorkingSet(cells, pressure, gap, float(max(overlap, misfit) / scale))
 
     def _enough(self, cells, pressure, gap, total):
@@ -103,31 +105,34 @@ class Descent:
 
     def search(self, work: WorkingSet, restart: bool) -> tuple[np.ndarray, float]:
         """Conjugate direction on the set (Polak-Ribiere, never negative) and its slope."""
-        r = self._balanced(work.gap)
-        self._scatter(self.scratch, work.cells, r)
+        self._scatter(self.scratch, work.cells, self._balanced(work.gap.copy()))
         operator = self.problem.operator
         self.inverse[0, 0] = self._mean_stiffness(work.cells.size / self.pressure.size)
-        z = filtered(self.scratch, self.inverse, operator.shape, operator.workers).ravel()[work.cells]
-        z = self._balanced(z.astype(float))
+        d = filtered(self.scratch, self.inverse, operator.shape, operator.workers).ravel()[work.cells]
+        d = self._balanced(np.negative(d, dtype=float))
         self.convolutions += 1
-        d = -z
+        power = -dot(work.gap, d)
         if not restart:
-            keep = (r @ z - self.residue.ravel()[work.cells] @ z) / self.power
-            d += max(0.0, keep) * self.direction.ravel()[work.cells]
+            turned = self.scratch.ravel()[work.cells]
+            turned -= self.residue.ravel()[work.cells]
+            keep = np.float32(max(0.0, -dot(turned, d) / self.power))
+            np.multiply(self.direction.ravel()[work.cells], keep, out=turned)
+            d += turned
             d = self._balanced(d)
-        self.residue, self.scratch, self.power = self.scratch, self.residue, r @ z
-        return d, float(r @ d)
+        self.residue, self.scratch, self.power = self.scratch, self.residue, power
+        return d, dot(work.gap, d)
 
     def advance(self, work: WorkingSet, d: np.ndarray, slope: float) -> bool:
         """Exact step along ``d``, made admissible; False when there is nowhere to go."""
         self._scatter(self.direction, work.cells, d)
         change = self.fast.apply(self.direction)
         self.convolutions += 1
-        curvature = float(d @ change.ravel()[work.cells])
+        curvature = dot(d, change.ravel()[work.cells])
         if not (curvature > 0 and slope < 0):
             return False
         step = -slope / curvature
-        new = work.pressure + step * d
+        new = step * d
+        new += work.pressure
         if new.min() >= 0 and new.max() <= self.problem.hardness:
             change *= np.float32(step)
         else:
@@ -147,7 +152,10 @@ class Descent:
         return with_load(trial, self.load - yielded_outside, self.problem.hardness)
 
     def _balanced(self, values) -> np.ndarray:
-        return values if self.load is None else values - values.mean()
+        """``values`` in place, without their mean where the load is given."""
+        if self.load is not None:
+            values -= values.mean()
+        return values
 
     def _mean_stiffness(self, fraction: float) -> float:
         """|k| that stands in at k = 0: immaterial under a load, whose search has no mean. For an approach the mean

@@ -54,7 +54,7 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
         _check_operator(operator, gap0.shape, validate.spacing("spacing", spacing),
                         validate.positive("e_prime", e_prime, "Pa"), boundary)
     offset = float(gap0.min())
-    gap0 = gap0 - offset
+    gap0 = gap0 - offset if offset else gap0
     return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
