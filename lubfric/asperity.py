@@ -85,6 +85,17 @@ def asperity_contact(heights, spacing, e_prime, *, separation, definition="summi
     return _loaded(find, flat, separation, spacing, e_prime, hardness, definition)
 
 
+def contact_law(heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True):
+    """separation [m] -> `AsperityResult`, as `asperity_contact`, with the summits looked for only once."""
+    heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
+    find = _FINDERS[definition](heights, spacing, periodic)
+
+    def at(separation):
+        flat = np.broadcast_to(np.asarray(separation, dtype=float), heights.shape)
+        return _loaded(find, flat, separation, spacing, e_prime, hardness, definition)
+    return at
+
+
 def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition="summits", hardness=None,
                         periodic=True, tolerance=1e-3, raise_on_failure=True) -> AsperityResult:
     """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .ehl import EHLResult
 from .patch import Closure
@@ -11,6 +11,7 @@ from .report import CONVERGED, Report
 from .roots import increasing_root
 
 BOUNDS = (-40.0, 30.0)     # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+THICKER = 0.5              # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
 NEARLY_SEPARATED = 3.0     # where to look next to a speed at which the film carries everything
 
 
@@ -60,6 +61,37 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None) -
                            bounds=BOUNDS, tolerance=tolerance)
     film_load, contact_load, film, closure = root.payload
     report = _report(root.history, root.status, tolerance, film, closure)
+    return Balance(film_load, contact_load, film, closure, report)
+
+
+def share_by_separation(total_load, solve_film, close, carry, *, guess, tolerance, start=None) -> Balance:
+    """Divide ``total_load`` [N] the paper's way: a film load gives a film, which imposed on the contact gives its load.
+
+    ``carry(film, start)`` gives (contact load [N], `Closure`); the volume balance holds by construction and
+    ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero. ``close``, asked only whether the full film
+    clears the surface, and the rest as in `share_load`. The search begins at thicker films than the guess: a film
+    far too thin would press the contact flat.
+    """
+    film = solve_film(total_load, start.film if start else None)
+    closure = close(film, 0.0, None)
+    if closure.volume_residual <= 0:
+        return Balance(total_load, 0.0, film, closure, _report([0.0], CONVERGED, tolerance, film, closure,
+                                                               "separated: the film clears the summits"))
+    last = {"film": start.film if start and start.film else film,
+            "contact": start.closure.contact if start else None}
+
+    def residual(split):
+        film_load = total_load / (1 + math.exp(-split))
+        film = solve_film(film_load, last["film"])
+        contact_load, closure = carry(film, last["contact"])
+        last.update(film=film, contact=closure.contact or last["contact"])
+        return math.log((contact_load + film_load) / total_load), (film_load, contact_load, film, closure)
+
+    root = increasing_root(residual, (start.split if start else guess) - THICKER, step=0.7, bounds=BOUNDS,
+                           tolerance=tolerance)
+    film_load, contact_load, film, closure = root.payload
+    report = _report(root.history, root.status, tolerance, film, closure)
+    report = replace(report, residuals=report.residuals | {"load": min(root.history), "volume": abs(closure.volume_residual)})
     return Balance(film_load, contact_load, film, closure, report)
 
 

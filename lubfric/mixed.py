@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import validate
-from .balance import Balance, share_load
+from .asperity_patch import AsperityPatch, asperity_curve
+from .balance import Balance, share_by_separation, share_load
 from .contact_curve import contact_curve
 from .ehl import solve_ehl
 from .flat_patch import FlatPatch
@@ -22,6 +23,7 @@ from .shear import ShearForce, shear_force
 from .surface import Surface
 
 STRIP_POINTS = 128
+BEYOND = 1.5         # of the total load: how far a contact curve reaches when a film may be imposed on it
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ class Model:
 
     scene: Scene
     surface: Surface
-    patch: CylinderPatch | FlatPatch
+    patch: CylinderPatch | FlatPatch | AsperityPatch
 
 
 @dataclass(frozen=True)
@@ -70,22 +72,36 @@ class FrictionResult:
 def prepare(scene: Scene) -> Model:
     """Build what does not depend on the speed: the height map and the contact operator or curve."""
     surface = contact_map(scene)
-    bodies, numerics = scene.bodies, scene.numerics
     heights = surface.heights - surface.heights.mean()
-    if scene.contact.geometry == "flat":
-        operator = half_space(heights.shape, surface.spacing, bodies.e_prime, workers=numerics.workers)
-        area = 2 * bodies.half_width * bodies.width
-        curve = contact_curve(heights, surface.spacing, bodies.e_prime, heaviest=bodies.load / area, hardness=bodies.hardness,
+    build = _flat_patch if scene.contact.geometry == "flat" else _cylinder_patch
+    return Model(scene, surface, build(scene, heights, surface.spacing))
+
+
+def _flat_patch(scene: Scene, heights, spacing) -> FlatPatch:
+    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
+    area = 2 * bodies.half_width * bodies.width
+    heaviest = bodies.load / area * (BEYOND if numerics.closure == "separation" else 1.0)
+    if contact.model == "half-space":
+        operator = half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers)
+        curve = contact_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, hardness=bodies.hardness,
                               tolerance=numerics.pressure_tolerance, operator=operator)
-        x = centred_axis(STRIP_POINTS, 2 * bodies.half_width / STRIP_POINTS)
-        return Model(scene, surface, FlatPatch(curve, x, area))
-    step = surface.spacing[0]
-    x = centred_axis(heights.shape[0], step)
-    weight = np.ones(x.size) if scene.contact.region == "box" else strip_weight(x, step, bodies.half_width)
-    operator = half_space(heights.shape, surface.spacing, bodies.e_prime, ("free", "periodic"),
-                          workers=numerics.workers)
-    return Model(scene, surface, CylinderPatch(heights, surface.spacing, x, weight, operator, bodies.width,
-                                               bodies.hardness, numerics.pressure_tolerance))
+    else:
+        curve = asperity_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, definition=contact.model,
+                               reading=contact.asperity_separation, hardness=bodies.hardness)
+    x = centred_axis(STRIP_POINTS, 2 * bodies.half_width / STRIP_POINTS)
+    return FlatPatch(curve, x, area)
+
+
+def _cylinder_patch(scene: Scene, heights, spacing) -> CylinderPatch | AsperityPatch:
+    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
+    x = centred_axis(heights.shape[0], spacing[0])
+    weight = np.ones(x.size) if contact.region == "box" else strip_weight(x, spacing[0], bodies.half_width)
+    if contact.model != "half-space":
+        return AsperityPatch(heights, spacing, x, weight, bodies.e_prime, bodies.width, bodies.hardness, contact.model,
+                             contact.asperity_separation, numerics.pressure_tolerance)
+    operator = half_space(heights.shape, spacing, bodies.e_prime, ("free", "periodic"), workers=numerics.workers)
+    return CylinderPatch(heights, spacing, x, weight, operator, bodies.width, bodies.hardness,
+                         numerics.pressure_tolerance)
 
 
 def friction(scene: Scene | Model, speed: float | None = None, *, start: FrictionResult | None = None,
@@ -116,28 +132,51 @@ def friction(scene: Scene | Model, speed: float | None = None, *, start: Frictio
 def _balanced(model: Model, speed: float, start: Balance | None) -> Balance:
     scene = model.scene
     bodies, lubricant = scene.bodies, scene.lubricant
+    scaled = scene.numerics.film_deflection == "scaled"
 
     def solve_film(load, start):
-        return solve_ehl(load_per_width=load / bodies.width, radius=bodies.radius, e_prime=bodies.e_prime,
+        modulus = bodies.e_prime * (load / bodies.load if scaled else 1.0)
+        return solve_ehl(load_per_width=load / bodies.width, radius=bodies.radius, e_prime=modulus,
                          entrainment_speed=speed, viscosity=lubricant.viscosity,
                          pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
                          viscosity_law=lubricant.viscosity_law, density=lubricant.density_law,
                          tolerance=scene.numerics.film_tolerance, start=start)
 
     def close(film, contact_load, start):
-        return model.patch.close(film.film_at(model.patch.x), contact_load, start)
+        return model.patch.close(film.film_at(model.patch.x), contact_load, start, _contact_shape(model, film))
+
+    def carry(film, start):
+        return model.patch.carry(film.film_at(model.patch.x), start, _contact_shape(model, film))
 
     reference = max(2 * model.surface.sq, 1e-12)
     film_share = 4.895 * lubricant.viscosity * abs(speed) * bodies.radius * bodies.width / (reference * bodies.load)
     share = min(film_share, 0.9)                       # rigid isoviscous film of two sigma
-    return share_load(bodies.load, solve_film, close, guess=math.log(share / (1 - share)),
-                      tolerance=scene.numerics.volume_tolerance, start=start)
+    options = {"guess": math.log(share / (1 - share)), "tolerance": scene.numerics.volume_tolerance, "start": start}
+    if scene.numerics.closure == "load":
+        balance = share_load(bodies.load, solve_film, close, **options)
+    else:
+        balance = share_by_separation(bodies.load, solve_film, close, carry, **options)
+    model.patch.check(balance.closure)
+    return balance
+
+
+def _contact_shape(model: Model, film) -> np.ndarray | None:
+    """What the surface is pressed under, up to a constant, where it is not the film itself (None).
+
+    With Johnson's modulus the film holds the deflection of the whole load; the contact adds its own share itself.
+    """
+    if model.scene.numerics.film_deflection == "hydrodynamic":
+        return None
+    parabola = model.patch.x**2 / (2 * film.radius)
+    share = film.e_prime / model.scene.bodies.e_prime
+    return parabola + share * (film.film_at(model.patch.x) - parabola)
 
 
 def _dry(model: Model) -> Balance:
     """No entrainment, no film: the contact carries the whole load under the undeformed cylinder."""
     bodies = model.scene.bodies
     closure = model.patch.close(model.patch.x**2 / (2 * bodies.radius), bodies.load)
+    model.patch.check(closure)
     report = Report("load sharing", CONVERGED, 0, 0.0, model.scene.numerics.volume_tolerance,
                     residuals={"volume": 0.0, "load": 0.0}, notes=("no entrainment: all contact",))
     return Balance(0.0, bodies.load, None, closure, report)

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import validate
 from .contact import ContactResult, solve_contact
+from .contact.single_loop import single_loop
 from .errors import InputError
 from .halfspace import HalfSpace
 
@@ -35,7 +36,7 @@ class Closure:
     @property
     def volume_residual(self) -> float:
         """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
-        return (self.mean_gap - self.mean_film) / (self.mean_gap + self.mean_film)
+        return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
 
 
 @dataclass(frozen=True)
@@ -55,17 +56,41 @@ class CylinderPatch:
     hardness: float | None
     tolerance: float
 
-    def close(self, film_on_patch, contact_load, start=None) -> Closure:
-        """Load the patch with ``contact_load`` [N] (over the whole width) under the film's shape."""
-        gap0 = film_on_patch[:, None] - self.heights
+    def close(self, film_on_patch, contact_load, start=None, shape=None) -> Closure:
+        """Load the patch with ``contact_load`` [N] (over the whole width) under the film's shape.
+
+        ``shape`` [m] (nx,): what the surface is pressed under where it is not the film itself.
+        """
+        gap0 = (film_on_patch if shape is None else shape)[:, None] - self.heights
         length = self.x.size * self.spacing[0]
         if contact_load == 0:
             return self._closure(film_on_patch, gap0 - gap0.min(), None)
         contact = solve_contact(gap0, self.spacing, self.operator.e_prime, operator=self.operator,
                                 mean_pressure=contact_load / (self.width * length), hardness=self.hardness,
                                 boundary=("free", "periodic"), tolerance=self.tolerance, start=start)
-        self._check_edges(contact.pressure)
         return self._closure(film_on_patch, contact.gap, contact)
+
+    def carry(self, film_on_patch, start=None, shape=None) -> tuple[float, Closure]:
+        """Contact load [N] under the imposed film (paper, Appendix 2), and the closure there."""
+        film = film_on_patch
+        if shape is not None:
+            film = shape + _weighted(film_on_patch - shape, self.region_weight)
+        contact = single_loop(self.heights, film, self.spacing, self.operator.e_prime, weight=self.region_weight,
+                              hardness=self.hardness, boundary=("free", "periodic"), tolerance=self.tolerance,
+                              start=start, operator=self.operator)
+        load = contact.mean_pressure * self.width * self.x.size * self.spacing[0]
+        return load, self._closure(film_on_patch, contact.gap, contact if load > 0 else None)
+
+    def check(self, closure: Closure) -> None:
+        """Raise `InputError` when the contact reaches the ends of the patch."""
+        if closure.contact is None or self.x.size <= 2:
+            return
+        pressure = closure.contact.pressure
+        share = (pressure[0].sum() + pressure[-1].sum()) / pressure.sum()
+        if share > EDGE_SHARE:
+            raise InputError(f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
+                             f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
+                             f"{100 * EDGE_SHARE:g} % (make the patch longer in x)")
 
     def _closure(self, film_on_patch, gap, contact) -> Closure:
         weight = self.region_weight
@@ -78,13 +103,6 @@ class CylinderPatch:
                        mean_film=_weighted(film_on_patch, weight), x=self.x, contact_fraction=fraction,
                        real_contact_area_fraction=_weighted(fraction, weight),
                        plastic_area_fraction=plastic, contact=contact)
-
-    def _check_edges(self, pressure) -> None:
-        share = (pressure[0].sum() + pressure[-1].sum()) / pressure.sum()
-        if share > EDGE_SHARE and self.x.size > 2:
-            raise InputError(f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                             f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
-                             f"{100 * EDGE_SHARE:g} % (make the patch longer in x)")
 
 
 def _weighted(values, weight) -> float:

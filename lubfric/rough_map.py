@@ -25,8 +25,13 @@ def _generated(scene: Scene) -> Surface:
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
     spacing = validate.spacing("contact.spacing", patch.spacing)
-    return generate_surface(patch.shape, spacing, sq=rough.sq, correlation_length=rough.correlation_length,
-                            acf=rough.acf, decay_level=rough.decay_level, seed=rough.seed)
+    surface = generate_surface(tuple(rough.oversize * n for n in patch.shape), spacing, sq=rough.sq,
+                               correlation_length=rough.correlation_length, acf=rough.acf,
+                               decay_level=rough.decay_level, seed=rough.seed)
+    if rough.oversize == 1:
+        return surface
+    surface = surface.cropped(patch.shape).periodic("mirror", axes=(patch.geometry == "flat", True))
+    return surface.scaled(sq=rough.sq)
 
 
 def _measured(scene: Scene) -> Surface:

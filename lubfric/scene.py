@@ -13,6 +13,10 @@ from .lubricant import Lubricant
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
 CAVITATED_SHEAR = ("none", "striated")
+CONTACT_MODELS = ("half-space", "summits", "patches")
+ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+CLOSURES = ("load", "separation")
+FILM_DEFLECTIONS = ("hydrodynamic", "scaled")
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,8 @@ class Roughness:
     sq [m]: standard deviation of the heights; a file is scaled to it when given.
     correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf.
     motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
-    spacing [m]: of a file that does not carry its own.
+    spacing [m]: of a file that does not carry its own. oversize: a generated map is made this many times
+    as long in x and y, its middle cut out (for lengths that do not fit the patch) and scaled to sq.
     """
 
     file: str | None = None
@@ -95,8 +100,10 @@ class Roughness:
     seed: int = 0
     motion_axis: str = "x"
     spacing: float | tuple[float, float] | None = None
+    oversize: int = 1
 
     def __post_init__(self):
+        validate.integer("surface.oversize", self.oversize, minimum=1)
         if self.file is None:
             if self.sq is None or self.correlation_length is None:
                 raise InputError("surface needs either 'file', or 'sq' and 'correlation_length' in m")
@@ -121,14 +128,21 @@ class Patch:
     region: area A of the volume balance, Eq. (8): "hertz" (the strip |x| <= b of the total load)
     or "box" (the whole patch). shape (nx, ny) and spacing (dx, dy) [m] of the contact grid; a
     measured map keeps its own grid where they are left out.
+    model: "half-space" (every point of the surface, with interaction), or independent Hertz contacts of
+    "summits" or "patches" (`lubfric.asperity`); asperity_separation: how the film sets the separation of
+    these, "volume" (Eq. 8 without deflection) or "mean-plane" (the mean film itself).
     """
 
     geometry: str = "cylinder"
     region: str = "hertz"
     shape: tuple[int, int] | None = None
     spacing: float | tuple[float, float] | None = None
+    model: str = "half-space"
+    asperity_separation: str = "volume"
 
     def __post_init__(self):
+        validate.choice("contact.model", self.model, CONTACT_MODELS)
+        validate.choice("contact.asperity_separation", self.asperity_separation, ASPERITY_SEPARATIONS)
         validate.choice("contact.geometry", self.geometry, GEOMETRIES)
         validate.choice("contact.region", self.region, REGIONS)
         if self.shape is not None:
@@ -143,7 +157,12 @@ class Patch:
 @dataclass(frozen=True)
 class Numerics:
     """Relative tolerances. ``tolerance`` is the one on the friction coefficient; the others follow
-    from it where they are left out (see `film_tolerance` and its neighbours)."""
+    from it where they are left out (see `film_tolerance` and its neighbours).
+
+    closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
+    on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled").
+    """
 
     tolerance: float = 0.01
     ehl_tolerance: float | None = None
@@ -151,8 +170,12 @@ class Numerics:
     balance_tolerance: float | None = None
     cavitated_shear: str = "none"
     workers: int = 1
+    closure: str = "load"
+    film_deflection: str = "hydrodynamic"
 
     def __post_init__(self):
+        validate.choice("numerics.closure", self.closure, CLOSURES)
+        validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
         validate.number("numerics.tolerance", self.tolerance, "(-)", above=0, maximum=0.2)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:

@@ -181,7 +181,10 @@ class _Consistent:
             curvature, self.bulk = curvature + self.bulk * d.sum() ** 2, 0.0
         step = -np.vdot(r, d) / curvature
         if not step > 0:
-            return False
+            if self.direction is None:
+                return False
+            self.direction = None                  # begin again from the steepest descent
+            return self.advance()
         self.pressure = np.clip(p + step * d, 0.0, hardness)
         self.direction, self.residue = d, r
         self.displacement = problem.operator.apply(self.pressure)
