@@ -33,7 +33,7 @@ class Fluid:
     roelands_index : z, 1; None takes ``alpha p0/(ln viscosity + 9.67)``
     density_law : relative density "constant" 1; "linear" ``1 + p/bulk_modulus`` (an isothermal ideal gas has
         its ambient pressure for bulk modulus); "dowson_higginson"
-        ``1 + 0.6e-9 p/(1 + 1.7e-9 p)`` (Dowson & Higginson 1966)
+        ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` (Dowson & Higginson 1966, p in Pa)
     bulk_modulus : Pa, for "linear"
     """
 
@@ -92,7 +92,7 @@ class Fluid:
             return 1 + 0 * p
         if self.density_law == "linear":
             return 1 + p / self.bulk_modulus
-        return 1 + 0.6e-9 * p / (1 + 1.7e-9 * p)
+        return (5.9e8 + 1.34 * p) / (5.9e8 + p)
 
 
 def slope(law, p):
