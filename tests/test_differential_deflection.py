@@ -1,4 +1,4 @@
-"""Differential deflection against the full integral, the default solver, closed forms and published limits."""
+"""Differential deflection against the full integral, the default solver and closed forms."""
 
 import math
 

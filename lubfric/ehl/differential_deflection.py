@@ -18,7 +18,8 @@ from .problem import Problem, expected_film
 from .result import EHLResult, cubic
 from .start import expected_rupture
 
-COARSEST, FINEST = 64, 65536     # cells
+COARSEST, FINEST = 64, 32768     # cells
+FEWEST = 3                       # grids to judge an error by: two may agree by chance
 STARVED = 0.1                    # film of a badly starved contact, relative to inlet_length²
 RESOLVED = 0.7                   # largest step of a first grid, relative to the length of the pressure rise
 
@@ -43,12 +44,12 @@ def solve_differential_deflection(
 
     Parameters beyond those of `lubfric.solve_ehl`
     ----------
-    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most 65537
+    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most 32769
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
         contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
         behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
     bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
-    max_iterations : Newton steps per grid; start : here only its fields x, pressure, film_thickness are used
+    max_iterations : Newton steps per grid; start : used on the coarsest grid; its x, pressure and film
 
     report.residuals, all relative, must be <= tolerance:
     discretisation : largest change of min_film, central_film and flow_film against the grid of half the
@@ -150,10 +151,8 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> li
 
 
 def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
-    """Solutions on grids of doubling size, without ``nodes`` until two neighbours agree to ``tolerance``."""
+    """Solutions on grids of doubling size, without ``nodes`` until they agree to ``tolerance``."""
     cells = _cells(problem, ends, nodes)
-    while start is not None and len(cells) > 2 and (nodes is not None or 2 * cells[0] < 0.75 * start.x.size):
-        cells.pop(0)
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
@@ -165,7 +164,8 @@ def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLRes
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()                                   # too coarse to start on
             continue
-        if levels[-1].status != CONVERGED or nodes is None and grid_error(levels) <= tolerance:
+        enough = nodes is None and len(levels) >= FEWEST and grid_error(levels) <= tolerance
+        if levels[-1].status != CONVERGED or enough:
             break
     return levels
 

@@ -7,7 +7,8 @@ Unknowns are the pressures P and films H at all N nodes of a `Mesh`:
   `lubfric.ehl.reynolds`.
 * inlet: P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
 * second difference of the film at interior nodes; what it cannot see, a constant and a slope, are the films
-  at both ends: their difference follows from the full integral, their height from the load.
+  at both ends: their difference follows from the full integral, their height from the load. Its residual is
+  taken as the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ class Terms:
 
     through: mass flux at the faces (N - 1) plus what is stored upstream; last: node before rupture; q: the
     flux behind it; balance (N,): what leaves a node, P behind rupture; defect (N,): film less the full
-    integral, from the first node; ends: defects of the tilt between both ends and of the load; scale: of fluxes.
+    integral, relative to the first node; ends: defects of the tilt between both ends and of the load;
+    scale: of fluxes.
     by_H, by_P: derivatives of a face's flux by its film and the pressures left and right of it;
     stored_by_H, stored_by_P: those of the storage; slope: d ln(eta)/dP.
     """

@@ -47,8 +47,8 @@ def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bo
     weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
     far[: bandwidth + 1] = 0.0
-    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel), _transform(far),
-                flooded)
+    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel),
+                _transform(far), flooded)
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
@@ -60,8 +60,8 @@ def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
 
 
 def _second_difference(n: int) -> np.ndarray:
-    """Of g = k² ln|k|/2 at k = 0 .. n - 1; from k = NEAR on by Taylor's series, g'' = ln k + 3/2, where differencing
-    loses its digits."""
+    """Of g = k² ln|k|/2 at k = 0 .. n - 1; from k = NEAR on by Taylor's series, g'' = ln k + 3/2, where
+    differencing loses its digits."""
     k = np.arange(-1.0, NEAR + 1)
     g = 0.5 * k * k * np.log(np.maximum(np.abs(k), 1.0))
     x = 1.0 / np.arange(NEAR, max(n, NEAR + 1)) ** 2.0
