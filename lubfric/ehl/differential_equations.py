@@ -8,7 +8,7 @@ Unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 * inlet: P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
 * second difference of the film at interior nodes; what it cannot see, a constant and a slope, are the films
   at both ends: their difference follows from the full integral, their height from the load. Its residual is
-  taken as the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
+  the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
 """
 
 from __future__ import annotations
