@@ -15,6 +15,7 @@ _HOME = {
     "solve_ehl": "ehl", "EHLResult": "ehl",
     "Scene": "scene", "load_scene": "scene",
     "friction": "mixed", "FrictionResult": "mixed",
+    "transient": "unsteady", "TransientResult": "unsteady", "Transient": "history",
     "stribeck": "sweep", "StribeckResult": "sweep",
 }
 __all__ = sorted(_HOME)

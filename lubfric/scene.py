@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from . import validate
 from .analytic import hertz
 from .errors import InputError
+from .history import Transient
 from .lubricant import Lubricant
 
 GEOMETRIES = ("cylinder", "flat")
@@ -210,6 +211,7 @@ class Scene:
     contact: Patch = field(default_factory=Patch)
     numerics: Numerics = field(default_factory=Numerics)
     name: str = "unnamed"
+    transient: Transient | None = None
 
     def with_(self, **sections) -> Scene:
         """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``."""

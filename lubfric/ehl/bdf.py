@@ -47,9 +47,10 @@ class March:
 
 @dataclass(frozen=True)
 class Advance:
-    """One accepted step: the march after it, error estimate [of the tolerance], solves rejected."""
+    """One accepted step: the march after it, its solution, error estimate [of the tolerance], solves rejected."""
 
     march: March
+    solution: object
     error: float
     rejected: int
 
@@ -63,17 +64,17 @@ def advance(march: March, until: float, solve: Callable, error_of: Callable, tol
     rejected, step = 0, march.step
     while step >= shortest:
         left = until - march.time
-        planned = left if step >= left * (1 - 1e-9) else 0.5 * left if step > 0.5 * left else step
+        planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
         attempt = _bdf2 if len(march.levels) > 1 else _pair
         found = attempt(march, march.time + planned if planned < left else until, solve, error_of)
         if found is None:
             step, rejected = FAILED * planned, rejected + 1
             continue
-        after, error, order = found
+        after, solution, error, order = found
         factor = SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1))
         if error <= tolerance:
             after = replace(after, step=planned * min(max(factor, SHRINK), GROWTH))
-            return Advance(after, error / tolerance, rejected)
+            return Advance(after, solution, error / tolerance, rejected)
         step, rejected = planned * min(max(factor, SHRINK), 0.9), rejected + 1
     return None
 
@@ -98,7 +99,7 @@ def _pair(march: March, end: float, solve, error_of):
         return None
     error = error_of(second, whole.film - second.film)
     levels = (start, Level(start.time + 0.5 * step, first.film, first.z), Level(end, second.film, second.z))
-    return March(levels, step, second.payload), error, 1
+    return March(levels, step, second.payload), second, error, 1
 
 
 def _bdf2(march: March, end: float, solve, error_of):
@@ -114,11 +115,11 @@ def _bdf2(march: March, end: float, solve, error_of):
         return None
     levels = (*march.levels[-2:], Level(end, solution.film, solution.z))
     if len(march.levels) < 3:
-        return March(levels, step, solution.payload), 0.0, 2
+        return March(levels, step, solution.payload), solution, 0.0, 2
     curve = _divided([march.levels[-3].time, old.time, last.time, end],
                      [march.levels[-3].film, old.film, last.film, solution.film])
     error = error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
-    return March(levels, step, solution.payload), error, 2
+    return March(levels, step, solution.payload), solution, error, 2
 
 
 def _divided(times, values):

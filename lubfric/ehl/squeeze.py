@@ -47,18 +47,21 @@ class Memory:
 
 @dataclass(frozen=True)
 class Spring:
-    """A second carrier beside the film: load max(0, ``load`` - ``stiffness`` (mean - ``mean``)), where the
-    mean film is ``weights`` @ H."""
+    """A second carrier beside the film, its load falling exponentially with the mean film ``weights`` @ H:
+    ``load`` exp((``mean`` - mean film)/``length``), a straight line beyond one length of compression."""
 
     weights: np.ndarray
     mean: float
     load: float
-    stiffness: float
+    length: float
 
     def at(self, H: np.ndarray) -> tuple[float, float]:
         """Load, and its derivative by the mean film."""
-        load = self.load - self.stiffness * (float(self.weights @ H) - self.mean)
-        return (load, -self.stiffness) if load > 0.0 else (0.0, 0.0)
+        depth = (self.mean - float(self.weights @ H)) / self.length
+        if depth > 1.0:
+            return self.load * np.e * depth, -self.load * np.e / self.length
+        load = self.load * np.exp(depth)
+        return load, -load / self.length
 
 
 @dataclass(frozen=True)
@@ -99,8 +102,8 @@ def evaluate(grid: FixedGrid, problem: Problem, now: Conditions, memory: Memory,
     r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
     ends, carried = [], float(grid.weights @ P)
     for end, sign in ((0, 1.0), (-1, -1.0)):
-        pressure, load, _ = outside(abs(grid.x[end]), H[end], now.curvature, now.viscosity, sign * now.speed,
-                                    sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end]))
+        pressure, load = outside(abs(grid.x[end]), H[end], now.curvature, now.viscosity, sign * now.speed,
+                                 sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end]))
         r[end] = P[end] - pressure.value
         carried += load.value if pressure.value > 0.0 else 0.0
         ends.append((pressure, load))

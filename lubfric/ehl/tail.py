@@ -28,8 +28,8 @@ class Tail:
 
 
 def outside(a: float, film: float, curvature: float, nu: float, speed: float, flow: float,
-            rate: float) -> tuple[Tail, Tail, float]:
-    """(pressure at a, load beyond a, ∫ ds/h beyond a)."""
+            rate: float) -> tuple[Tail, Tail]:
+    """(pressure at a, load beyond a)."""
     s = a / _POINTS
     h = film + 0.5 * curvature * (s * s - a * a)
     weight = _WEIGHTS * s * s / a                     # ds
@@ -44,4 +44,13 @@ def outside(a: float, film: float, curvature: float, nu: float, speed: float, fl
         return Tail(6.0 * nu * (speed * two - flow * three - rate * lifted), -6.0 * nu * three,
                     -6.0 * nu * lifted, 6.0 * nu * by_film)
 
-    return tail(0), tail(1), moment(1, 0)
+    return tail(0), tail(1)
+
+
+def outside_shear(a: float, film: float, curvature: float, nu: float, speed: float, flow: float,
+                  rate: float) -> tuple[float, float]:
+    """(∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the same film."""
+    s = a / _POINTS
+    h = film + 0.5 * curvature * (s * s - a * a)
+    weight = _WEIGHTS * s * s / a
+    return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))

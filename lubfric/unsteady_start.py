@@ -1,0 +1,209 @@
+"""From a scene to a run in time: histories, grid, operators and the first state."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .ehl.active_set import StepSolution, solve_step
+from .ehl.bdf import Level
+from .ehl.squeeze import Memory
+from .ehl.transient_problem import LineContact, Setting, discretisation, make_setting, parabola, steady_start
+from .errors import ConvergenceError, InputError
+from .history import Constant, Transient
+from .mixed import Model, friction, prepare
+from .report import CONVERGED
+from .scene import Scene
+from .unsteady_sharing import Contact, Sharing, make_sharing, share_step
+
+FIRST_STEP = 1e-3        # of the time in which the surfaces pass the contact, after a start or a jump
+WET = 1e-3               # of the largest pressure: where the error of the film counts
+TIME_SHARE = 0.01        # of the film tolerance: default for the local error of a step
+
+
+@dataclass(frozen=True)
+class Run:
+    """All that a run in time needs and nothing that changes in it; start: the state at t = 0.
+
+    grid_error: relative error of the films of the steady start from the grid (NaN from another start).
+    """
+
+    model: Model
+    plan: Transient
+    sharing: Sharing
+    sliding: Constant | None
+    start: StepSolution
+    grid_error: float
+
+    @property
+    def tolerance(self) -> float:
+        """Largest local error of the film in a step."""
+        return self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
+
+    @property
+    def histories(self) -> tuple[Constant, ...]:
+        """All that may jump."""
+        c = self.sharing.setting.contact
+        return tuple(h for h in (c.speed, c.load, c.radius, c.viscosity, self.sliding) if h is not None)
+
+    @property
+    def first_step(self) -> float:
+        """The step [s] after a start or a jump."""
+        setting, duration = self.sharing.setting, self.plan.duration
+        fastest = max(abs(u) for u in setting.contact.speed.range(duration))
+        width = math.hypot(setting.problem.half_width, 3.0) * setting.problem.length_unit
+        return FIRST_STEP * (min(width / fastest, duration) if fastest else duration)
+
+    def sliding_speed(self, time: float) -> float:
+        """u2 - u1 just before ``time`` [m/s]."""
+        if self.sliding is not None:
+            return self.sliding.before(time)
+        return self.model.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
+        """Film and contact at ``time``: the solver of `lubfric.ehl.bdf.advance`."""
+        return share_step(self.sharing, time, memory, z, past)
+
+    def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
+        """Root mean square over the pressurised film of a difference of films, relative to the film."""
+        P = solution.terms.P
+        weights = self.sharing.setting.grid.weights * (P > WET * P.max())
+        return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
+
+
+def begin(scene: Scene | Model, plan: Transient) -> Run:
+    """Check the scene, make it ready, find its first state."""
+    base = scene.scene if isinstance(scene, Model) else scene
+    if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
+        raise InputError("a transient needs numerics.film_deflection = 'hydrodynamic' and cavitated_shear = 'none'")
+    load = plan.load or Constant(base.bodies.load)
+    if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
+        raise InputError(f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
+                         f"{base.bodies.load:g} N, whose Hertz strip is the area A")
+    model = scene if isinstance(scene, Model) else prepare(scene)
+    setting = _setting(model, plan, load)
+    sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
+    initial = plan.initial
+    if initial == "auto":
+        initial = "rest" if setting.contact.speed.before(0.0) == 0.0 else "steady"
+    grid_error = math.nan
+    if plan.initial_film is not None:
+        start = _flying(sharing, parabola(setting, plan.initial_film))
+    elif initial == "rest":
+        start = _resting(sharing)
+    else:
+        start, grid_error = _steady(model, sharing)
+    return Run(model, plan, sharing, plan.sliding, start, grid_error)
+
+
+def _volume_tolerance(scene: Scene) -> float:
+    return min(scene.numerics.volume_tolerance, 1e-4)
+
+
+def _setting(model: Model, plan: Transient, load: Constant) -> Setting:
+    scene = model.scene
+    bodies, lubricant = scene.bodies, scene.lubricant
+    contact = LineContact(
+        _per_width(load, bodies.width), plan.radius or Constant(bodies.radius), bodies.e_prime,
+        plan.speed or Constant(scene.motion.entrainment_speed), plan.viscosity or Constant(lubricant.viscosity), lubricant,
+        plan.duration, plan.initial_film)
+    rough = model.surface.sq > 0.0
+    sigma = max(model.surface.sq, 0.0)
+    if not rough and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
+        raise InputError("smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
+                         "an entrainment speed before t = 0")
+    reach = float(np.max(np.abs(model.patch.x))) if rough else 0.0
+    return make_setting(contact, scene.numerics.film_tolerance, shared=rough, reach=reach,
+                        film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0))
+
+
+@dataclass(frozen=True)
+class _PerWidth(Constant):
+    """A load history divided by the width."""
+
+    source: Constant = Constant(1.0)
+    width: float = 1.0
+    value: float = 0.0
+
+    def at(self, time: float) -> float:
+        return self.source.at(time) / self.width
+
+    def before(self, time: float) -> float:
+        return self.source.before(time) / self.width
+
+    def stops(self, duration: float) -> tuple[float, ...]:
+        return self.source.stops(duration)
+
+    def jumps(self, duration: float) -> tuple[float, ...]:
+        return self.source.jumps(duration)
+
+    def range(self, duration: float) -> tuple[float, float]:
+        low, high = self.source.range(duration)
+        return low / self.width, high / self.width
+
+
+def _per_width(load: Constant, width: float) -> _PerWidth:
+    return _PerWidth(source=load, width=width)
+
+
+def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
+    closure = sharing.patch.close(sharing.film_on_patch(H), 0.0)
+    return Contact(0.0, closure, max(0.3 * closure.mean_gap, 1e-12))
+
+
+def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
+    """No pressure anywhere, the gap as it is."""
+    setting = sharing.setting
+    found = solve_step(setting.grid, setting.problem, setting.conditions(0.0), Memory(0.0, np.zeros(setting.grid.n + 1)), z,
+                       max_steps=0)
+    contact = _untouched(sharing, found.terms.H)
+    if contact.closure.volume_residual > 0.0:
+        raise InputError(f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
+                         f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'")
+    return replace(found, payload=contact)
+
+
+def _resting(sharing: Sharing) -> StepSolution:
+    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without pressure."""
+    setting = sharing.setting
+    radius = setting.contact.radius.before(0.0)
+    closure = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
+    z = parabola(setting, 0.0)
+    flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
+    z[-1] = (closure.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
+    if z[-1] <= 0.0:
+        raise InputError("at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
+                         "initial = 'steady' with an entrainment speed, or transient.initial_film")
+    found = solve_step(setting.grid, setting.problem, setting.conditions(0.0), Memory(0.0, np.zeros(setting.grid.n + 1)), z,
+                       max_steps=0)
+    closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
+    return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
+
+
+def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
+    """Balance of the steady state, then the same on the grid of the run."""
+    setting, scene = sharing.setting, model.scene
+    c, speed = setting.contact, setting.contact.speed.before(0.0)
+    if speed == 0.0:
+        raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
+    values = scene.with_(bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
+                         lubricant={"viscosity": c.viscosity.before(0.0)})
+    point = friction(replace(model, scene=values), speed, fields=True)
+    film = steady_start(setting, point.film_load / sharing.width)
+    if film.status != CONVERGED:
+        raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+    error = discretisation(setting, film)
+    if point.contact_load == 0.0:
+        return replace(film, payload=_untouched(sharing, film.terms.H)), error
+    contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
+    found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
+    if found.status != CONVERGED:
+        raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
+    return found, error
+
+
+def first_level(run: Run) -> Level:
+    """The level at t = 0."""
+    return run.sharing.setting.level(0.0, run.start)
