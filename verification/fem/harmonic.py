@@ -1,0 +1,149 @@
+"""Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along y.
+
+For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``, and elasticity in three
+dimensions becomes one problem in the section for each wavenumber k, with the three amplitudes for unknowns and k in the
+strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element Method, 3rd ed. 1977, ch. 15). P2 triangles on
+a square of side D, bottom fixed and sides free, stand for the half-space: k = 0 misses it by a constant and a part that
+falls like 1/D^2, every other k by exp(-k D/2).
+
+Pressure is constant on the cells of a patch along x; the compliance gives mean displacements of the cells, so it is
+symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy import fft
+from scipy.sparse.linalg import splu
+from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
+
+from .compliance import Elastic
+from .report import InputError
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, nx even, centred on x = 0, repeated along y.
+
+    side : of the square body is dx 2^side; fineness : each cell along x is 2^fineness facets; growth : cell length per
+    distance from the patch.
+    """
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    body: Elastic
+    side: int = 12
+    fineness: int = 1
+    growth: float = 0.5
+
+    def __post_init__(self):
+        if self.shape[0] % 2 or min(self.shape) < 2 or min(self.spacing) <= 0:
+            raise InputError(f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m")
+        if not 1 << self.side >= 8 * self.shape[0] or not 0 <= self.fineness <= 4 or not 0 < self.growth <= 1:
+            raise InputError(f"side = {self.side}, fineness = {self.fineness}, growth = {self.growth}; allowed: at least "
+                             "8 patches, 0 to 4, (0, 1]")
+
+    @property
+    def half(self) -> float:
+        """Half the length of the patch along x, m."""
+        return self.shape[0] * self.spacing[0] / 2
+
+
+@dataclass(frozen=True)
+class Compliance:
+    """Mean displacements of cells (m, downwards) per pressure (Pa).
+
+    harmonics (ny//2 + 1, nx, nx): for each wave along y; unknowns: of each of the systems solved for them.
+    """
+
+    strip: Strip
+    harmonics: np.ndarray
+    unknowns: int
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Displacement (nx, ny) under a pressure (nx, ny)."""
+        waves = fft.rfft(pressure, axis=1)
+        return fft.irfft(np.einsum("mij,jm->im", self.harmonics, waves), n=self.strip.shape[1], axis=1)
+
+    @property
+    def coefficients(self) -> np.ndarray:
+        """(ny, nx, nx): displacement of cell (i, j + n) under 1 Pa on cell (i', j), at [n, i, i']."""
+        return fft.irfft(self.harmonics, n=self.strip.shape[1], axis=0)
+
+
+def compliance(strip: Strip) -> Compliance:
+    """Factorise and solve once for every wave along y."""
+    mesh = graded_mesh(strip)
+    basis = Basis(mesh, ElementVector(ElementTriP2(), 3), intorder=4)
+    depth = -mesh.p[1].min()
+    free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(lambda x: x[1] < -depth * (1 - 1e-9)).all())
+    unit = 1 / strip.spacing[0]
+    constant, linear, square = (part[free][:, free] for part in stiffness(basis, strip.body, unit))
+    loads = cell_loads(strip, mesh, basis)[free]
+    dense = loads.toarray()
+    waves = 2 * np.pi * np.arange(strip.shape[1] // 2 + 1) / (strip.shape[1] * strip.spacing[1])
+    harmonics = [unit * loads.T @ factorised(constant + k * linear + k**2 * square).solve(dense) for k in waves / unit]
+    return Compliance(strip, np.array(harmonics), free.size)
+
+
+def factorised(matrix):
+    """Sparse LU of a symmetric positive definite matrix."""
+    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+
+
+def graded_mesh(strip: Strip) -> MeshTri:
+    """Triangles split until none is longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
+    dx = strip.spacing[0]
+    side = dx * 2**strip.side
+    mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
+    fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
+    while True:
+        corners = mesh.p[:, mesh.t]
+        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+        aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
+        distance = np.hypot(aside, corners[1]).min(axis=0)
+        large = np.flatnonzero(longest > np.hypot(fine, strip.growth * distance))
+        if not large.size:
+            return mesh
+        mesh = mesh.refined(large)
+
+
+def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:
+    """(A, B, C) of the stiffness ``A + k B + k^2 C`` at the wavenumber ``k unit``."""
+    lame = body.young * body.poisson / ((1 + body.poisson) * (1 - 2 * body.poisson))
+    shear = body.young / (2 * (1 + body.poisson))
+
+    @BilinearForm
+    def energy(u, v, w):
+        (ux, uz, uy, *u_shears), (vx, vz, vy, *v_shears) = strains(u, w.k), strains(v, w.k)
+        direct = lame * (ux + uz + uy) * (vx + vz + vy) + 2 * shear * (ux * vx + uz * vz + uy * vy)
+        return direct + shear * sum(a * b for a, b in zip(u_shears, v_shears, strict=True))
+
+    at = {k: energy.assemble(basis, k=k * unit) for k in (-1, 0, 1)}
+    return at[0], (at[1] - at[-1]) / 2, (at[1] + at[-1]) / 2 - at[0]
+
+
+def strains(u, k):
+    """Amplitudes of e_xx, e_zz, e_yy, and of the shears xz, xy, zy; components of u are x, z, y."""
+    g = u.grad
+    return g[0, 0], g[1, 1], k * u[2], g[0, 1] + g[1, 0], g[2, 0] - k * u[0], g[2, 1] - k * u[1]
+
+
+def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
+    """(degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
+    top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
+    ends = mesh.p[0, mesh.facets[:, top]]
+    inside = np.abs(ends.mean(axis=0)) < strip.half
+    top, ends = top[inside], ends[:, inside]
+    cell = np.floor((ends.mean(axis=0) + strip.half) / strip.spacing[0]).astype(int)
+    edges = (cell[None] + np.array([[0], [1]])) * strip.spacing[0] - strip.half
+    beyond = max(np.max(edges[0] - ends.min(axis=0)), np.max(ends.max(axis=0) - edges[1]))
+    if beyond > 1e-6 * strip.spacing[0]:
+        raise AssertionError("a facet of the mesh crosses the edge of a cell")
+    length = np.abs(np.diff(ends, axis=0))[0]
+    rows = np.concatenate([*basis.nodal_dofs[1, mesh.facets[:, top]], basis.facet_dofs[1, top]])
+    weights = np.concatenate([length / 6, length / 6, 4 * length / 6])        # Simpson: exact for P2
+    return sp.csr_matrix((-weights, (rows, np.tile(cell, 3))), shape=(basis.N, strip.shape[0]))
