@@ -34,12 +34,14 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--fields", help="speeds in m/s whose fields go to fields.npz and contact.png "
                                       "(default: the scene's own speed)")
     run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    run.add_argument("--animation", action="store_true", help="also draw film and pressure of a scene with [transient] "
+                                                              "as animation.gif")
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
     info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     info.set_defaults(command=_info)
-    plot = commands.add_parser("plot", help="draw stribeck.png again from stribeck.csv")
+    plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.set_defaults(command=_plot)
     return parser
@@ -53,6 +55,9 @@ def _run(arguments) -> int:
     from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    if scene.transient is not None:
+        from .history_run import run_history
+        return run_history(scene, arguments.out, arguments.animation, _say)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
     out = arguments.out
@@ -86,7 +91,10 @@ def _info(arguments) -> int:
 def _plot(arguments) -> int:
     from .errors import InputError
     from .output import read_csv
+    from .history_run import plot_again
     from .plot import plot_stribeck
+    if plot_again(arguments.folder):
+        return 0
     source = arguments.folder / "stribeck.csv"
     for needed in (source, arguments.folder / "result.json"):
         if not needed.is_file():

@@ -12,13 +12,16 @@ import numpy as np
 from . import validate
 from .analytic.hertz import composite_modulus
 from .errors import InputError
+from .history import Transient, history
 from .lubricant import Lubricant
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 
 SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface": Roughness,
-            "contact": Patch, "numerics": Numerics}
-EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range")}
-OPTIONAL = ("contact", "numerics")
+            "contact": Patch, "numerics": Numerics, "transient": Transient}
+EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range", "sliding_speed")}
+OPTIONAL = ("contact", "numerics", "transient")
+HISTORIES = {"speed": ("motion", "entrainment_speed"), "sliding": ("motion", "sliding_speed"), "load": ("bodies", "load"),
+             "radius": ("bodies", "radius"), "viscosity": ("lubricant", "viscosity")}
 
 
 def read_scene(source, surface_file=None) -> Scene:
@@ -48,18 +51,44 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
             raise InputError(f"scene {name} has no [{section}] table")
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
-    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s != "surface"}
+    table, plan = _plan(table, folder)
+    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in ("surface", "transient")}
     surface = dict(table["surface"])
     if isinstance(surface.get("file"), str):
         surface["file"] = str((folder / surface["file"]).resolve())
         if not Path(surface["file"]).is_file():
             raise InputError(f"surface.file = {table['surface']['file']!r}: no such file in {folder}")
-    return Scene(**parts, surface=_build("surface", surface), name=str(table.get("name", name)))
+    return Scene(**parts, surface=_build("surface", surface), name=str(table.get("name", name)), transient=plan)
 
 
 def scene_as_dict(scene: Scene) -> dict:
     """The resolved scene as plain data (for ``result.json``)."""
     return asdict(scene)
+
+
+def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
+    """The `Transient` of the histories in [transient] and, as inline tables, in the sections they belong to; these
+    then hold the plain value: the largest load, else the value at the start."""
+    table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
+    given = table.get("transient", {})
+    found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
+    for name, (section, key) in HISTORIES.items():
+        value = table.get(section, {}).get(key)
+        if isinstance(value, dict) or (value is not None and name == "sliding"):
+            if name in found:
+                raise InputError(f"[transient] {name} and [{section}] {key} are both histories; allowed: one of them")
+            found[name] = history(f"{section}.{key}", value, folder)
+            table[section].pop(key)
+    if not found and "transient" not in table:
+        return table, None
+    if "duration" not in given:
+        raise InputError("a scene with a history needs [transient] with duration in s")
+    plan = _build("transient", {**given, **found})
+    for name, (section, key) in HISTORIES.items():
+        if name in found and name != "sliding" and key not in table.get(section, {}):
+            value = found[name].range(plan.duration)[1] if name == "load" else found[name].before(0.0)
+            table.setdefault(section, {})[key] = value
+    return table, plan
 
 
 def _text(source) -> tuple[str, Path, str]:

@@ -38,7 +38,7 @@ def moment(sharing: Sharing, time: float, sliding: float, boundary_coefficient: 
             "contact_load": contact.load, "film_load": film_load, "coefficient": force * sense / total,
             "friction_force": force, "boundary_force": boundary, "couette_force": couette, "rolling_force": rolling,
             "min_film": smallest(grid.x, t.H) * p.film_unit, "central_film": t.H[grid.n // 2] * p.film_unit,
-            "mean_film": closure.mean_film, "mean_gap": closure.mean_gap,
+            "mean_film": closure.mean_film, "mean_gap": closure.mean_gap if contact.load > 0.0 else closure.mean_film,
             "max_pressure": float(t.P.max()) * p.pressure_unit,
             "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
             "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,

@@ -123,7 +123,7 @@ def _setting(model: Model, plan: Transient, load: Constant) -> Setting:
 class _PerWidth(Constant):
     """A load history divided by the width."""
 
-    source: Constant = Constant(1.0)
+    source: Constant | None = None
     width: float = 1.0
     value: float = 0.0
 
