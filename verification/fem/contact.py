@@ -1,0 +1,231 @@
+"""Frictionless contact with a rigid counterface by primal-dual active set, on any finite-element compliance.
+
+Unknown are the nodal forces f and the approach delta. With u = C f and g = gap0 - delta + u, each node is one
+of: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = limit, g <= 0).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, SolveReport
+
+SOLVER = "primal-dual active set"
+FREE_SHARE = 0.2  # of the load off the saturated nodes that one step leaves at least on the others
+INNER = 0.01  # tolerance of the inner conjugate gradients over the tolerance asked
+INNER_LIMIT = 2000
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Nodal fields (n,) of a contact, in the order of ``gap0``.
+
+    Attributes
+    ----------
+    pressure : nodal force over nodal weight, Pa
+    gap : m; negative only where pressure is at its limit
+    displacement : downwards, m
+    approach : m
+    touching, saturated : where the pressure is above zero, and at its limit
+    report : `SolveReport`
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    displacement: np.ndarray
+    approach: float
+    touching: np.ndarray
+    saturated: np.ndarray
+    report: SolveReport
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Checked input of `solve_contact`; ``limit`` is the nodal force limit (inf without a cap)."""
+
+    displacement: Callable[[np.ndarray], np.ndarray]
+    weights: np.ndarray
+    gap0: np.ndarray
+    load: float
+    limit: np.ndarray
+    tolerance: float
+
+
+def solve_contact(
+    displacement,
+    weights,
+    gap0,
+    load: float,
+    *,
+    limit: float | None = None,
+    tolerance: float = 1e-8,
+    max_iterations: int = 60,
+    raise_on_failure: bool = True,
+) -> Contact:
+    """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
+
+    Each step solves the equations of the touching nodes exactly (conjugate gradients on the forces of the
+    given total) and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes
+    off that penetrate touch, saturated nodes that gap touch (M. Hintermueller, K. Ito & K. Kunisch, SIAM J.
+    Optim. 13 (2002) 865-888, doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact,
+    and one step saturates no more nodes than leaves a fifth of the unsaturated load on the others.
+
+    Parameters
+    ----------
+    displacement : downward displacement (n,) in m of nodal forces (n,): symmetric, positive definite
+    weights : (n,) > 0, nodal force of a unit pressure (m for a line, m^2 for a surface)
+    gap0 : (n,) undeformed gap in m, up to a constant
+    load : N per metre of depth for a line, N for a surface
+    limit : largest pressure in Pa; None: elastic
+
+    ``report.residuals``, measured on the returned pressure with displacements computed afresh; L is the range
+    of the displacement over the surface:
+
+    - penetration ``max(-g)/L`` off the saturated nodes
+    - complementarity ``sum f m/(L sum f)``, m = \\|g\\|, or max(g, 0) where saturated
+    - load ``|sum f - load|/load``
+
+    Raises
+    ------
+    InputError : before any work, also for a load no smaller than the limit can carry
+    SolveError : a residual above ``tolerance``, unless ``raise_on_failure`` is False
+    """
+    problem = checked(displacement, weights, gap0, load, limit, tolerance)
+    force = np.full(problem.gap0.size, load / problem.gap0.size)
+    everywhere = np.ones(force.size, dtype=bool)
+    elastic = replace(problem, limit=np.full(force.size, np.inf))
+    force, steps = active_set(elastic, force, everywhere, ~everywhere, max_iterations)
+    if limit is not None and np.any(force > problem.limit):
+        saturated = limited(problem, force, ~everywhere)
+        force, more = active_set(problem, force, (force > 0) & ~saturated, saturated, max_iterations)
+        steps = (steps[0] + more[0], steps[1] + more[1], [*steps[2], *more[2]], more[3])
+    found = finish(problem, force, steps)
+    if raise_on_failure:
+        found.report.raise_if_failed(found)
+    return found
+
+
+def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
+    """The problem, or `InputError`."""
+    weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
+    if gap0.ndim != 1 or gap0.size == 0 or not np.all(np.isfinite(gap0)):
+        raise InputError(
+            f"gap0 has shape {gap0.shape} or is not finite; allowed: one finite length in m per node"
+        )
+    if weights.shape != gap0.shape or not np.all(weights > 0):
+        raise InputError(
+            f"weights have shape {weights.shape}; allowed: one value > 0 for each of {gap0.size} nodes"
+        )
+    if not (np.isfinite(load) and load > 0):
+        raise InputError(f"load = {load}; allowed: finite, > 0, N or N/m")
+    if not 0 < tolerance < 1:
+        raise InputError(f"tolerance = {tolerance}; allowed: (0, 1)")
+    most = np.inf if limit is None else limit
+    if not (most > 0 and load < most * weights.sum()):
+        raise InputError(
+            f"load = {load:g} cannot be carried below limit = {most:g} Pa on {weights.sum():g} m or m^2"
+        )
+    return Problem(displacement, weights, gap0, float(load), most * weights, tolerance)
+
+
+def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
+    """(force, (iterations, applications, history, status)); forces may pull or exceed the limit slightly."""
+    history, applications, seen = [], 0, set()
+    for iteration in range(1, max_iterations + 1):
+        force, gap, used = equilibrium(problem, force, touching, saturated)
+        applications += used
+        scale = max(np.ptp(gap - problem.gap0), np.finfo(float).tiny)
+        pull = np.maximum(-force, 0).max() / force.max()
+        above = np.maximum(force / problem.limit - 1, 0).max()
+        inside = np.maximum(-gap[~saturated], 0).max(initial=0) / scale
+        lifted = np.maximum(gap[saturated], 0).max(initial=0) / scale
+        history.append(float(max(pull, above, inside, lifted)))
+        if history[-1] <= problem.tolerance:
+            return force, (iteration, applications, history, CONVERGED)
+        small = 0.1 * problem.tolerance * scale
+        off = ~touching & ~saturated
+        more = limited(problem, force, saturated & (gap <= small))
+        touching = (touching & (force > 0) | off & (gap < -small) | saturated & (gap > small)) & ~more
+        saturated = more
+        state = (touching.tobytes(), saturated.tobytes())
+        if not touching.any():
+            return force, (iteration, applications, history, DIVERGED)
+        if state in seen:
+            return force, (iteration, applications, history, STAGNATED)
+        seen.add(state)
+    return force, (max_iterations, applications, history, ITERATION_LIMIT)
+
+
+def limited(problem: Problem, force, saturated):
+    """``saturated`` and, hardest pressed first, nodes above the limit while enough load is left for others."""
+    over = np.flatnonzero((force > problem.limit) & ~saturated)
+    over = over[np.argsort(-force[over] / problem.limit[over])]
+    spare = problem.load - problem.limit[saturated].sum()
+    taken = np.cumsum(problem.limit[over]) <= (1 - FREE_SHARE) * spare
+    out = saturated.copy()
+    out[over[taken]] = True
+    return out
+
+
+def equilibrium(problem: Problem, force, touching, saturated):
+    """Forces with gap zero at the touching nodes, the gap everywhere, and the number of applications of C.
+
+    Unknown y = f/sqrt(w), so that nodes of unequal weight are alike; steps stay orthogonal to sqrt(w), which
+    keeps the load, and the part of the misfit along it is the approach.
+    """
+    root = np.sqrt(problem.weights) * touching
+    root2 = root @ root
+    force = np.where(saturated, problem.limit, force * touching)
+    force += root**2 * (problem.load - force.sum()) / root2
+    misfit = problem.gap0 + problem.displacement(force)
+    residual = shift(root * misfit, root, root2)
+    direction, rho, used = -residual, residual @ residual, 1
+    goal = INNER * problem.tolerance
+    while used < INNER_LIMIT:
+        approach = (root**2 @ misfit) / root2
+        gap = misfit - approach
+        if np.abs(gap[touching]).max() <= goal * np.ptp(misfit - problem.gap0):
+            break
+        if used % 50 == 0:
+            direction = -residual
+        push = root * direction
+        move = problem.displacement(push)
+        step = rho / (push @ move)
+        force, misfit, used = force + step * push, misfit + step * move, used + 1
+        residual = shift(root * misfit, root, root2)
+        rho, before = residual @ residual, rho
+        direction = rho / before * direction - residual
+    return force, misfit - (root**2 @ misfit) / root2, used
+
+
+def shift(vector, root, root2):
+    """The part of ``vector`` orthogonal to ``root``."""
+    return vector - root * ((root @ vector) / root2)
+
+
+def finish(problem: Problem, force, steps) -> Contact:
+    """Fields and residuals from the forces alone."""
+    iterations, applications, history, status = steps
+    force = np.clip(force, 0, problem.limit)
+    displacement = problem.displacement(force)
+    saturated = force >= problem.limit
+    resting = (force > 0) & ~saturated
+    misfit = problem.gap0 + displacement
+    weight = problem.weights * resting
+    approach = float(weight @ misfit / weight.sum()) if resting.any() else float(misfit.min())
+    gap, scale = misfit - approach, np.ptp(displacement)
+    off = np.where(saturated, np.maximum(gap, 0), np.abs(gap))
+    residuals = {
+        "penetration": float(np.maximum(-gap[~saturated], 0).max(initial=0) / scale),
+        "complementarity": float(force @ off / (scale * force.sum())),
+        "load": float(abs(force.sum() / problem.load - 1)),
+    }
+    worst = max(residuals.values())
+    status = CONVERGED if worst <= problem.tolerance else STAGNATED if status == CONVERGED else status
+    report = SolveReport(
+        SOLVER, status, iterations, worst, problem.tolerance, residuals, tuple(history), applications + 1
+    )
+    return Contact(force / problem.weights, gap, displacement, approach, force > 0, saturated, report)

@@ -1,0 +1,181 @@
+"""Plane-strain elastic layer bonded to a rigid base: mesh, stiffness, and the compliance of its surface.
+
+The layer fills ``-width/2 <= x <= width/2``, ``-thickness <= z <= 0`` and is either periodic in x or has free
+sides. Forces and displacements of the surface count positive downwards, into the layer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import SuperLU, splu
+from skfem import Basis, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
+from skfem.helpers import sym_grad
+from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_stress
+
+from .compliance import Elastic
+from .report import InputError
+
+ELEMENTS = {1: ElementTriP1, 2: ElementTriP2}
+NEAR = 1e-9  # of the thickness: the same point
+BLOCK = 64  # right-hand sides solved at a time
+
+
+@dataclass(frozen=True)
+class Layer:
+    """The discrete layer and the nodes of its surface that may carry force.
+
+    Attributes
+    ----------
+    body, width, thickness : what it is made of; m
+    basis : displacement (two components) on all of the layer
+    spread : (basis.N, unknowns) from unknowns to all degrees of freedom; leaves out the base, joins periodic
+        sides
+    x : (n,) surface nodes that may carry force, ascending, m
+    weights : (n,) integral of each node's shape function over the surface, m: nodal force over pressure
+    unknowns : (n,) the unknown that is the vertical displacement of each of these nodes
+    """
+
+    body: Elastic
+    width: float
+    thickness: float
+    basis: Basis
+    spread: sp.csc_matrix
+    x: np.ndarray
+    weights: np.ndarray
+    unknowns: np.ndarray
+
+    @cached_property
+    def stiffness(self) -> sp.csc_matrix:
+        """(unknowns, unknowns) in Pa, per metre of depth."""
+        full = linear_elasticity(*lame_parameters(self.body.young, self.body.poisson)).assemble(self.basis)
+        return (self.spread.T @ full @ self.spread).tocsc()
+
+    @cached_property
+    def factors(self) -> SuperLU:
+        """Factors of the stiffness."""
+        return splu(
+            self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
+
+    def response(self, force) -> np.ndarray:
+        """All unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
+        force = np.asarray(force, dtype=float)
+        load = np.zeros((self.stiffness.shape[0], *force.shape[1:]))
+        load[self.unknowns] = -force
+        found = self.factors.solve(load)
+        left = np.abs(self.stiffness @ found - load).max()
+        if not left <= 1e-9 * np.abs(load).max():
+            raise ArithmeticError(
+                f"factorised layer: residual {left:.1e} N/m for forces up to {np.abs(load).max():.1e}"
+            )
+        return found
+
+    def displacement(self, force) -> np.ndarray:
+        """Downward displacement in m of the n surface nodes under forces there, N per metre of depth."""
+        return -self.response(force)[self.unknowns]
+
+    @cached_property
+    def compliance(self) -> np.ndarray:
+        """(n, n) downward displacement per nodal force, m per N/m; symmetric and positive definite."""
+        n = self.x.size
+        columns = np.eye(n)
+        return np.hstack([self.displacement(columns[:, i : i + BLOCK]) for i in range(0, n, BLOCK)])
+
+    def stress(self, force) -> np.ndarray:
+        """(3, vertices) sigma_xx, sigma_zz, sigma_xz in Pa, projected on continuous linear functions."""
+        field = self.basis.interpolate(self.spread @ self.response(force))
+        sigma = linear_stress(*lame_parameters(self.body.young, self.body.poisson))(sym_grad(field))
+        linear = self.basis.with_element(ElementTriP1())
+        return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])
+
+
+def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
+    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <=
+    strip``.
+
+    Mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
+    """
+    if not (0 < fine < strip <= width / 2 and thickness > 0 and growth > 0):
+        raise InputError(
+            f"width {width}, thickness {thickness}, strip {strip}, fine {fine}, growth {growth}; "
+            "allowed: 0 < fine < strip <= width/2, thickness > 0, growth > 0"
+        )
+    cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
+    mesh = MeshTri.init_tensor(
+        np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1)
+    )
+    while True:
+        corners = mesh.p[:, mesh.t]
+        longest = np.max(
+            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
+        )
+        distance = np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
+        large = np.flatnonzero(longest > fine + growth * distance)
+        if not large.size:
+            return mesh.mirrored((1.0, 0.0)) + mesh
+        mesh = mesh.refined(large)
+
+
+def make_layer(
+    mesh: MeshTri, body: Elastic, *, degree: int = 2, strip: float | None = None, sides: str = "periodic"
+) -> Layer:
+    """The layer on a mesh of a rectangle whose upper side is z = 0 (x = mesh.p[0], z = mesh.p[1]).
+
+    Parameters
+    ----------
+    degree : 1 or 2, of the triangles
+    strip : only nodes with ``|x| <= strip`` may carry force; None: all
+    sides : "periodic", which needs nodes at the same depths on both sides, or "free"
+    """
+    if degree not in ELEMENTS or sides not in ("periodic", "free"):
+        raise InputError(f"degree = {degree}, sides = {sides!r}; allowed: 1 or 2, 'periodic' or 'free'")
+    (left, bottom), (right, top) = mesh.p.min(axis=1), mesh.p.max(axis=1)
+    near = NEAR * (top - bottom)
+    if abs(top) > near:
+        raise InputError(f"the surface lies at z = {top}; allowed: 0")
+    basis = Basis(mesh, ElementVector(ELEMENTS[degree]()), intorder=2 * degree)
+    spread = spread_matrix(basis, sides == "periodic")
+    facets = mesh.facets_satisfying(lambda x: np.abs(x[1]) < near, boundaries_only=True)
+    weights = LinearForm(lambda v, w: v[1]).assemble(basis.boundary(facets))
+    vertical = basis.get_dofs(facets).all("u^2")
+    x = basis.doflocs[0, vertical]
+    inside = np.abs(x) <= (max(-left, right) if strip is None else strip) + near
+    if sides == "periodic":
+        inside &= x < right - near
+    chosen = vertical[inside][np.argsort(x[inside])]
+    unknowns = spread[chosen].tocsr().indices
+    return Layer(
+        body,
+        right - left,
+        -bottom,
+        basis,
+        spread,
+        basis.doflocs[0, chosen],
+        (spread.T @ weights)[unknowns],
+        unknowns,
+    )
+
+
+def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:
+    """(dofs, unknowns) with a 1 where a degree of freedom follows an unknown; rows of the base are empty."""
+    x, z = basis.doflocs
+    near = NEAR * np.ptp(z)
+    follows = np.arange(basis.N)
+    if periodic:
+        component = np.zeros(basis.N, dtype=int)
+        for dofs in (basis.nodal_dofs, basis.facet_dofs):
+            component[dofs[1::2]] = 1
+        masters, slaves = (np.flatnonzero(np.abs(x - end) < near) for end in (x.min(), x.max()))
+        masters, slaves = (d[np.lexsort((z[d], component[d]))] for d in (masters, slaves))
+        if masters.size != slaves.size or np.abs(z[masters] - z[slaves]).max() > near:
+            raise InputError("a periodic layer needs nodes at the same depths on both sides")
+        follows[slaves] = masters
+    free = np.flatnonzero((follows == np.arange(basis.N)) & (z > z.min() + near))
+    number = np.full(basis.N, -1)
+    number[free] = np.arange(free.size)
+    rows = np.flatnonzero(number[follows] >= 0)
+    return sp.csc_matrix((np.ones(rows.size), (rows, number[follows[rows]])), shape=(basis.N, free.size))
