@@ -1,0 +1,117 @@
+"""Load sharing of nominally flat surfaces from tables: films once per load, contact curves once per surface.
+
+Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films, so a map of d costs no more
+than its films and its contact curves. `lubfric.friction` does the same without tables; the figure compares some points.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lubfric.ehl import solve_ehl
+from lubfric.scene import Scene
+from lubfric.shear import shear_force
+
+SHARES = np.geomspace(1e-4, 1.0, 13)      # F_H/F_T of the table
+POINTS = 128
+
+
+@dataclass(frozen=True)
+class FilmTable:
+    """One load and one speed: mean film over the Hertz strip [m], shear force F_sh/F_T without contact, and the
+    part of it inside the strip, at the film shares ``SHARES``."""
+
+    film: np.ndarray
+    shear: np.ndarray
+    strip_shear: np.ndarray
+
+    def film_at(self, share: float) -> float:
+        """Mean film [m] at F_H/F_T, cubic in logarithms."""
+        from scipy.interpolate import PchipInterpolator
+        return math.exp(PchipInterpolator(np.log(SHARES), np.log(self.film))(math.log(max(share, SHARES[0]))))
+
+    def shear_at(self, share: float, contact_fraction: float) -> float:
+        """F_sh/F_T when ``contact_fraction`` of the strip is in contact: linear in that fraction."""
+        from scipy.interpolate import PchipInterpolator
+        table = np.stack([np.log(self.shear), self.strip_shear / self.shear])
+        whole, inside = PchipInterpolator(np.log(SHARES), table, axis=1)(math.log(max(share, SHARES[0])))
+        return math.exp(whole) * (1 - contact_fraction * inside)
+
+
+def at_mean_pressure(scene: Scene, mean_pressure: float) -> Scene:
+    """The scene with the load whose mean Hertz pressure [Pa] is given: w = 32 p^2 R/(pi E')."""
+    b = scene.bodies
+    return scene.with_(bodies={"load": 32 * mean_pressure**2 * b.radius / (math.pi * b.e_prime) * b.width,
+                               "hardness": None})
+
+
+def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmTable]:
+    """A `FilmTable` for each shear law (a dict of `lubfric.lubricant.Lubricant` fields) from the same films.
+
+    ``scaled``: with Johnson's modulus E' F_H/F_T.
+    """
+    b, lubricant = scene.bodies, scene.lubricant
+    half = b.half_width
+    x = (np.arange(POINTS) + 0.5 - POINTS / 2) * 2 * half / POINTS
+    films, start = [], None
+    for share in SHARES[::-1]:
+        start = solve_ehl(load_per_width=b.load * share / b.width, radius=b.radius,
+                          e_prime=b.e_prime * (share if scaled else 1.0), entrainment_speed=speed,
+                          viscosity=lubricant.viscosity,
+                          pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+                          viscosity_law=lubricant.viscosity_law, density=lubricant.density_law, tolerance=3e-3,
+                          start=start)
+        films.append(start)
+    films = films[::-1]
+    thickness = np.array([film.film_at(x).mean() for film in films])
+    tables = []
+    for law in laws:
+        oil = replace(lubricant, **law)
+        forces = [[shear_force(film, oil, entrainment_speed=speed, slide_roll_ratio=scene.motion.slide_roll_ratio,
+                               radius=b.radius, width=b.width, contact_fraction=fraction).total / b.load
+                   for fraction in (np.zeros_like, lambda x: (np.abs(x) <= half).astype(float))] for film in films]
+        whole, outside = np.array(forces).T
+        tables.append(FilmTable(thickness, whole, whole - outside))
+    return tables
+
+
+@dataclass(frozen=True)
+class Shared:
+    """One balanced point: friction coefficient, film share F_H/F_T, contact area fraction; NaN: cannot be carried."""
+
+    coefficient: float
+    film_share: float
+    contact_fraction: float
+
+
+def share(table: FilmTable, curve, mean_pressure: float, boundary_friction: float) -> Shared:
+    """Balance of load and volume: mean gap of the contact curve = mean film, contact pressure = total - film share."""
+    from scipy.optimize import brentq
+    if table.film_at(1.0) >= curve.touching_gap:
+        return Shared(table.shear_at(1.0, 0.0), 1.0, 0.0)
+    most = float(curve.mean_pressure[0])
+    least_share = max(1 - most / mean_pressure, SHARES[0]) * (1 + 1e-12)
+
+    def surplus(split):
+        film_share = 1 / (1 + math.exp(-split))
+        return curve.at(min((1 - film_share) * mean_pressure, most))[0] - table.film_at(film_share)
+
+    low, high = math.log(least_share / (1 - least_share)), 25.0
+    if surplus(low) > 0:                       # the model carries too little even with the thickest film it allows
+        return Shared(math.nan, math.nan, math.nan)
+    split = brentq(surplus, low, high, xtol=1e-7)
+    film_share = 1 / (1 + math.exp(-split))
+    touching = curve.at(min((1 - film_share) * mean_pressure, most))[1]
+    return Shared(boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching)
+
+
+def deviation(asperity, half_space) -> tuple[float, int]:
+    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed; (NaN, -1) without points."""
+    difference = np.abs(np.asarray(asperity) - np.asarray(half_space))
+    if not np.isfinite(difference).any():
+        return math.nan, -1
+    worst = int(np.nanargmax(difference))
+    return float(difference[worst] / asperity[worst]), worst
