@@ -1,10 +1,10 @@
 """Full-system finite-element solution of the elastohydrodynamic line contact.
 
-Displacement of an elastic body, pressure on a part of its surface and the approach are the unknowns of one Newton
-iteration on one sparse system (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); `ehl_body`,
-`ehl_film` and `ehl_newton` hold the parts. Hertz variables throughout: X = x/b, P = p/p_h, H = h R/b^2. Nested meshes:
-on the coarsest a first-order upwind solution comes first, from a Hertz pressure; every solution, film included, starts
-the next finer one.
+Displacement of an elastic body, pressure on a part of its surface and the approach are the unknowns of one
+Newton iteration on one sparse system (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008,
+doi:10.1115/1.2842246); `ehl_body`, `ehl_film` and `ehl_newton` hold the parts. Hertz variables throughout: X
+= x/b, P = p/p_h, H = h R/b^2. Nested meshes: on the coarsest a first-order upwind solution comes first, from
+a Hertz pressure; every solution, film included, starts the next finer one.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
-from .ehl_film import Film
+from .ehl_film import PENALTY, Film
 from .ehl_newton import Iterate, film_thickness, newton
 from .fluid import Fluid
 from .report import InputError, SolveReport
@@ -44,7 +44,12 @@ class LineContact:
     fluid: Fluid
 
     def __post_init__(self):
-        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
+        for name, unit in (
+            ("load_per_width", "N/m"),
+            ("radius", "m"),
+            ("e_prime", "Pa"),
+            ("entrainment_speed", "m/s"),
+        ):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
 
@@ -66,8 +71,13 @@ class LineContact:
     @property
     def speed_parameter(self) -> float:
         """lambda = 12 eta0 U R^2/(b^3 p_h)."""
-        return (12 * self.fluid.viscosity * self.entrainment_speed * self.radius**2
-                / (self.half_width**3 * self.hertz_pressure))
+        return (
+            12
+            * self.fluid.viscosity
+            * self.entrainment_speed
+            * self.radius**2
+            / (self.half_width**3 * self.hertz_pressure)
+        )
 
     @property
     def load_number(self) -> float:
@@ -90,7 +100,8 @@ class LineContact:
 
 @dataclass(frozen=True)
 class Solution:
-    """A film and how it was found. Arrays on the line are at its degrees of freedom ``body.x``, not in ascending order.
+    """A film and how it was found. Arrays on the line are at its degrees of freedom ``body.x``, not in
+    ascending order.
 
     Attributes
     ----------
@@ -132,38 +143,71 @@ class Solution:
         return probe @ self.P * self.contact.hertz_pressure, probe @ self.H * self.contact.film_unit
 
 
-def solve_ehl(contact: LineContact, *, refinements: int = 2, fineness: float = 0.7, side: float = 240.0,
-              projection: float = 1.0, tolerance: float = 1e-8, max_iterations: int = 40,
-              raise_on_failure: bool = True) -> list[Solution]:
+def solve_ehl(
+    contact: LineContact,
+    *,
+    refinements: int = 2,
+    fineness: float = 0.7,
+    side: float = 240.0,
+    penalty: float = PENALTY,
+    tolerance: float = 1e-8,
+    max_iterations: int = 40,
+    raise_on_failure: bool = True,
+) -> list[Solution]:
     """Solve on a graded mesh and on its uniform refinements; the solutions, coarsest first.
 
     Parameters
     ----------
     refinements : each halves the cells and costs about five times the one before
     fineness : of the coarsest mesh, see `make_layout`
-    side : of the body in units of sqrt(b^2 + 2 R h), h the film expected
-    projection : 1, or 0 for plain Galerkin
+    side : of the body in units of sqrt(b^2 + 2 R h), h the film expected; >= 50 holds the inlet
+    penalty : of the stabilisation (`ehl_film`), 0: plain Galerkin
     tolerance : on the largest of the residuals that `ehl_newton.measure` defines
     max_iterations : Newton steps on a mesh
-    raise_on_failure : raise `SolveError` with report and solution of the mesh that failed; if False, that solution is
-        the last of the list and its report says so
+    raise_on_failure : raise `SolveError` with report and solution of the mesh that failed; if False, that
+        solution is the last of the list and its report says so
+
+    Found to converge for M = 0.001 to 1000 and L = 0 to 15, to 9 GPa; from L = 18 on at M = 5 to 30, where
+    the pressure spike is several p_h high, it may not.
     """
-    if refinements < 0 or not fineness > 0 or not side >= 10 or not tolerance > 0 or max_iterations < 1:
-        raise InputError(f"refinements = {refinements}, fineness = {fineness}, side = {side}, tolerance = {tolerance}, "
-                         f"max_iterations = {max_iterations}; allowed: >= 0, > 0, >= 10, > 0, >= 1")
+    for name, value, allowed, unmet in (
+        ("refinements", refinements, ">= 0", refinements < 0),
+        ("fineness", fineness, "> 0", not fineness > 0),
+        ("side", side, ">= 50", not 50 <= side < math.inf),
+        ("penalty", penalty, ">= 0", not penalty >= 0),
+        ("tolerance", tolerance, "> 0", not tolerance > 0),
+        ("max_iterations", max_iterations, ">= 1", max_iterations < 1),
+    ):
+        if unmet:
+            raise InputError(f"{name} = {value}; allowed: {allowed}")
     mesh, layout = graded_mesh(make_layout(contact, fineness, side))
     solutions = []
     for level in range(refinements + 1):
         mesh = mesh.refined() if level else mesh
         body = make_body(mesh, layout)
-        film = Film(body.line, contact.fluid, contact.hertz_pressure, contact.speed_parameter, projection)
-        if level:
-            start = refined(solutions[-1], body)
-        else:
-            start = first_guess(contact, body, film, max_iterations)
+        film = Film(body.line, contact.fluid, contact.hertz_pressure, contact.speed_parameter, penalty)
+        start = refined(solutions[-1], body) if level else first_guess(contact, body, film, max_iterations)
         end, flow, report = newton(body, film, start, tolerance, max_iterations)
-        solutions.append(Solution(contact, layout, body, film, end.u, end.P, film_thickness(body, end), end.H0,
-                                  flow * contact.film_unit, report))
+        if level and not report.converged:
+            start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
+            end, flow, report = newton(body, film, start, tolerance, max_iterations)
+            report = replace(
+                report, notes=("started again from the first-order upwind solution on this mesh",)
+            )
+        solutions.append(
+            Solution(
+                contact,
+                layout,
+                body,
+                film,
+                end.u,
+                end.P,
+                film_thickness(body, end),
+                end.H0,
+                flow * contact.film_unit,
+                report,
+            )
+        )
         if raise_on_failure:
             report.raise_if_failed(solutions[-1])
         if not report.converged:
@@ -172,16 +216,24 @@ def solve_ehl(contact: LineContact, *, refinements: int = 2, fineness: float = 0
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
-    """Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l exceeds b many times."""
+    """Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l exceeds b many
+    times."""
     film = film_estimate(contact.load_number, contact.material_number) * contact.moes_film / contact.film_unit
     l = math.sqrt(2 * film)
-    edge = 1 + 0.475 * l
-    return Layout(side * math.hypot(1, l), -(3 + 20 * l), 2 + 2 * l, (-edge, edge),
-                  0.5 * l * (l / (1 + l)) ** (1 / 3) / fineness, 0.5 / fineness)
+    edge = math.hypot(1, 0.475 * l)
+    return Layout(
+        side * math.hypot(1, l),
+        -(3 + 20 * l),
+        2 + 2 * l,
+        (-edge, edge),
+        0.5 * l * (l / (1 + l)) ** (1 / 3) / fineness,
+        0.5 / fineness,
+    )
 
 
 def film_estimate(M: float, L: float) -> float:
-    """Flow film in Moes' units by the regression of Moes 1992, doi:10.1016/0043-1648(92)90017-C (within some 10 %).
+    """Flow film in Moes' units by the regression of Moes 1992, doi:10.1016/0043-1648(92)90017-C (within some
+    10 %).
 
     Only the mesh and the first guess are made from it.
     """
@@ -196,14 +248,17 @@ def film_estimate(M: float, L: float) -> float:
 
 
 def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: int) -> Iterate:
-    """First-order upwind solution; if Newton does not find it from a Hertz pressure, by raising the viscosity in steps.
+    """First-order upwind solution; if Newton does not find it from a Hertz pressure, by raising the viscosity
+    in steps.
 
     It need not have converged: whether the solution that starts from it has, is what counts.
     """
     for shares in ((1.0,), RAISING):
         guess = hertz_start(contact, body, shares[0])
         for share in shares:
-            guess, _, report = newton(body, replace(film, upwind=1.0, piezo=share), guess, ROUGH, max_iterations)
+            guess, _, report = newton(
+                body, replace(film, upwind=1.0, piezo=share), guess, ROUGH, max_iterations
+            )
         if report.converged:
             break
     return guess
@@ -211,7 +266,11 @@ def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: in
 
 def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
     """Hertz pressure, spread to the width of the film where that is wider, and the film expected at X = 0."""
-    film = film_estimate(contact.load_number, piezo * contact.material_number) * contact.moes_film / contact.film_unit
+    film = (
+        film_estimate(contact.load_number, piezo * contact.material_number)
+        * contact.moes_film
+        / contact.film_unit
+    )
     width = math.sqrt(1 + 2 * film)
     P = np.sqrt(np.maximum(1 - (body.x / width) ** 2, 0)) / width
     u = body.displacement(P)
@@ -220,6 +279,7 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
 
 
 def refined(coarse: Solution, body: Body) -> Iterate:
-    """A solution on the next finer mesh. The film is carried over as it is: that of the interpolated pressure is rougher."""
+    """A solution on the next finer mesh, film included: that of the interpolated pressure would be
+    rougher."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

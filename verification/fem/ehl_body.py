@@ -1,10 +1,12 @@
-"""The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the film.
+"""The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the
+film.
 
-One body stands for both: plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of E'
-(2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R, stresses in p_h;
-in these units E' is 4. A square below the contact, bottom fixed and sides free, stands for the half-space (Habchi,
-Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); against a half-space its surface is bent by a part
-that falls like (b/D)^2 with its side D, besides a constant that the approach takes up.
+One body stands for both: plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of
+E' (2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R,
+stresses in p_h; in these units E' is 4. A square below the contact, bottom fixed and sides free, stands for
+the half-space (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); against a
+half-space its surface is bent by a part that falls like (b/D)^2 with its side D, besides a constant that the
+approach takes up.
 """
 
 from __future__ import annotations
@@ -18,24 +20,15 @@ import skfem
 from scipy.sparse.linalg import SuperLU, splu
 from scipy.spatial import cKDTree
 from skfem import Basis, BilinearForm, ElementLineP2, ElementTriP2, ElementVector, MeshLine, MeshTri
-from skfem.element.discrete_field import DiscreteField
 from skfem.helpers import sym_grad
 from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_stress
 
 POISSON = 0.3
 YOUNG = 2 * (1 - POISSON**2)
 NEAR = 1e-9  # of the side: the same point
-QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P2 nodes of the four parts of a triangle
-
-
-class ElementLineP2Hess(ElementLineP2):
-    """P2 on a line with its second derivative, which the stabilisation needs."""
-
-    def gbasis(self, mapping, X, i, tind=None):
-        """Value, gradient and second derivative of shape function ``i``."""
-        field, = super().gbasis(mapping, X, i, tind)
-        bend = (4.0, 4.0, -8.0)[i] * mapping.invDF(X, tind)[0, 0] ** 2
-        return (DiscreteField(np.asarray(field), field.grad, hess=bend[None, None]),)
+QUARTERS = (
+    np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4
+)  # P2 nodes of the four parts of a triangle
 
 
 @dataclass(frozen=True)
@@ -60,7 +53,8 @@ class Layout:
 
 
 def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
-    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``.
+    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth *
+    distance)``.
 
     The layout that comes back has the ends of the film moved outwards to vertices.
     """
@@ -68,15 +62,20 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
     mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
     while True:
         corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+        longest = np.max(
+            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
+        )
         distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
         large = np.flatnonzero(longest > np.hypot(layout.fine, layout.growth * distance))
         if not large.size:
             break
         mesh = mesh.refined(large)
     x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < NEAR * layout.side])
-    return mesh, replace(layout, inlet=float(x[np.searchsorted(x, layout.inlet) - 1]),
-                         outlet=float(x[np.searchsorted(x, layout.outlet)]))
+    return mesh, replace(
+        layout,
+        inlet=float(x[np.searchsorted(x, layout.inlet) - 1]),
+        outlet=float(x[np.searchsorted(x, layout.outlet)]),
+    )
 
 
 @dataclass(frozen=True)
@@ -107,8 +106,9 @@ class Body:
     @cached_property
     def factors(self) -> SuperLU:
         """Factors of the stiffness alone."""
-        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-                    options={"SymmetricMode": True})
+        return splu(
+            self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
 
     @cached_property
     def order(self) -> np.ndarray:
@@ -141,7 +141,7 @@ def make_body(mesh: MeshTri, layout: Layout) -> Body:
     stiffness = linear_elasticity(*lame_parameters(YOUNG, POISSON)).assemble(basis)[free][:, free]
     x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < near])
     x = x[(x > layout.inlet - near) & (x < layout.outlet + near)]
-    line = Basis(MeshLine(x), ElementLineP2Hess(), intorder=8)
+    line = Basis(MeshLine(x), ElementLineP2(), intorder=8)
     trace = trace_matrix(basis, line)[:, free]
     mass = BilinearForm(lambda u, v, w: u * v).assemble(line)
     return Body(basis, line, free, stiffness.tocsc(), (trace.T @ mass).tocsc(), trace.tocsc())

@@ -2,15 +2,17 @@
 
     d/dX( rho H - m dP/dX ) = 0,   m = rho H^3/(eta lambda),   lambda = 12 eta0 U R^2/(b^3 p_h)
 
-with rho and eta relative to their values at p = 0. Weakly ``-(q, v') - q_in v(inlet)``, q = rho H - m P' the flux. Far
-upstream the gap is a parabola and the oil Newtonian, so that P falls like |X|^-3: there ``P' = 3 P/|X|``.
+with rho and eta relative to their values at p = 0. Weakly ``-(q, v') - q_in v(inlet)``, q = rho H - m P' the
+flux. Far upstream the gap is a parabola and the oil Newtonian, so that P falls like |X|^-3:
+there ``P' = 3 P/|X|``.
 
-Under high pressure m vanishes and ``(rho H)'`` is left, a Hilbert transform of the pressure that Galerkin sees no
-better than convection: it rings. Local projection (Becker & Braack 2001, doi:10.1007/s10092-001-8180-4; Matthies,
-Skrzypacz & Tobiska 2007, doi:10.1051/m2an:2007038) adds ``tau (k(rho H)', k v')`` with k what is left of a function after
-its mean in the cell is taken off: for P2 a term of third order in the cell length, so the element keeps its order.
-It holds no viscosity; a residual-based (SUPG) form does, and was found to have several solutions where the pressure
-spike is not resolved. First-order upwinding, ``tau ((rho H)', v')``, is for first guesses.
+Under high pressure m vanishes and ``(rho H)'`` is left, a Hilbert transform of the pressure that Galerkin
+sees no better than convection: it rings. Interior penalty (Burman & Hansbo 2004,
+doi:10.1016/j.cma.2003.12.032) charges the jumps of slope between cells, ``sum gamma size^2 [(rho H)'][v']``
+over the vertices. For P2 the term is of higher order than the element's own error, and no viscosity is in it.
+A residual-based (SUPG) form holds viscosity, and was found to have several solutions where the pressure spike
+is not resolved. First-order upwinding, ``(size/2) ((rho H)', v')``, serves first guesses. Both fade where
+pressure diffuses in less than a cell.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from skfem import Basis, BilinearForm, LinearForm
 from .fluid import STEP, Fluid, slope
 
 NEAR = 1e-5  # of p_h, for a slope that a complex step can pass through
+PENALTY = 0.03
 
 
 @dataclass(frozen=True)
@@ -33,11 +36,11 @@ class Film:
 
     Attributes
     ----------
-    line : P2 with second derivatives
+    line : P2
     fluid : viscosity and density laws
     hertz_pressure : Pa per unit of P
     speed_parameter : lambda
-    projection : share of the local projection term, 1 or (plain Galerkin) 0
+    penalty : gamma; 0: plain Galerkin. Above 0.1 it rings in its own way
     upwind : share of first-order upwinding
     piezo : share of ln(eta/eta0), 1 but in continuation
     """
@@ -46,7 +49,7 @@ class Film:
     fluid: Fluid
     hertz_pressure: float
     speed_parameter: float
-    projection: float = 1.0
+    penalty: float = PENALTY
     upwind: float = 0.0
     piezo: float = 1.0
 
@@ -62,14 +65,31 @@ class Film:
         """m."""
         return self.density(P) * H**3 * np.exp(-self.log_viscosity(P)) / self.speed_parameter
 
-    def flux(self, P, P1, P2, H, H1, H2, size, offset):
-        """q, stabilised, from P and H with their derivatives (1, 2) at a point ``offset`` from the middle of a cell of
-        length ``size``; real or complex."""
-        m, rho = self.mobility(P, H), self.density(P)
-        wave = (self.density(P + NEAR) - self.density(P - NEAR)) / (2 * NEAR) * H
-        tau = size / 2 / np.sqrt(1 + (6 * m / size / (1 + wave)) ** 2)
-        added = self.projection * offset * (rho * H2 + wave * P2) + self.upwind * (rho * H1 + wave * P1)
-        return rho * H - m * P1 - tau * added
+    def wave(self, P, H):
+        """d(rho H)/dP at constant H."""
+        return (self.density(P + NEAR) - self.density(P - NEAR)) / (2 * NEAR) * H
+
+    def carried(self, P, H, size):
+        """1 where pressure goes with the flow, falling to 0 where it diffuses in less than a cell."""
+        return 1 / np.sqrt(1 + (6 * self.mobility(P, H) / size / (1 + self.wave(P, H))) ** 2)
+
+    def flux(self, P, P1, H, H1, size):
+        """q, with upwinding, from P and H and their slopes P1 and H1 in a cell of length ``size``; real or
+        complex."""
+        rho = self.density(P)
+        q = rho * H - self.mobility(P, H) * P1
+        if self.upwind:
+            q = q - self.upwind * size / 2 * self.carried(P, H, size) * (rho * H1 + self.wave(P, H) * P1)
+        return q
+
+    def charge(self, P, P_jump, H, H_jump, size):
+        """What a jump of v' is multiplied with at a vertex where P' and H' jump."""
+        return (
+            self.penalty
+            * size**2
+            * self.carried(P, H, size)
+            * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
+        )
 
     def inflow(self, P, H, inlet: float):
         """q at the inlet."""
@@ -84,9 +104,29 @@ def extended(law: Callable, p):
 
 def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]:
     """A function and its derivatives by each of its arguments, by complex steps."""
-    slopes = [np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP
-              for k in range(len(values))]
+    slopes = [
+        np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP
+        for k in range(len(values))
+    ]
     return function(*values), slopes
+
+
+def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
+    """Degrees of freedom at inner vertices, mean length of the cells there, and the matrix that takes a
+    function to its jumps of slope there."""
+    mesh = line.mesh
+    size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
+    slopes_inwards = np.array([[-3.0, -1.0, 4.0], [-1.0, -3.0, 4.0]])  # at either end, times size
+    jumps = sum(
+        sp.csr_matrix(
+            (np.outer(weights, 1 / size).ravel(), (np.tile(vertex, 3), line.element_dofs.ravel())),
+            shape=(mesh.nvertices, line.N),
+        )
+        for vertex, weights in zip(mesh.t, slopes_inwards, strict=True)
+    )
+    inner = np.flatnonzero(np.bincount(mesh.t.ravel()) == 2)
+    mean = np.bincount(mesh.t.ravel(), np.tile(size, 2)) / 2
+    return line.nodal_dofs[0, inner], mean[inner], jumps.tocsr()[inner]
 
 
 @LinearForm
@@ -98,12 +138,13 @@ def flux_form(v, w):
 @BilinearForm
 def flux_tangent(u, v, w):
     """Its derivative."""
-    return -(w.by_value * u + w.by_slope * u.grad[0] + w.by_bend * u.hess[0, 0]) * v.grad[0]
+    return -(w.by_value * u + w.by_slope * u.grad[0]) * v.grad[0]
 
 
 @dataclass(frozen=True)
 class Flow:
-    """Weak residual on the line (mass that is lost at a degree of freedom), its derivatives, and the flux that enters."""
+    """Weak residual on the line (flow lost at a degree of freedom), its derivatives, and the flux that
+    enters."""
 
     residual: np.ndarray
     by_P: sp.csr_matrix
@@ -113,19 +154,37 @@ class Flow:
 
 def assemble(film: Film, P: np.ndarray, H: np.ndarray) -> Flow:
     """The flow for pressure and film at the degrees of freedom of the line."""
-    line = film.line
-    p, h = line.interpolate(P), line.interpolate(H)
-    x = np.asarray(line.global_coordinates()[0])
-    offset = x - x.mean(axis=1, keepdims=True)
-    size = np.abs(np.diff(line.mesh.p[0][line.mesh.t], axis=0)).T + 0 * x
-    local = (np.asarray(p), p.grad[0], p.hess[0, 0], np.asarray(h), h.grad[0], h.hess[0, 0])
-    q, (p0, p1, p2, h0, h1, h2) = partials(lambda *a: film.flux(*a, size, offset), *local)
-    r = flux_form.assemble(line, q=q)
-    by_P = flux_tangent.assemble(line, by_value=p0, by_slope=p1, by_bend=p2)
-    by_H = flux_tangent.assemble(line, by_value=h0, by_slope=h1, by_bend=h2)
-
-    first = int(np.argmin(line.doflocs[0]))
-    inflow, slopes = partials(lambda a, b: film.inflow(a, b, line.doflocs[0, first]), P[first], H[first])
+    parts = [inside(film, P, H)] + ([penalty(film, P, H)] if film.penalty else [])
+    r, by_P, by_H = (sum(terms[1:], terms[0]) for terms in zip(*parts, strict=True))
+    first = int(np.argmin(film.line.doflocs[0]))
+    inflow, slopes = partials(lambda a, b: film.inflow(a, b, film.line.doflocs[0, first]), P[first], H[first])
     r[first] -= inflow
     there = sp.csr_matrix(([1.0], ([first], [first])), shape=by_P.shape)
     return Flow(r, by_P - slopes[0] * there, by_H - slopes[1] * there, float(inflow))
+
+
+def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+    """``-(q, v')`` and its derivatives by P and H."""
+    line = film.line
+    p, h = line.interpolate(P), line.interpolate(H)
+    size = np.abs(np.diff(line.mesh.p[0][line.mesh.t], axis=0)).T
+    q, (p0, p1, h0, h1) = partials(
+        lambda *a: film.flux(*a, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0]
+    )
+    return (
+        flux_form.assemble(line, q=q),
+        flux_tangent.assemble(line, by_value=p0, by_slope=p1),
+        flux_tangent.assemble(line, by_value=h0, by_slope=h1),
+    )
+
+
+def penalty(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+    """``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
+    at, size, jump = slope_jumps(film.line)
+    c, (p0, p1, h0, h1) = partials(lambda *a: film.charge(*a, size), P[at], jump @ P, H[at], jump @ H)
+    pick = sp.csr_matrix((np.ones(at.size), (np.arange(at.size), at)), shape=jump.shape)
+    return (
+        jump.T @ c,
+        jump.T @ (sp.diags_array(p0) @ pick + sp.diags_array(p1) @ jump),
+        jump.T @ (sp.diags_array(h0) @ pick + sp.diags_array(h1) @ jump),
+    )

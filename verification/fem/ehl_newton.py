@@ -4,8 +4,8 @@
     Reynolds     r(P, H) = 0 where P > 0, P = 0 where r > 0 (Swift-Stieber outlet; primal-dual active set)
     load         integral P + |X_in| P_in/2 = pi/2, the second term the tail upstream of the inlet
 
-for u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it is factorised by sparse LU in every step; the order
-of elimination comes from the stiffness once a mesh.
+for u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it is factorised by sparse LU in every step;
+the order of elimination comes from the stiffness once a mesh.
 """
 
 from __future__ import annotations
@@ -60,8 +60,9 @@ def load_weights(body: Body) -> np.ndarray:
     return weights
 
 
-def newton(body: Body, film: Film, start: Iterate, tolerance: float,
-           max_iterations: int) -> tuple[Iterate, float, SolveReport]:
+def newton(
+    body: Body, film: Film, start: Iterate, tolerance: float, max_iterations: int
+) -> tuple[Iterate, float, SolveReport]:
     """The last iterate, the flow q and a report whose residuals are those of `measure`."""
     weights = load_weights(body)
     it, history, status = start, [], ITERATION_LIMIT
@@ -77,30 +78,50 @@ def newton(body: Body, film: Film, start: Iterate, tolerance: float,
             break
         it = step(body, film, it, at, weights)
     steps = len(history) - 1
-    return it, at.flow.inflow, SolveReport("full-system finite-element EHL", status, steps, history[-1], tolerance,
-                                           residuals, tuple(history), steps)
+    return (
+        it,
+        at.flow.inflow,
+        SolveReport(
+            "full-system finite-element EHL",
+            status,
+            steps,
+            history[-1],
+            tolerance,
+            residuals,
+            tuple(history),
+            steps,
+        ),
+    )
 
 
 def imbalance(body: Body, film: Film, it: Iterate, weights: np.ndarray) -> Imbalance:
     """Residuals of all equations."""
     H = film_thickness(body, it)
-    return Imbalance(H, body.stiffness @ it.u + body.traction @ it.P, assemble(film, it.P, H),
-                     float(weights @ it.P / HERTZ_LOAD - 1))
+    return Imbalance(
+        H,
+        body.stiffness @ it.u + body.traction @ it.P,
+        assemble(film, it.P, H),
+        float(weights @ it.P / HERTZ_LOAD - 1),
+    )
 
 
 def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
     """What the stopping test looks at, each without dimension.
 
-    elasticity: largest force out of balance at a node, in loads; load: relative; mass: flow lost on the way to the
-    rupture point (sum over nodes of |r|), in q; tension: largest -P in largest P; suction: flow that appears from
-    nothing at nodes held at P = 0, in q.
+    elasticity: largest force out of balance at a node, in loads; load: relative; mass: flow lost on the way
+    to the rupture point (sum over nodes of |r|), in q; tension: largest -P in largest P; suction: flow that
+    appears from nothing at nodes held at P = 0, in q; overlap: largest -H, in q.
     """
     r, scale = at.flow.residual, abs(at.flow.inflow)
     inner = it.held & (body.x < body.x.max())
-    return {"elasticity": float(np.abs(at.force).max() / HERTZ_LOAD), "load": abs(at.load),
-            "mass": float(np.abs(r[~it.held]).sum() / scale),
-            "tension": float(max(-it.P.min(), 0.0) / np.abs(it.P).max()),
-            "suction": float(np.maximum(-r[inner], 0.0).sum() / scale)}
+    return {
+        "elasticity": float(np.abs(at.force).max() / HERTZ_LOAD),
+        "load": abs(at.load),
+        "mass": float(np.abs(r[~it.held]).sum() / scale),
+        "tension": float(max(-it.P.min(), 0.0) / np.abs(it.P).max()),
+        "suction": float(np.maximum(-r[inner], 0.0).sum() / scale),
+        "overlap": float(max(-at.H.min(), 0.0) / scale),
+    }
 
 
 def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray) -> Iterate:
@@ -111,14 +132,24 @@ def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray
     dP = np.where(held, -it.P, 0.0)
     scale = 1 / abs(at.flow.inflow)
     by_P, by_H = scale * at.flow.by_P[free], scale * at.flow.by_H[free]
-    matrix = sp.bmat([[body.stiffness, body.traction[:, free], None],
-                      [-by_H @ body.trace, by_P[:, free], sp.csr_matrix(by_H.sum(axis=1))],
-                      [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None]], format="csc")
-    rhs = -np.concatenate([at.force + body.traction @ dP, scale * at.flow.residual[free] + by_P @ dP,
-                           [at.load + weights @ dP / HERTZ_LOAD]])
+    matrix = sp.bmat(
+        [
+            [body.stiffness, body.traction[:, free], None],
+            [-by_H @ body.trace, by_P[:, free], sp.csr_matrix(by_H.sum(axis=1))],
+            [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None],
+        ],
+        format="csc",
+    )
+    rhs = -np.concatenate(
+        [
+            at.force + body.traction @ dP,
+            scale * at.flow.residual[free] + by_P @ dP,
+            [at.load + weights @ dP / HERTZ_LOAD],
+        ]
+    )
     change = solve(matrix, rhs, body.order)
-    du, dH0 = change[:it.u.size], change[-1]
-    dP[free] = change[it.u.size:-1]
+    du, dH0 = change[: it.u.size], change[-1]
+    dP[free] = change[it.u.size : -1]
     share = step_length(film, it.P, dP, at.H, dH0 - body.trace @ du)
     return Iterate(it.u + share * du, it.P + share * dP, it.H0 + share * dH0, held)
 
@@ -133,8 +164,12 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
 
 
 def step_length(film: Film, P, dP, H, dH) -> float:
-    """Share of a step after which no viscosity has grown or fallen, and no film has shrunk, more than the limits say."""
+    """Share of a step after which no viscosity has changed and no film has shrunk by more than the limits
+    say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
-    shrinking = float(np.max(-dH / H))
-    return min(1.0, LARGEST_GROWTH / max(growth, LARGEST_GROWTH),
-               (1 - SMALLEST_SHARE) / max(shrinking, 1 - SMALLEST_SHARE))
+    shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
+    return min(
+        1.0,
+        LARGEST_GROWTH / max(growth, LARGEST_GROWTH),
+        (1 - SMALLEST_SHARE) / max(shrinking, 1 - SMALLEST_SHARE),
+    )

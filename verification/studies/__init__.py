@@ -35,4 +35,5 @@ STUDIES: tuple[Study, ...] = (
     Study("reynolds", "verification.studies.reynolds:reynolds", "Reynolds equation on a line"),
     Study("reynolds_surface", "verification.studies.reynolds_surface:reynolds_surface",
           "Reynolds equation on a surface"),
+    Study("ehl", "verification.studies.ehl:ehl", "Smooth EHL line contact, full-system finite elements"),
 )

@@ -1,0 +1,285 @@
+"""Full-system finite-element EHL against closed forms, its own rates, and numbers from elsewhere."""
+
+import math
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("skfem")
+
+from verification.fem.ehl import LineContact, Solution, make_layout, solve_ehl
+from verification.fem.ehl_body import Layout, graded_mesh, make_body, refined_displacement
+from verification.fem.ehl_film import Film, assemble, slope_jumps
+from verification.fem.fluid import Fluid
+from verification.fem.report import CONVERGED, InputError, SolveError
+from verification.rates import fitted_order
+
+ALPHA, INDEX, E_PRIME, RADIUS = 2.2e-8, 0.68, 2.2e11, 0.01
+VISCOSITY = math.exp(ALPHA * 1.96e8 / INDEX - 9.67)
+
+
+def contact(M: float, L: float, law: str = "roelands", **options) -> LineContact:
+    """A contact with Moes' numbers M and L; L = 0 is isoviscous."""
+    speed_number = (L / (ALPHA * E_PRIME)) ** 4 if L else 1e-11
+    return LineContact(
+        M * math.sqrt(speed_number) * E_PRIME * RADIUS,
+        RADIUS,
+        E_PRIME,
+        speed_number * E_PRIME * RADIUS / (2 * VISCOSITY),
+        Fluid(VISCOSITY, law if L else "constant", ALPHA, **options),
+    )
+
+
+def films(solution: Solution) -> tuple[float, float]:
+    """Smallest film and flow film in Moes' units."""
+    return (solution.min_film / solution.contact.moes_film, solution.flow_film / solution.contact.moes_film)
+
+
+@pytest.fixture(scope="module")
+def bodies():
+    """One body on three nested meshes."""
+    mesh, layout = graded_mesh(Layout(240.0, -4.0, 3.0, (-1.0, 1.0), 0.1, 0.6))
+    return [make_body(mesh.refined(n) if n else mesh, layout) for n in range(3)]
+
+
+def hertz(body):
+    return np.sqrt(np.maximum(1 - body.x**2, 0))
+
+
+def test_moes_numbers_come_back():
+    c = contact(20, 5)
+    assert c.load_number == pytest.approx(20, rel=1e-12)
+    assert c.material_number == pytest.approx(5, rel=1e-12)
+    assert c.hertz_pressure * ALPHA == pytest.approx(5 * math.sqrt(20 / (2 * math.pi)), rel=1e-12)
+    assert c.speed_parameter == pytest.approx(3 * math.pi**2 / (8 * 20**2), rel=1e-12)
+
+
+def test_hertz_pressure_flattens_the_parabola(bodies):
+    """X^2/2 - u_z is constant under a Hertz pressure, down to what the finite body bends it."""
+    bends = []
+    for body in bodies:
+        inside = np.abs(body.x) < 0.9
+        gap = body.x**2 / 2 - body.trace @ body.displacement(hertz(body))
+        bends.append(np.std(gap[inside]))
+    assert bends[0] > bends[1] > bends[2]
+    assert bends[2] < 1e-4
+
+
+def test_surface_of_the_body_follows_the_line_kernel(bodies):
+    """Outside a Hertz contact the gap opens with slope sqrt(X^2 - 1), so the surface rises with X - sqrt(X^2
+    - 1)."""
+    body = bodies[-1]
+    u = body.trace @ body.displacement(hertz(body))
+    a, b = (int(np.argmin(np.abs(body.x - at))) for at in (1.2, 2.5))
+
+    def risen(x):
+        return x**2 / 2 - (x * math.sqrt(x**2 - 1) - math.acosh(x)) / 2
+
+    assert u[b] - u[a] == pytest.approx(risen(body.x[b]) - risen(body.x[a]), rel=5e-4)
+
+
+def test_finite_body_costs_the_square_of_its_size():
+    bends = []
+    for side in (60.0, 120.0, 240.0):
+        mesh, layout = graded_mesh(Layout(side, -4.0, 3.0, (-1.0, 1.0), 0.05, 0.6))
+        body = make_body(mesh, layout)
+        u = body.trace @ body.displacement(hertz(body))
+        bends.append(np.polyfit(body.x[np.abs(body.x) < 2], u[np.abs(body.x) < 2], 2)[0])
+    assert (bends[1] - bends[0]) / (bends[2] - bends[1]) == pytest.approx(4, rel=0.1)
+
+
+def test_body_is_symmetric_and_in_balance(bodies):
+    body = bodies[0]
+    rng = np.random.default_rng(1)
+    p, q = rng.random((2, body.x.size))
+    work = (q @ (body.traction.T @ body.displacement(p)), p @ (body.traction.T @ body.displacement(q)))
+    assert work[0] == pytest.approx(work[1], rel=1e-10)
+    assert work[0] < 0
+
+
+def test_refined_displacement_is_the_same_function(bodies):
+    coarse, fine = bodies[:2]
+    u = coarse.displacement(hertz(coarse))
+    same = fine.trace @ refined_displacement(coarse, fine, u)
+    assert np.allclose(same, coarse.line.probes(fine.x[None]) @ (coarse.trace @ u), atol=1e-12)
+    x, y = coarse.basis.probes, fine.basis.probes
+    inside = np.array([[0.3, -1.1, 2.0], [-0.7, -0.2, -3.0]])
+    refined = fine.everywhere(refined_displacement(coarse, fine, u))
+    assert np.allclose(x(inside) @ coarse.everywhere(u), y(inside) @ refined, atol=1e-12)
+    with pytest.raises(AssertionError):
+        refined_displacement(coarse, bodies[2], u)
+
+
+def test_slope_jumps_see_kinks_only(bodies):
+    line = bodies[0].line
+    x = line.doflocs[0]
+    at, size, jump = slope_jumps(line)
+    assert np.allclose(jump @ (3 + 2 * x - x**2), 0, atol=1e-10)
+    kink = line.doflocs[0, at[np.argmin(np.abs(line.doflocs[0, at]))]]
+    found = jump @ np.abs(x - kink)
+    assert np.count_nonzero(np.abs(found) > 1e-9) == 1
+    assert abs(found).max() == pytest.approx(2)
+    assert np.all(size > 0)
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.integers(0, 10**6), st.floats(0, 1), st.sampled_from(["constant", "dowson_higginson"]))
+def test_tangent_is_the_derivative(seed, upwind, density):
+    mesh, layout = graded_mesh(Layout(60.0, -4.0, 3.0, (-1.0, 1.0), 0.5, 0.8))
+    line = make_body(mesh, layout).line
+    rng = np.random.default_rng(seed)
+    film = Film(line, Fluid(VISCOSITY, "roelands", ALPHA, INDEX, density), 3e8, 0.01, upwind=upwind)
+    P, H, dP, dH = rng.uniform(0.01, 1, (4, line.N)) * [[1], [1], [0.1], [0.1]]
+    step = 3e-5
+    ahead, behind = (assemble(film, P + s * dP, H + s * dH).residual for s in (step, -step))
+    flow = assemble(film, P, H)
+    change = (ahead - behind) / (2 * step)
+    assert np.abs(flow.by_P @ dP + flow.by_H @ dH - change).max() < 1e-4 * np.abs(change).max()
+
+
+def test_flow_form_has_the_order_of_its_element():
+    """Under a rigid parabola with Barus' law the pressure is -ln(1 - alpha q)/alpha, q isoviscous: the weak
+    residual of its interpolant, stabilisation included, falls as that of a slope's third order."""
+    H0, end = 1.0, 0.4751299 * math.sqrt(2.0)
+
+    def isoviscous(x):
+        t, te = np.arctan(x / math.sqrt(2)), math.atan(end / math.sqrt(2))
+
+        def part(a):
+            return math.sqrt(2) * (a / 2 + np.sin(2 * a) / 4), math.sqrt(2) * (
+                3 * a / 8 + np.sin(2 * a) / 4 + np.sin(4 * a) / 32
+            )
+
+        (p, q), (pe, qe) = part(t), part(te)
+        return (p - pe) - (1 + end**2 / 2) * (q - qe)
+
+    sizes, errors = [], []
+    mesh, layout = graded_mesh(Layout(60.0, -4.0, 0.5, (-1.0, 0.5), 0.5, 0.8))
+    for n in range(4):
+        line = make_body(mesh.refined(n) if n else mesh, layout).line
+        x = line.doflocs[0]
+        strength = 0.5 / isoviscous(x).max()
+        film = Film(line, Fluid(1.0, "barus", strength), 1.0, 1.0)
+        P = -np.log(1 - strength * isoviscous(x)) / strength
+        flow = assemble(film, P, H0 + x**2 / 2)
+        inner = (x > x.min()) & (x < x.max())
+        sizes.append(0.5**n)
+        errors.append(np.abs(flow.residual[inner]).max())
+    assert fitted_order(sizes[1:], errors[1:]) > 2.7
+
+
+def test_rigid_isoviscous_limit():
+    """Martin (1916) with Reynolds' outlet: h_min M = 2.447484, flow film M = 3, approached at the element's
+    rate."""
+    found = np.array([films(s) for s in solve_ehl(contact(1e-3, 0))]) * 1e-3
+    errors = np.abs(found / [2.447484, 3.0] - 1)
+    assert np.all(errors[-1] < 1e-3)
+    assert np.all(errors[-1] < errors[0] / 4)
+
+
+@pytest.mark.parametrize(
+    ("point", "refinements", "smallest", "flow"), [((20, 5), 2, 2.572, 3.423), ((50, 10), 1, 3.436, 4.587)]
+)
+def test_table_of_converged_films(point, refinements, smallest, flow):
+    """A separate finite-difference solver on nested meshes (incompressible, Roelands)."""
+    solutions = solve_ehl(contact(*point), refinements=refinements)
+    assert all(s.report.status == CONVERGED for s in solutions)
+    assert films(solutions[-1]) == pytest.approx((smallest, flow), rel=5e-3)
+    changes = np.abs(np.diff([s.flow_film for s in solutions]))
+    assert np.all(changes[1:] < changes[:-1] / 4)
+
+
+def test_solution_obeys_its_equations():
+    s = solve_ehl(contact(5, 5), refinements=1)[-1]
+    c = s.contact
+    x = np.linspace(s.layout.inlet, s.layout.outlet, 20001)[1:-1] * c.half_width
+    p, h = s.at(x)
+    assert np.trapezoid(p, x) == pytest.approx(
+        c.load_per_width, rel=2e-3
+    )  # the rest is the tail of the inlet
+    assert np.trapezoid(p, x) < c.load_per_width
+    assert p.min() > -1e-3 * p.max()  # between nodes, next to rupture
+    assert h.min() == pytest.approx(s.min_film, rel=1e-5)
+    ruptured = p < 1e-6 * p.max()
+    assert np.all(np.diff(h[ruptured & (x > 0)]) > 0)
+    cell = s.cell_length
+    before, after = (s.at(x[ruptured & (x > 0)][:1] + d * cell)[1] for d in (-2, 2))
+    assert before < s.flow_film < after  # dp/dx = 0 at rupture
+    sigma = s.body.stress(s.displacement)
+    top = np.abs(s.body.basis.mesh.p[1]) < 1e-9
+    at = s.body.basis.mesh.p[0, top] * c.half_width
+    middle = np.abs(at) < 0.5 * c.half_width
+    assert np.allclose(-sigma[1, top][middle], s.at(at[middle])[0] / c.hertz_pressure, atol=0.05)
+
+
+def test_scaling_only_the_two_numbers_matter():
+    one = contact(2, 5)
+    other = replace(
+        one,
+        radius=3 * one.radius,
+        load_per_width=3 * one.load_per_width,
+        entrainment_speed=3 * one.entrainment_speed,
+    )
+    a, b = (films(solve_ehl(c, refinements=0)[0]) for c in (one, other))
+    assert a == pytest.approx(b, rel=1e-7)
+
+
+def test_layout_follows_film_and_hertz_width():
+    rigid, heavy = (make_layout(contact(M, 5), 1.0, 60.0) for M in (0.05, 100))
+    assert rigid.inlet < -500 and -7 < heavy.inlet < -3
+    assert rigid.side > 1000 and heavy.side < 62
+    for layout in (rigid, heavy):
+        assert layout.side / 2 > -layout.inlet
+
+
+def test_a_solve_that_stops_short_raises_with_all_it_has():
+    with pytest.raises(SolveError, match="iteration_limit after 1 iterations") as failure:
+        solve_ehl(contact(20, 5), refinements=0, max_iterations=1)
+    assert not failure.value.report.converged
+    assert failure.value.result.P.size == failure.value.result.body.x.size
+    copy = pickle.loads(pickle.dumps(SolveError("message", failure.value.report)))
+    assert copy.report.residual == failure.value.report.residual
+    kept = solve_ehl(contact(20, 5), refinements=2, max_iterations=1, raise_on_failure=False)
+    assert len(kept) == 1 and kept[0].report.status == "iteration_limit"
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"load_per_width": -1.0}, "load_per_width"),
+        ({"radius": math.nan}, "radius"),
+        ({"e_prime": 0.0}, "e_prime"),
+        ({"entrainment_speed": 0.0}, "entrainment_speed"),
+    ],
+)
+def test_bad_contact(change, name):
+    with pytest.raises(InputError, match=f"{name} = "):
+        replace(contact(5, 5), **change)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"refinements": -1},
+        {"fineness": 0.0},
+        {"side": 20.0},
+        {"penalty": -1.0},
+        {"tolerance": 0.0},
+        {"max_iterations": 0},
+    ],
+)
+def test_bad_option(change):
+    with pytest.raises(InputError, match=f"{next(iter(change))} = "):
+        solve_ehl(contact(5, 5), **change)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("M", [1e-3, 0.05, 1, 20, 100, 1000])
+@pytest.mark.parametrize("L", [0, 2, 5, 10, 15])
+def test_every_regime_converges(M, L):
+    coarse, fine = solve_ehl(contact(M, L), refinements=1)
+    assert fine.flow_film == pytest.approx(coarse.flow_film, rel=0.03)
