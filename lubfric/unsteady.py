@@ -9,6 +9,7 @@ import numpy as np
 from . import __version__, validate
 from .checkpoint import Checkpoint
 from .ehl.bdf import Level, March, advance, restarted
+from .ehl.transient import SHORTEST, stops_and_jumps
 from .errors import InputError
 from .history import Transient
 from .mixed import Model
@@ -19,7 +20,6 @@ from .unsteady_row import UNITS, moment
 from .unsteady_sharing import Contact
 from .unsteady_start import Run, begin, first_level
 
-SHORTEST = 1e-11         # of the duration: below it a step has failed for good
 
 @dataclass(frozen=True)
 class TransientResult:
@@ -116,8 +116,7 @@ def _run(run: Run, times, store, on_step) -> TransientResult:
     now = _resume(run, store) or _Progress(March((first_level(run),), run.first_step, run.start.payload), [], [])
     if not now.rows and times[0] == 0.0:
         _keep(run, now, store, 0.0, run.start, None)
-    jumps = {t for h in run.histories for t in h.jumps(plan.duration)}
-    stops = sorted({*times, *jumps, *(t for h in run.histories for t in h.stops(plan.duration))})
+    stops, jumps = stops_and_jumps(run.histories, times, plan.duration)
     for stop in stops:
         while now.march.time < stop:
             advanced = advance(now.march, stop, run.solve, run.error_of, run.tolerance, SHORTEST * plan.duration)

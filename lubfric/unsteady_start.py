@@ -10,6 +10,7 @@ import numpy as np
 from .ehl.active_set import StepSolution, solve_step
 from .ehl.bdf import Level
 from .ehl.squeeze import Memory
+from .ehl.transient import TIME_SHARE, default_step, film_error
 from .ehl.transient_problem import LineContact, Setting, discretisation, make_setting, parabola, steady_start
 from .errors import ConvergenceError, InputError
 from .history import Constant, Transient
@@ -17,10 +18,6 @@ from .mixed import Model, friction, prepare
 from .report import CONVERGED
 from .scene import Scene
 from .unsteady_sharing import Contact, Sharing, make_sharing, share_step
-
-FIRST_STEP = 1e-3        # of the time in which the surfaces pass the contact, after a start or a jump
-WET = 1e-3               # of the largest pressure: where the error of the film counts
-TIME_SHARE = 0.01        # of the film tolerance: default for the local error of a step
 
 
 @dataclass(frozen=True)
@@ -51,10 +48,7 @@ class Run:
     @property
     def first_step(self) -> float:
         """The step [s] after a start or a jump."""
-        setting, duration = self.sharing.setting, self.plan.duration
-        fastest = max(abs(u) for u in setting.contact.speed.range(duration))
-        width = math.hypot(setting.problem.half_width, 3.0) * setting.problem.length_unit
-        return FIRST_STEP * (min(width / fastest, duration) if fastest else duration)
+        return default_step(self.sharing.setting)
 
     def sliding_speed(self, time: float) -> float:
         """u2 - u1 just before ``time`` [m/s]."""
@@ -67,10 +61,8 @@ class Run:
         return share_step(self.sharing, time, memory, z, past)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """Root mean square over the pressurised film of a difference of films, relative to the film."""
-        P = solution.terms.P
-        weights = self.sharing.setting.grid.weights * (P > WET * P.max())
-        return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
+        """`lubfric.ehl.transient.film_error`."""
+        return film_error(self.sharing.setting, solution, difference)
 
 
 def begin(scene: Scene | Model, plan: Transient) -> Run:
