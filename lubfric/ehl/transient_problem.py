@@ -151,4 +151,4 @@ def discretisation(setting: Setting, solution: StepSolution) -> float:
         return math.inf
     fine = solution.terms.H
     changes = (other.terms.H[coarse.grid.n // 2] / fine[setting.grid.n // 2] - 1.0, other.terms.H.min() / fine.min() - 1.0)
-    return max(abs(c) for c in changes) / 3.0
+    return float(max(abs(c) for c in changes)) / 3.0
