@@ -1,0 +1,127 @@
+"""The film between rigid surfaces, as an object that stands in for an `EHLResult`.
+
+``h = h0 + x²/2R`` with Swift-Stieber rupture. In the reduced pressure ``q = ∫ dp eta0/eta(p)`` Reynolds'
+equation is the isoviscous one, whose closed form is `lubfric.analytic.rigid.pressure`; the load fixes h0:
+at once without a viscosity law, by one bracketed root with it. Constant density.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .analytic import rigid
+from .lubricant import Lubricant, log_viscosity_ratio, viscosity
+from .report import CONVERGED, Report
+
+INLET, OUTLET = 30.0, 6.0      # ends of the nodes, in units of sqrt(2 R h0)
+CELLS = 256                    # before rupture, even in arsinh(x/sqrt(2 R h0))
+TABLE = 4000                   # points of q(p), up to alpha p = FARTHEST
+FARTHEST = 1e4
+
+
+@dataclass(frozen=True)
+class RigidFilm:
+    """Steady rigid film, SI units, the names those of `EHLResult`; arrays (n,), x ascending.
+
+    The nodes are x = sqrt(2 R h0) `unit_nodes`, then the cavitated ones; mirrored where entrainment_speed < 0.
+    """
+
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    viscosity: np.ndarray
+    min_film: float
+    central_film: float
+    flow_film: float
+    rupture: float
+    load: float
+    radius: float
+    e_prime: float
+    entrainment_speed: float
+    report: Report
+
+    def film_at(self, x) -> np.ndarray:
+        """Film thickness [m] at any positions ``x`` [m]."""
+        return self.min_film + np.asarray(x, dtype=float) ** 2 / (2 * self.radius)
+
+
+def unit_nodes() -> np.ndarray:
+    """x/sqrt(2 R h0) of the nodes before rupture, the last at the rupture point."""
+    return np.sinh(np.linspace(-math.asinh(INLET), math.asinh(rigid.rigid_constants().rupture), CELLS + 1))
+
+
+def isoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
+    """The film of a constant viscosity, h0 = 4.895 eta0 U R/w; the viscosity returned is that at its pressure.
+
+    load_per_width [N/m], radius [m], e_prime [Pa] (kept, not used), entrainment_speed [m/s], not 0.
+    """
+    h0 = rigid.isoviscous_min_film(load_per_width=load_per_width, radius=radius,
+                                   entrainment_speed=abs(entrainment_speed), viscosity=lubricant.viscosity)
+    return _film(h0, lambda q: q, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film")
+
+
+def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
+    """The film of the lubricant's viscosity law at constant density; arguments as in `isoviscous_film`.
+
+    ln h0 is the root of ∫ p dx = load_per_width, to 1e-9. A Barus film carries any load at h0 above Blok's limit.
+    """
+    from scipy.optimize import brentq
+    given = dict(load_per_width=load_per_width, radius=radius, entrainment_speed=abs(entrainment_speed))
+    thinnest = rigid.isoviscous_min_film(viscosity=lubricant.viscosity, **given)
+    if lubricant.viscosity_law == "constant":
+        law = lambda q: q                                                   # noqa: E731
+        h0 = thinnest
+    else:
+        law = true_pressure(lubricant)
+        nodes = unit_nodes()
+
+        def surplus(log_h0):
+            h0 = math.exp(log_h0)
+            x = math.sqrt(2 * radius * h0) * nodes
+            p = law(rigid.pressure(x, h0, radius=radius, entrainment_speed=abs(entrainment_speed),
+                                   viscosity=lubricant.viscosity))
+            carried = np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0]
+            return math.log(carried / load_per_width) if math.isfinite(carried) else 1e3
+
+        low = math.log(thinnest) - 1e-3
+        high = low + 0.1
+        while surplus(high) > 0:
+            low, high = high, high + 2 * (high - low)
+        h0 = math.exp(brentq(surplus, low, high, xtol=1e-9, rtol=1e-12))
+    return _film(h0, law, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid piezoviscous film")
+
+
+def true_pressure(lubricant: Lubricant):
+    """p(q) [Pa] of the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest q there is."""
+    alpha = lubricant.pressure_viscosity_coefficient
+    if lubricant.viscosity_law == "barus":
+        def barus(q):
+            with np.errstate(divide="ignore"):
+                return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
+        return barus
+    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
+    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
+    q = np.concatenate([[0.0], np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p))])
+    ratio = np.append(1.0, p[1:] / q[1:])                     # smooth where q is small
+    return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)
+
+
+def _film(h0, law, load, radius, e_prime, speed, lubricant, solver) -> RigidFilm:
+    constants, scale = rigid.rigid_constants(), math.sqrt(2 * radius * h0)
+    nodes = unit_nodes()
+    behind = np.geomspace(1.0, OUTLET / nodes[-1], 17)[1:] * nodes[-1]
+    x = scale * np.concatenate([nodes, behind])
+    p = law(rigid.pressure(x, h0, radius=radius, entrainment_speed=abs(speed), viscosity=lubricant.viscosity))
+    p[CELLS:] = 0.0
+    sign = math.copysign(1.0, speed)
+    order = slice(None) if sign > 0 else slice(None, None, -1)
+    carried = float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0])
+    residual = abs(carried / load - 1)
+    report = Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual})
+    return RigidFilm(x=(sign * x)[order], pressure=p[order], film_thickness=(h0 + x**2 / (2 * radius))[order],
+                     viscosity=viscosity(lubricant, p)[order], min_film=h0, central_film=h0,
+                     flow_film=constants.flow_film_ratio * h0, rupture=sign * scale * constants.rupture, load=load,
+                     radius=radius, e_prime=e_prime, entrainment_speed=speed, report=report)
