@@ -13,7 +13,8 @@ import numpy as np
 from .line import line_coefficients
 
 FAR = 42.0         # K0 beyond it is below 1e-19
-NEAR_CELLS = 4
+NEAR_CELLS, LONG_CELL = 4, 6.0      # from there on few points do, unless k times the cell exceeds LONG_CELL
+NEAR_RULE, FAR_RULE = np.polynomial.legendre.leggauss(24), np.polynomial.legendre.leggauss(7)
 
 
 def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
@@ -42,13 +43,13 @@ def bessel_cells(count: int, k: float) -> np.ndarray:
     from scipy.special import iti0k0
     cells = np.empty(count)
     cells[0] = 2 / k * iti0k0(k / 2)[1]
-    near = count if k > 1 else min(count, NEAR_CELLS)
-    cells[1:near] = _gauss_cells(np.arange(1, near), k, points=24)
-    cells[near:] = _gauss_cells(np.arange(near, count), k, points=7)
+    near = count if k > LONG_CELL else min(count, NEAR_CELLS)
+    cells[1:near] = _gauss_cells(np.arange(1, near), k, NEAR_RULE)
+    cells[near:] = _gauss_cells(np.arange(near, count), k, FAR_RULE)
     return cells
 
 
-def _gauss_cells(centres: np.ndarray, k: float, points: int) -> np.ndarray:
+def _gauss_cells(centres: np.ndarray, k: float, rule) -> np.ndarray:
     from scipy.special import k0
-    node, weight = np.polynomial.legendre.leggauss(points)
+    node, weight = rule
     return k0(k * (centres[:, None] + node / 2)) @ (weight / 2)
