@@ -109,14 +109,15 @@ def convergence(pairs: list[Pair], level: str):
                 source,
                 AT_LEAST,
             )
-    yield plotting.convergence(
-        "ehl_convergence",
-        "Film of the full-system finite elements against lubfric, root mean square "
-        "over the contact in flow films, against the smallest cell.",
-        series,
-        "smallest cell / Hertz half-width",
-        "film difference / flow film",
-    )
+    for L in (5, 10):
+        yield plotting.convergence(
+            f"ehl_convergence_L{L}",
+            f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
+            "contact in flow films, against the smallest cell.",
+            {pair.label: series[pair.label] for pair in pairs if pair.point[1] == L},
+            "smallest cell / Hertz half-width",
+            "film difference / flow film",
+        )
 
 
 def ringing():
