@@ -51,20 +51,10 @@ class Pair:
         )
 
 
-@dataclass(frozen=True)
-class MineralOil(Fluid):
-    """With Dowson & Higginson's density as `lubfric` has it; the rounded form of `Fluid` moves the film by
-    0.1 %."""
-
-    def rho(self, p):
-        """Density relative to that at p = 0."""
-        return (5.9e8 + 1.34 * p) / (5.9e8 + p) if self.density_law == "dowson_higginson" else super().rho(p)
-
-
 def make_contact(M: float, L: float, density: str = CONSTANT) -> LineContact:
     """A steel contact with Moes' numbers M and L > 0, Roelands oil."""
     speed_number = (L / (ALPHA * E_PRIME)) ** 4
-    fluid = MineralOil(VISCOSITY, "roelands", ALPHA, density_law=density.replace("-", "_"))
+    fluid = Fluid(VISCOSITY, "roelands", ALPHA, density_law=density.replace("-", "_"))
     return LineContact(
         M * math.sqrt(speed_number) * E_PRIME * RADIUS,
         RADIUS,
