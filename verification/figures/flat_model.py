@@ -8,37 +8,74 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from lubfric.contact_curve import ContactCurve
 from lubfric.ehl import solve_ehl
 from lubfric.scene import Scene
 from lubfric.shear import shear_force
 
 SHARES = np.geomspace(1e-4, 1.0, 13)      # F_H/F_T of the table
 POINTS = 128
+FINE = 600
 
 
 @dataclass(frozen=True)
 class FilmTable:
     """One load and one speed: mean film over the Hertz strip [m], shear force F_sh/F_T without contact, and the
-    part of it inside the strip, at the film shares ``SHARES``."""
+    part of it inside the strip, at the film shares ``SHARES``; read off a fine table."""
 
     film: np.ndarray
     shear: np.ndarray
     strip_shear: np.ndarray
 
-    def film_at(self, share: float) -> float:
-        """Mean film [m] at F_H/F_T, cubic in logarithms."""
+    @cached_property
+    def fine(self) -> tuple[np.ndarray, np.ndarray]:
+        """ln(F_H/F_T), and ln film, ln shear, strip part of the shear there: cubic between the nodes."""
         from scipy.interpolate import PchipInterpolator
-        return math.exp(PchipInterpolator(np.log(SHARES), np.log(self.film))(math.log(max(share, SHARES[0]))))
+        x = np.linspace(np.log(SHARES[0]), 0.0, FINE)
+        nodes = np.stack([np.log(self.film), np.log(self.shear), self.strip_shear / self.shear])
+        return x, PchipInterpolator(np.log(SHARES), nodes, axis=1)(x)
+
+    def film_at(self, share: float) -> float:
+        """Mean film [m] at F_H/F_T."""
+        x, values = self.fine
+        return math.exp(np.interp(math.log(share), x, values[0]))
 
     def shear_at(self, share: float, contact_fraction: float) -> float:
         """F_sh/F_T when ``contact_fraction`` of the strip is in contact: linear in that fraction."""
-        from scipy.interpolate import PchipInterpolator
-        table = np.stack([np.log(self.shear), self.strip_shear / self.shear])
-        whole, inside = PchipInterpolator(np.log(SHARES), table, axis=1)(math.log(max(share, SHARES[0])))
+        x, values = self.fine
+        whole, inside = (np.interp(math.log(share), x, v) for v in values[1:])
         return math.exp(whole) * (1 - contact_fraction * inside)
+
+
+@dataclass(frozen=True)
+class GapTable:
+    """A contact curve read off a fine table: ``most`` [Pa] it carries, ``touching_gap`` [m]."""
+
+    log_pressure: np.ndarray
+    gap: np.ndarray
+    area: np.ndarray
+    touching_gap: float
+    most: float
+
+    def at(self, pressure: float) -> tuple[float, float]:
+        """Mean gap [m] and contact area fraction; linear in the pressure below the table."""
+        x = math.log(max(pressure, 1e-300))
+        if x >= self.log_pressure[0]:
+            return float(np.interp(x, self.log_pressure, self.gap)), float(np.interp(x, self.log_pressure, self.area))
+        share = pressure / math.exp(self.log_pressure[0])
+        return self.touching_gap - share * (self.touching_gap - self.gap[0]), share * self.area[0]
+
+
+def tabulated(curve: ContactCurve) -> GapTable:
+    """`GapTable` of a contact curve, from 1e-7 of the heaviest pressure up."""
+    most = float(curve.mean_pressure[0])
+    x = np.linspace(math.log(1e-7 * most), math.log(most) - 1e-12, FINE // 3)
+    gap, area, _ = np.array([curve.at(math.exp(v)) for v in x]).T
+    return GapTable(x, gap, area, curve.touching_gap, most)
 
 
 def at_mean_pressure(scene: Scene, mean_pressure: float) -> Scene:
@@ -87,12 +124,12 @@ class Shared:
     contact_fraction: float
 
 
-def share(table: FilmTable, curve, mean_pressure: float, boundary_friction: float) -> Shared:
+def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_friction: float) -> Shared:
     """Balance of load and volume: mean gap of the contact curve = mean film, contact pressure = total - film share."""
     from scipy.optimize import brentq
     if table.film_at(1.0) >= curve.touching_gap:
         return Shared(table.shear_at(1.0, 0.0), 1.0, 0.0)
-    most = float(curve.mean_pressure[0])
+    most = curve.most
     least_share = max(1 - most / mean_pressure, SHARES[0]) * (1 + 1e-12)
 
     def surplus(split):
