@@ -15,7 +15,7 @@ from .run import run
 from .studies import STUDIES, Study
 
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
-SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures"}
+SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "mutations": "verification.mutations"}
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -36,4 +36,9 @@ STUDIES: tuple[Study, ...] = (
     Study("reynolds_surface", "verification.studies.reynolds_surface:reynolds_surface",
           "Reynolds equation on a surface"),
     Study("ehl", "verification.studies.ehl:ehl", "Smooth EHL line contact, full-system finite elements"),
+    Study("contact_grid", "verification.studies.contact_grid:contact_grid", "Dry contact of lubfric on ever finer grids"),
+    Study("ehl_grid", "verification.studies.ehl_grid:ehl_grid", "Smooth film of lubfric on ever finer grids"),
+    Study("friction", "verification.studies.friction:friction", "The whole job of lubfric: grid, patch, area, tolerance"),
+    Study("load_sharing", "verification.studies.load_sharing:load_sharing",
+          "Load sharing, both halves by finite elements"),
 )
