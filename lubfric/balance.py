@@ -17,13 +17,17 @@ NEARLY_SEPARATED = 3.0     # where to look next to a speed at which the film car
 
 @dataclass(frozen=True)
 class Balance:
-    """One operating point in balance; film is None without entrainment. Loads in N."""
+    """One operating point in balance; film is None without entrainment. Loads in N.
+
+    slope: of the residual over ``split``, from the last two points of the root (None: not known).
+    """
 
     film_load: float
     contact_load: float
     film: EHLResult | None
     closure: Closure
     report: Report
+    slope: float | None = None
 
     @property
     def split(self) -> float:
@@ -33,21 +37,23 @@ class Balance:
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
 
-def share_load(total_load, solve_film, close, *, guess, tolerance, start=None) -> Balance:
+def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, shift=0.0, touching=False) -> Balance:
     """Divide ``total_load`` [N] between film and contact.
 
     ``solve_film(load, start)`` gives the film at a load [N]; ``close(film, contact_load, start)`` the
     `Closure` of the rough contact under it. The volume residual (gap - film)/(gap + film) increases
     with the film's share, so ln(F_H/F_C) has one root; the load balance holds by construction.
-    Stops at |residual| <= tolerance. ``guess``: of ln(F_H/F_C); ``start``: a neighbouring Balance.
+    Stops at |residual| <= tolerance. ``guess``: of ln(F_H/F_C); ``start``: a neighbouring Balance, its ln(F_H/F_C)
+    moved by ``shift``; ``touching``: it is known that the film of the whole load does not clear the summits.
     """
-    film = solve_film(total_load, start.film if start else None)
-    closure = close(film, 0.0, None)
-    if closure.volume_residual <= 0:
-        return Balance(total_load, 0.0, film, closure, _report([abs(0.0)], CONVERGED, tolerance, film, closure,
-                                                               "separated: the film clears the summits"))
-    last = {"film": start.film if start and start.film else film,
-            "contact": start.closure.contact if start else None}
+    film = start.film if start else None
+    if not touching:
+        whole = separated(total_load, solve_film, close, tolerance, film)
+        if whole.closure.volume_residual <= 0:
+            return whole
+        film = film or whole.film
+    last = {"film": film, "contact": start.closure.contact if start else None}
+    seen = []
 
     def residual(split):
         film_load = total_load / (1 + math.exp(-split))
@@ -55,16 +61,34 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None) -
         film = solve_film(film_load, last["film"])
         closure = close(film, contact_load, last["contact"])
         last.update(film=film, contact=closure.contact)
+        seen.append((split, closure.volume_residual))
         return closure.volume_residual, (film_load, contact_load, film, closure)
 
-    root = increasing_root(residual, start.split if start else guess, step=0.7 if start else 1.5,
-                           bounds=BOUNDS, tolerance=tolerance)
+    root = increasing_root(residual, start.split + shift if start else guess, step=0.7 if start else 1.5,
+                           bounds=BOUNDS, tolerance=tolerance, slope=start.slope if start else None)
     film_load, contact_load, film, closure = root.payload
     report = _report(root.history, root.status, tolerance, film, closure)
-    return Balance(film_load, contact_load, film, closure, report)
+    return Balance(film_load, contact_load, film, closure, report, _slope(seen) or (start.slope if start else None))
 
 
-def share_by_separation(total_load, solve_film, close, carry, *, guess, tolerance, start=None) -> Balance:
+def separated(total_load, solve_film, close, tolerance, start_film=None) -> Balance:
+    """All the load on the film: in balance, with no contact, where its closure has a volume residual <= 0."""
+    film = solve_film(total_load, start_film)
+    closure = close(film, 0.0, None)
+    return Balance(total_load, 0.0, film, closure, _report([0.0], CONVERGED, tolerance, film, closure,
+                                                           "separated: the film clears the summits"))
+
+
+def _slope(seen) -> float | None:
+    """Of the last two points; None where they tell nothing."""
+    if len(seen) < 2:
+        return None
+    (a, fa), (b, fb) = seen[-2:]
+    return (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
+
+
+def share_by_separation(total_load, solve_film, close, carry, *, guess, tolerance, start=None, shift=0.0,
+                        touching=False) -> Balance:
     """Divide ``total_load`` [N] the paper's way: a film load gives a film, which imposed on the contact gives its load.
 
     ``carry(film, start)`` gives (contact load [N], `Closure`); the volume balance holds by construction and
@@ -72,13 +96,13 @@ def share_by_separation(total_load, solve_film, close, carry, *, guess, toleranc
     clears the surface, and the rest as in `share_load`. The search begins at thicker films than the guess: a film
     far too thin would press the contact flat.
     """
-    film = solve_film(total_load, start.film if start else None)
-    closure = close(film, 0.0, None)
-    if closure.volume_residual <= 0:
-        return Balance(total_load, 0.0, film, closure, _report([0.0], CONVERGED, tolerance, film, closure,
-                                                               "separated: the film clears the summits"))
-    last = {"film": start.film if start and start.film else film,
-            "contact": start.closure.contact if start else None}
+    film = start.film if start else None
+    if not touching:
+        whole = separated(total_load, solve_film, close, tolerance, film)
+        if whole.closure.volume_residual <= 0:
+            return whole
+        film = film or whole.film
+    last = {"film": film, "contact": start.closure.contact if start else None}
 
     def residual(split):
         film_load = total_load / (1 + math.exp(-split))
@@ -87,7 +111,7 @@ def share_by_separation(total_load, solve_film, close, carry, *, guess, toleranc
         last.update(film=film, contact=closure.contact or last["contact"])
         return math.log((contact_load + film_load) / total_load), (film_load, contact_load, film, closure)
 
-    root = increasing_root(residual, (start.split if start else guess) - THICKER, step=0.7, bounds=BOUNDS,
+    root = increasing_root(residual, (start.split + shift if start else guess) - THICKER, step=0.7, bounds=BOUNDS,
                            tolerance=tolerance)
     film_load, contact_load, film, closure = root.payload
     report = _report(root.history, root.status, tolerance, film, closure)

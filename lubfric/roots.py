@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from .report import CONVERGED, ITERATION_LIMIT
 
+OVERSHOOT = 1.4        # of the step that a known slope asks for
+
 
 @dataclass(frozen=True)
 class Root:
@@ -19,11 +21,12 @@ class Root:
 
 
 def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float], tolerance: float,
-                    max_evaluations: int = 60) -> Root:
+                    slope: float | None = None, max_evaluations: int = 60) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
     ``f(x)`` returns (value, payload); stops when |value| <= tolerance. The bracket grows by
-    doubled steps inside ``bounds``; a function of one sign there ends with "iteration_limit".
+    doubled steps inside ``bounds``; a function of one sign there ends with "iteration_limit". Where ``slope`` is
+    roughly known, the first step is the one that should pass the root a little, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145, doi:10.1016/S0965-9978(96)00051-8.
     """
     history, best = [], None
@@ -49,6 +52,8 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
             lower = (x, value)
         else:
             upper = (x, value)
+        if slope and len(history) == 1:
+            step = min(step, OVERSHOOT * abs(value) / slope)
         if not done_bracketing(lower, upper):
             edge = bounds[1] if upper is None else bounds[0]
             if x == edge:

@@ -18,6 +18,10 @@ CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 CLOSURES = ("load", "separation")
 FILM_DEFLECTIONS = ("hydrodynamic", "scaled")
+MODELS = ("auto", "full")
+FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
+CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
+GRIDS = ("auto", "given")
 
 
 @dataclass(frozen=True)
@@ -163,6 +167,9 @@ class Numerics:
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
     of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled").
+
+    What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
+    scene's own grid. film_level, contact_level, grid: a level given by name instead.
     """
 
     tolerance: float = 0.01
@@ -173,8 +180,15 @@ class Numerics:
     workers: int = 1
     closure: str = "load"
     film_deflection: str = "hydrodynamic"
+    model: str = "auto"
+    film_level: str = "auto"
+    contact_level: str = "auto"
+    grid: str = "auto"
 
     def __post_init__(self):
+        for name, options in (("model", MODELS), ("film_level", FILM_LEVELS), ("contact_level", CONTACT_LEVELS),
+                              ("grid", GRIDS)):
+            validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
         validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
         validate.number("numerics.tolerance", self.tolerance, "(-)", above=0, maximum=0.2)

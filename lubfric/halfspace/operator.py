@@ -57,6 +57,19 @@ class HalfSpace:
         symbol = np.ascontiguousarray(self.symbol[:padded[0] // 2 + 1, :padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
+    def shortened(self, count: int) -> HalfSpace:
+        """The same cells on the first ``count`` of a free axis x: an exact part of this operator, in the same gauge.
+
+        Raises `InputError` unless x is free and ``count`` at most as long as it is.
+        """
+        if self.boundary[0] != "free" or not 1 <= count <= self.shape[0]:
+            raise InputError(f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
+                             "all cells of a free axis")
+        coefficients = fft.irfft(self.symbol, n=self.padded[0], axis=0)[:count]
+        length = _padded_length(count)
+        return replace(self, shape=(count, self.shape[1]), padded=(length, self.padded[1]),
+                       symbol=_even_transform(coefficients, length, axis=0))
+
 
 def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
     """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back."""

@@ -1,0 +1,55 @@
+"""A contact patch on coarser and shorter grids."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..contact.problem import COARSEST
+from ..patch import CylinderPatch, strip_weight
+
+MARGIN = 0.1               # of the length in contact, kept free on each side
+MARGIN_CELLS = 4
+
+
+def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch | None:
+    """The patch on cells twice as long and wide (an axis of too few or odd cells is kept), its heights averaged.
+
+    half_width [m] of the area A (None: all of the patch). None where neither axis can be halved.
+    """
+    operator = patch.operator
+    factors = tuple(2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
+                    for kept, padded in zip(operator.shape, operator.padded))
+    if factors == (1, 1):
+        return None
+    (nx, ny), (fx, fy) = operator.shape, factors
+    heights = patch.heights.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
+    x = patch.x.reshape(-1, fx).mean(axis=1)
+    coarse = operator.coarsened(factors)
+    return replace(patch, heights=heights, spacing=coarse.spacing, x=x, operator=coarse,
+                   region_weight=_weight(x, coarse.spacing[0], half_width))
+
+
+def in_contact(patch: CylinderPatch, pressure: np.ndarray) -> tuple[float, float]:
+    """Ends [m] of the part of x where contact may be on a finer grid: touched columns and area A, and a margin."""
+    used = np.flatnonzero(pressure.any(axis=1) | (patch.region_weight > 0))
+    low, high = patch.x[used[0]], patch.x[used[-1]]
+    margin = MARGIN * (high - low) + MARGIN_CELLS * patch.spacing[0]
+    return float(low - margin), float(high + margin)
+
+
+def cut(patch: CylinderPatch, ends: tuple[float, float], half_width: float | None) -> CylinderPatch:
+    """The columns of ``patch`` between ``ends`` [m], a whole number of fours; the patch itself where all are needed."""
+    first, last = np.searchsorted(patch.x, ends)
+    count = min(4 * -(-max(int(last - first), COARSEST) // 4), patch.x.size)
+    if count > 0.9 * patch.x.size:
+        return patch
+    first = int(min(max(0, first), patch.x.size - count))
+    keep = slice(first, first + count)
+    return replace(patch, heights=patch.heights[keep], x=patch.x[keep], region_weight=patch.region_weight[keep],
+                   operator=patch.operator.shortened(count))
+
+
+def _weight(x, step, half_width) -> np.ndarray:
+    return np.ones(x.size) if half_width is None else strip_weight(x, step, half_width)
