@@ -1,0 +1,268 @@
+"""Hertz line contact on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import lubfric
+
+from .. import plotting
+from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Table
+from ..fem.compliance import Elastic, curvature_number
+from ..fem.contact import Contact, solve_contact
+from ..fem.layer import Layer, graded_mesh, make_layer
+from ..meshes import mesh_field
+from ..rates import fitted_order
+
+E_PRIME, RADIUS, LINE_LOAD = 231e9, 2e-3, 5.5 / 6e-3
+BODY = Elastic.from_e_prime(E_PRIME, 0.3)
+B = float(np.sqrt(8 * LINE_LOAD * RADIUS / (np.pi * E_PRIME)))
+PEAK = 2 * LINE_LOAD / (np.pi * B)
+CAP = 0.7 * PEAK
+HERTZ = "Hertz line contact, closed form (Johnson 1985, Contact Mechanics, ch. 4)"
+DRY = "lubfric.solve_contact"
+
+
+def contact(level: str):
+    """A cylinder pressed on the elastic layer, against Hertz and against `lubfric.solve_contact`.
+
+    The finite elements bring their own elasticity (plane strain, a layer, no kernel) and their own contact
+    algorithm (a node is off, touching or at the cap; each step solves the touching ones exactly). The layer is 40
+    half-widths thick, which raises the peak pressure by J b²/(4 d²) = 0.02 %; a study of the thickness shows it.
+    """
+    yield from hertz(level)
+    yield from thickness()
+
+
+def hertz_layer(depth: float, fine: float, degree: int) -> Layer:
+    """A layer ``depth`` half-widths thick with cells of ``fine`` half-widths below the contact."""
+    mesh = graded_mesh(8 * depth * B, depth * B, 1.5 * B, fine * B, growth=4 * fine)
+    return make_layer(mesh, BODY, degree=degree, strip=1.5 * B)
+
+
+def press(found: Layer, load: float = LINE_LOAD, limit: float | None = None) -> Contact:
+    """A cylinder of RADIUS on the layer."""
+    compliance = found.compliance
+    return solve_contact(
+        lambda f: compliance @ f, found.weights, found.x**2 / (2 * RADIUS), load, limit=limit, tolerance=1e-9
+    )
+
+
+def norm(found: Layer, values) -> float:
+    """Root of the integral of the square over the surface."""
+    return float(np.sqrt(found.weights @ np.square(values)))
+
+
+def hertz_pressure(x, load: float):
+    """Pa, of the cylinder on the half-space."""
+    b = B * np.sqrt(load / LINE_LOAD)
+    return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
+
+
+def line_contact(cells: int, limit: float | None = None):
+    """(x, result) of `lubfric` with so many cells across the Hertz width, in a box of twice that."""
+    step = 2 * B / cells
+    x = (np.arange(2 * cells) - cells + 0.5) * step
+    gap0 = np.repeat((x**2 / (2 * RADIUS))[:, None], 2, axis=1)
+    mean = LINE_LOAD / (2 * cells * step)
+    return x, lubfric.solve_contact(
+        gap0, step, E_PRIME, mean_pressure=mean, hardness=limit, boundary=("free", "periodic"), tolerance=1e-8
+    )
+
+
+def half_width(x, pressure) -> float:
+    """Where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
+    high = pressure > 0.3 * pressure.max()
+    slope, top = np.polyfit(x[high] ** 2, pressure[high] ** 2, 1)
+    return float(np.sqrt(-top / slope))
+
+
+def hertz(level: str):
+    """Hertz pressure: orders, and the finest mesh against the closed form and `lubfric`."""
+    fines = 0.4 / 2.0 ** np.arange({"quick": 3, "default": 4, "full": 5}[level])
+    rows, series = [], {}
+    x, smooth = line_contact(400)
+    for degree in (2,) if level == "quick" else (1, 2):
+        errors, off = [], []
+        for fine in fines:
+            found = hertz_layer(40, fine, degree)
+            p = press(found)
+            other = np.interp(found.x, x, smooth.pressure[:, 0])
+            errors.append(edge_mean_error(found, fine))
+            off.append(norm(found, p.pressure - other) / norm(found, other))
+            rows.append(
+                (
+                    f"P{degree}",
+                    found.x.size,
+                    fine,
+                    errors[-1],
+                    off[-1],
+                    p.pressure.max() / PEAK,
+                    p.report.iterations,
+                )
+            )
+        series[f"P{degree}"] = (fines, errors, 1)
+        yield Check(
+            f"Hertz line P{degree}: order of the pressure error",
+            fitted_order(fines, errors),
+            1,
+            0.3,
+            "an edge like a square root somewhere in a cell",
+            AT_LEAST,
+            note="L2, root mean square over edges across a cell",
+        )
+    yield from hertz_checks(found, p, x, smooth, off, level)
+    yield Table(
+        "contact_hertz",
+        "Cylinder on a layer 40 half-widths thick",
+        ("element", "nodes", "cell / b", "error, Hertz", "difference, lubfric", "peak / Hertz", "iterations"),
+        rows,
+    )
+    yield plotting.convergence(
+        "contact_hertz",
+        "Hertz line contact: error of the pressure in the L2 norm, relative, root mean square over five "
+        "loads that put the edge of the contact at different places of a cell. Dotted: order 1.",
+        series,
+        "cell length / b",
+        "relative pressure error",
+    )
+    yield from capped_cylinder(found, p, x, smooth, level)
+
+
+def edge_mean_error(found: Layer, fine: float) -> float:
+    """Relative L2 error of the pressure, root mean square over loads that move the edge through one cell."""
+    errors = []
+    for shift in np.arange(5) / 5:
+        load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2
+        exact = hertz_pressure(found.x, load)
+        errors.append(norm(found, press(found, load).pressure - exact) / norm(found, exact))
+    return float(np.sqrt(np.mean(np.square(errors))))
+
+
+def hertz_checks(found: Layer, p: Contact, x, smooth, off, level: str):
+    """The finest P2 mesh."""
+    wide = 3 if level == "quick" else 1
+    yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
+    yield Check("Hertz line P2: half-width", half_width(found.x, p.pressure), B, 5e-3, HERTZ, unit="m")
+    yield Check(
+        "Hertz line P2: peak pressure beside lubfric",
+        p.pressure.max(),
+        smooth.pressure.max(),
+        5e-3,
+        DRY,
+        unit="Pa",
+    )
+    yield Check(
+        "Hertz line P2: half-width beside lubfric",
+        half_width(found.x, p.pressure),
+        half_width(x, smooth.pressure[:, 0]),
+        5e-3,
+        DRY,
+        unit="m",
+    )
+    yield Check(
+        "Hertz line P2: pressure difference to lubfric", off[-1], 0, wide * 5e-3, DRY, AT_MOST, note="L2"
+    )
+    yield Check(
+        "Hertz line P2: the difference shrinks, finest over coarsest mesh",
+        off[-1] / off[0],
+        0.5,
+        0,
+        "refinement brings the two together",
+        AT_MOST,
+    )
+
+
+def capped_cylinder(found: Layer, elastic: Contact, x, smooth, level: str):
+    """The cylinder with pressures cut at 0.7 of the Hertz peak."""
+    p = press(found, limit=CAP)
+    _, other = line_contact(400, CAP)
+    capped = np.interp(found.x, x, other.pressure[:, 0])
+    step = x[1] - x[0]
+    yield Check(
+        "capped Hertz line: width at the cap",
+        found.weights @ p.saturated,
+        step * np.count_nonzero(other.pressure[:, 0] >= CAP),
+        0.04 if level == "quick" else 0.015,
+        DRY,
+        unit="m",
+        note="cap 0.7 of the elastic peak; counts of whole cells on both sides",
+    )
+    yield Check(
+        "capped Hertz line: pressure difference to lubfric",
+        norm(found, p.pressure - capped) / norm(found, capped),
+        0,
+        0.015 if level == "quick" else 5e-3,
+        DRY,
+        AT_MOST,
+        note="L2",
+    )
+    canvas, ax = plotting.axes(height=3.6)
+    for q, style, label in ((elastic, "o", "finite elements"), (p, "s", "finite elements, capped")):
+        ax.plot(found.x[::4] / B, q.pressure[::4] / PEAK, style, markersize=3, label=label)
+    ax.plot(x / B, smooth.pressure[:, 0] / PEAK, "k-", linewidth=1, label="lubfric")
+    ax.plot(x / B, other.pressure[:, 0] / PEAK, "k--", linewidth=1, label="lubfric, capped")
+    ax.set(xlabel="x/b", ylabel="pressure / Hertz peak", xlim=(-1.5, 1.5))
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.1))
+    yield plotting.finish(
+        "contact_line", canvas, "Cylinder on the layer, elastic and with a cap on the pressure."
+    )
+    sigma = found.stress(elastic.pressure * found.weights)
+    mises = np.sqrt(np.maximum(plane_mises(sigma, BODY.poisson), 0))
+    data = dict(zip(("sigma_xx", "sigma_zz", "sigma_xz"), sigma, strict=True), von_mises=mises)
+    yield mesh_field("contact_line_stress", "Stress under the cylinder, Pa", found.basis.mesh, data)
+    yield from axis_stress(found, sigma)
+
+
+def axis_stress(found: Layer, sigma):
+    """Stresses on the axis against the closed form."""
+    x, z = found.basis.mesh.p / B
+    at = (np.abs(x) < 1e-9) & (z < -0.2) & (z > -3)
+    root = np.sqrt(1 + z[at] ** 2)
+    exact = -np.array([(1 + 2 * z[at] ** 2) / root + 2 * z[at], 1 / root])
+    off = sigma[:2, at] / PEAK - exact
+    even = off[0].mean()
+    note = "depths of 0.2 to 3 half-widths, over the peak pressure, projected on the vertices"
+    yield Check(
+        "Hertz line: axial stress on the axis", np.abs(off[1]).max(), 0, 5e-3, HERTZ, AT_MOST, note=note
+    )
+    yield Check(
+        "Hertz line: lateral stress on the axis",
+        np.abs(off[0] - even).max(),
+        0,
+        5e-3,
+        HERTZ,
+        AT_MOST,
+        note=f"less an even {even:.3f} of the peak, which the base holds back and which falls like b/d",
+    )
+
+
+def plane_mises(sigma, poisson: float):
+    """Square of the von Mises stress in plane strain."""
+    xx, zz, xz = sigma
+    yy = poisson * (xx + zz)
+    return ((xx - zz) ** 2 + (zz - yy) ** 2 + (yy - xx) ** 2) / 2 + 3 * xz**2
+
+
+def thickness():
+    """Peak pressure against the thickness of the layer."""
+    depths = np.array([5.0, 10.0, 20.0])
+    fine = 0.1
+    number, base = curvature_number(BODY.poisson), press(hertz_layer(80, fine, 2)).pressure.max()
+    rise = np.array([press(hertz_layer(d, fine, 2)).pressure.max() / base - 1 for d in depths])
+    expected = np.sqrt((1 + number / (2 * depths**2)) / (1 + number / (2 * 80.0**2))) - 1
+    yield Table(
+        "contact_thickness",
+        "Peak pressure of the cylinder on layers, over that on one of 80 half-widths",
+        ("d / b", "rise of the peak", "expected from J b²/(2 d²)"),
+        list(zip(depths, rise, expected, strict=True)),
+    )
+    yield Check(
+        "Hertz line: order in 1/d of the rise of the peak",
+        -fitted_order(depths, rise),
+        2,
+        0.15,
+        "curvature added by the layer, J b²/(2 d²)",
+        ABSOLUTE,
+    )
+    yield Check("Hertz line: rise of the peak at d = 10 b", rise[1], expected[1], 0.05, "J b²/(4 d²)")

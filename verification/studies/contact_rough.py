@@ -1,0 +1,310 @@
+"""A rough periodic patch on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import MeshQuad
+
+import lubfric
+
+from .. import plotting
+from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Table
+from ..fem.compliance import Elastic, missing
+from ..fem.contact import solve_contact
+from ..fem.layer3d import Layer3D, graded_levels, multigrid, solve
+from ..fem.layer_waves import fourier_compliance
+from ..meshes import mesh_field
+from ..rates import fitted_order
+
+E_PRIME = 231e9
+BODY = Elastic.from_e_prime(E_PRIME, 0.3)
+BOX, SQ, MEAN_PRESSURE, CAP = 50e-6, 100e-9, 300e6, 1.5e9
+THICKNESS = 1.25  # of the box
+DRY = "lubfric.solve_contact"
+NODES = {"quick": (32, 64), "default": (32, 64, 128), "full": (32, 64, 128, 256)}
+REFERENCE = {"quick": 256, "default": 512, "full": 1024}
+
+
+def contact_rough(level: str):
+    """A rough periodic patch pressed on a layer of bricks, against `lubfric.solve_contact`.
+
+    A box of 50 µm with waves down to a quarter of it, on a layer of 1.25 boxes, whose longest wave is too stiff
+    by 2e-5; the approach to the half-space with the thickness is shown. The contact is solved wave by wave, and
+    its pressure then put as a load on the assembled layer, where multigrid has to find the same gap. Contact
+    areas are counts of nodes, too large by a part of a node along every edge; both sides are corrected alike by
+    the length of the edges (Yastrebov, Anciaux & Molinari 2017, doi:10.1016/j.triboint.2017.04.023).
+    """
+    yield from rough(level)
+    yield from thickness(level)
+    yield from certified(level)
+
+
+def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
+    """Heights in m, root mean square SQ: waves of random phase, 1 to ``waves`` per box, amplitude |n|^slope."""
+    phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
+    total, power = np.zeros(np.broadcast_shapes(x.shape, y.shape)), 0.0
+    for i in range(waves + 1):
+        for j in range(-waves, waves + 1):
+            n = np.hypot(i, j)
+            if not 1 <= n <= waves or (i == 0 and j < 0):
+                continue
+            total += n**slope * np.cos(2 * np.pi * (i * x + j * y) / BOX + phases[i, j])
+            power += n ** (2 * slope) / 2
+    return SQ * total / np.sqrt(power)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Fields (nodes, nodes) of one rough contact, whichever solver they come from."""
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    weights: np.ndarray
+    limit: float = np.inf
+
+    @property
+    def touching(self) -> np.ndarray:
+        """Where there is pressure."""
+        return self.pressure > 0
+
+    @property
+    def area(self) -> float:
+        """Contact area over the box, corrected for whole nodes along its edges."""
+        return corrected_area(self.touching)
+
+    @property
+    def plastic_area(self) -> float:
+        """Share of the nodes at the cap; pressure reaches it with a kink, and no correction is known."""
+        return float(np.mean(self.pressure >= (1 - 1e-9) * self.limit))
+
+    @property
+    def mean_gap(self) -> float:
+        """Volume between the bodies over the area of the box, m."""
+        return float(np.sum(self.weights * np.maximum(self.gap, 0)) / np.sum(self.weights))
+
+
+def corrected_area(mask) -> float:
+    """Share of the grid, less ``(pi - 1 + ln 2)/24`` spacings for every length of edge."""
+    edges = sum(np.count_nonzero(mask != np.roll(mask, 1, axis)) for axis in (0, 1))
+    return float(np.count_nonzero(mask) - (np.pi - 1 + np.log(2)) / 24 * edges) / mask.size
+
+
+def layer_of(nodes: int, degree: int, depth: float = THICKNESS, layers: int | None = None) -> Layer3D:
+    """The periodic layer under the box, ``depth`` boxes thick."""
+    levels = graded_levels(depth * BOX, layers or nodes // (2 * degree), 6.0)
+    return Layer3D(BODY, (BOX, BOX), levels, (nodes, nodes), degree)
+
+
+def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
+    """The rough patch on the layer."""
+    weights = grid.weights
+    found = solve_contact(
+        fourier_compliance(grid).displacement,
+        weights.ravel(),
+        -roughness(*grid.x).ravel(),
+        MEAN_PRESSURE * BOX**2,
+        limit=limit,
+    )
+    return Patch(
+        found.pressure.reshape(grid.shape),
+        found.gap.reshape(grid.shape),
+        weights,
+        np.inf if limit is None else limit,
+    )
+
+
+def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
+    """The same by `lubfric`."""
+    x = np.arange(nodes) * BOX / nodes
+    found = lubfric.solve_contact(
+        -roughness(x[:, None], x[None]),
+        BOX / nodes,
+        E_PRIME,
+        mean_pressure=MEAN_PRESSURE,
+        hardness=limit,
+        tolerance=1e-8,
+    )
+    return Patch(found.pressure, found.gap, np.ones_like(found.gap), np.inf if limit is None else limit)
+
+
+def rough(level: str):
+    """Rough patch, elastic and capped, on several grids."""
+    rows = []
+    for name, limit in (("elastic", None), ("capped", CAP)):
+        best = half_space_patch(REFERENCE[level], limit)
+        patches = [press_patch(layer_of(n, 2), limit) for n in NODES[level]]
+        off = [patch_difference(p, best) for p in patches]
+        rows += [patch_row(f"{name}, finite elements", p, o) for p, o in zip(patches, off, strict=True)]
+        rows.append(patch_row(f"{name}, lubfric", best, 0.0))
+        yield from patch_checks(name, patches, best, off)
+        if limit is None:
+            yield patch_figure(patches[-1], best)
+            yield patch_field(patches[-1], best)
+    yield Table(
+        "contact_rough",
+        f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure "
+        f"{MEAN_PRESSURE / 1e6:g} MPa, cap {CAP / 1e9:g} GPa; triquadratic bricks",
+        ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference"),
+        rows,
+    )
+
+
+def patch_difference(p: Patch, best: Patch) -> float:
+    """Relative L2 difference of the pressures at the nodes of the coarser grid."""
+    every = best.pressure.shape[0] // p.pressure.shape[0]
+    other = best.pressure[::every, ::every]
+    return float(np.sqrt(np.sum(p.weights * (p.pressure - other) ** 2) / np.sum(p.weights * other**2)))
+
+
+def patch_row(name: str, p: Patch, off: float) -> tuple:
+    """A line of the table."""
+    return (name, f"{p.gap.shape[0]}²", p.area, p.plastic_area, p.mean_gap / SQ, off)
+
+
+def patch_checks(name: str, patches, best: Patch, off):
+    """Area, mean gap and pressure beside `lubfric`."""
+    finest, nodes = patches[-1], patches[-1].gap.shape[0]
+    label, other = f"rough patch, {name}, {nodes}²", f"{DRY}, {best.gap.shape[0]}²"
+    yield Check(f"{label}: contact area", finest.area, best.area, 0.02, other)
+    yield Check(f"{label}: mean gap", finest.mean_gap, best.mean_gap, 5e-3, other, unit="m")
+    if np.isfinite(finest.limit):
+        yield Check(f"{label}: area at the cap", finest.plastic_area, best.plastic_area, 4 / nodes, other)
+    yield Check(
+        f"{label}: order of the pressure difference",
+        fitted_order([1 / p.gap.shape[0] for p in patches], off),
+        1,
+        0.4,
+        "edges like a square root, at places the grid does not know",
+        AT_LEAST,
+    )
+    yield Check(f"{label}: pressure difference", off[-1], 0, 2 / nodes, other, AT_MOST, note="L2")
+
+
+def patch_figure(p: Patch, best: Patch):
+    """Pressures of both and their difference."""
+    every = best.pressure.shape[0] // p.pressure.shape[0]
+    other, top = best.pressure[::every, ::every] / 1e9, best.pressure.max() / 1e9
+    canvas, axes = plotting.axes(1, 3, width=9.0, height=3.1, sharey=True)
+    ends = (0, BOX * 1e6, 0, BOX * 1e6)
+    maps = (
+        (p.pressure / 1e9, "finite elements"),
+        (other, "lubfric"),
+        (p.pressure / 1e9 - other, "difference"),
+    )
+    for ax, (values, title) in zip(axes, maps, strict=True):
+        reach = (0, top) if title != "difference" else np.array([-1, 1]) * np.abs(values).max()
+        image = ax.imshow(
+            values.T,
+            origin="lower",
+            extent=ends,
+            vmin=reach[0],
+            vmax=reach[1],
+            cmap="RdBu_r" if title == "difference" else "viridis",
+        )
+        ax.grid(False)
+        ax.set(title=title, xlabel="x (µm)")
+        canvas.colorbar(image, ax=ax, shrink=0.75, label="GPa")
+    axes[0].set(ylabel="y (µm)")
+    return plotting.finish(
+        "contact_rough",
+        canvas,
+        f"Rough patch, {p.gap.shape[0]}² nodes: pressure of both solvers at the nodes. What "
+        "differs sits on the edges of the contact spots.",
+        "png",
+    )
+
+
+def patch_field(p: Patch, best: Patch):
+    """Pressure and gap of both on the surface, and the differences."""
+    n = p.gap.shape[0]
+    every = best.pressure.shape[0] // n
+    x = np.arange(n) * BOX / n
+    mesh = MeshQuad.init_tensor(x, x)
+    at = tuple(np.round(mesh.p / BOX * n).astype(int))
+    values = {"pressure_fem": p.pressure, "pressure_lubfric": best.pressure[::every, ::every]}
+    values |= {"gap_fem": p.gap, "gap_lubfric": best.gap[::every, ::every]}
+    values |= {f"{q}_difference": values[f"{q}_fem"] - values[f"{q}_lubfric"] for q in ("pressure", "gap")}
+    data = {name: v[at] for name, v in values.items()}
+    return mesh_field(
+        "contact_rough_patch", "Rough patch: pressure in Pa, gap in m, both solvers", mesh, data
+    )
+
+
+def thickness(level: str):
+    """Mean gap of the rough patch against the thickness of the layer."""
+    nodes = 32 if level == "quick" else 64
+    reach = np.cumsum(
+        BOX / nodes * 1.2 ** np.arange(20)
+    )  # the same levels near the surface, fewer or more below
+    depths = reach[(reach > 0.25 * BOX) & (reach < 1.4 * BOX)] / BOX
+
+    def gap(depth: float) -> float:
+        levels = -np.append(reach[reach <= 1.001 * depth * BOX][::-1], 0)
+        return press_patch(Layer3D(BODY, (BOX, BOX), levels, (nodes, nodes), 2)).mean_gap
+
+    gaps, thick = np.array([gap(d) for d in depths]), gap(reach[-1] / BOX)
+    off = np.abs(gaps / thick - 1)
+    stiff = np.array([missing(2 * np.pi * d, BODY.poisson) for d in depths])
+    yield Table(
+        "contact_rough_thickness",
+        f"Mean gap of the rough patch on layers of different thickness, {nodes}² nodes, over that on "
+        f"{reach[-1] / BOX:.3g} boxes",
+        ("thickness / box", "mean gap / Sq", "relative change", "missing compliance of the longest wave"),
+        list(zip(depths, gaps / SQ, off, stiff, strict=True)),
+    )
+    chosen = np.argmin(np.abs(depths - THICKNESS))
+    yield Check(
+        f"rough patch: change of the mean gap beyond {depths[chosen]:.3g} boxes",
+        off[chosen],
+        0,
+        1e-4,
+        "thickness study",
+        AT_MOST,
+    )
+    near = (off > 1e-5) & (stiff < 0.1)
+    yield Check(
+        "rough patch: change of the mean gap follows the missing compliance, exponent",
+        np.polyfit(np.log(stiff[near]), np.log(off[near]), 1)[0],
+        1,
+        0.15,
+        "first order in what the layer lacks",
+        ABSOLUTE,
+    )
+    canvas, ax = plotting.axes(height=3.4)
+    ax.semilogy(depths, off, "o-", label="change of the mean gap")
+    ax.semilogy(depths, stiff, "k--", linewidth=1, label="missing compliance of the longest wave")
+    ax.axvline(THICKNESS, color="0.6", linewidth=0.8, linestyle=":")
+    ax.set(xlabel="thickness / box", ylabel="relative")
+    ax.legend()
+    yield plotting.finish(
+        "contact_rough_thickness",
+        canvas,
+        "Rough patch: the mean gap nears that on the half-space exponentially. "
+        "Dotted: the thickness of the other figures.",
+    )
+
+
+def certified(level: str):
+    """The contact solved wave by wave, put as a load on the assembled layer: does it hold there as well?"""
+    nodes = 32 if level == "quick" else 64
+    degree = 2 if level == "full" else 1
+    grid = layer_of(nodes, degree, layers=nodes // 4)
+    p = press_patch(grid)
+    solved = solve(multigrid(grid), p.pressure * p.weights, tolerance=1e-9)
+    misfit = solved.surface - roughness(*grid.x)
+    gap = misfit - np.average(misfit, weights=p.pressure * p.weights)
+    scale, note = np.ptp(solved.surface), f"{grid.unknowns} unknowns, {solved.report.iterations} iterations"
+    source = "conjugate gradients with smoothed aggregation on the assembled layer"
+    yield Check(
+        f"rough patch, {nodes}², multigrid: penetration",
+        -gap.min() / scale,
+        0,
+        1e-7,
+        source,
+        AT_MOST,
+        note=note,
+    )
+    opening = np.sum(p.pressure * p.weights * np.abs(gap)) / (scale * np.sum(p.pressure * p.weights))
+    yield Check(f"rough patch, {nodes}², multigrid: complementarity", opening, 0, 1e-7, source, AT_MOST)

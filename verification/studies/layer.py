@@ -1,0 +1,361 @@
+"""The elastic layer by finite elements against its exact compliance, and its approach to the half-space."""
+
+from __future__ import annotations
+
+import numpy as np
+from skfem import MeshTri
+
+from .. import plotting
+from ..check import ABSOLUTE, AT_MOST, Check, Table
+from ..fem.compliance import (
+    Elastic,
+    curvature_number,
+    half_space_compliance,
+    layer_compliance,
+    line_load_difference,
+    missing,
+)
+from ..fem.layer import Layer, graded_mesh, make_layer
+from ..fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve
+from ..fem.layer_waves import fourier_compliance
+from ..rates import fitted_order
+
+BODY = Elastic.from_e_prime(231e9, 0.3)
+WAVE = 20e-6  # wavelength in m
+K = 2 * np.pi / WAVE
+SOURCE = "exact compliance of a bonded layer, Carbone & Mangialardi 2008, doi:10.1016/j.jmps.2007.05.009"
+CELLS = {"quick": (8, 16, 32), "default": (8, 16, 32, 64), "full": (8, 16, 32, 64, 128)}
+MULTIGRID = {"quick": 16, "default": 32, "full": 64}
+HALF_WIDTH = 5e-6  # of the narrow load, m
+
+
+def layer(level: str):
+    """An elastic layer on a rigid base by finite elements: does it give the compliance it should?
+
+    Two-dimensional (triangles, factorised) and three-dimensional (bricks; assembled and solved by multigrid,
+    and eliminated wave by wave), both against the exact compliance of a bonded layer, which the tests check
+    with an integration of the equations of elasticity through the depth. The energy of a wave converges at
+    twice the degree of the element. Then the approach to the half-space that `lubfric` assumes: exponential
+    for a wave, linear without bound for the mean (which a gap never sees, the approach takes it up), and with
+    1/d² for the shape under a narrow load, which decides how thick a layer has to be under a Hertz contact.
+    """
+    yield from plane_orders(level)
+    yield from plane_finite(level)
+    yield from brick_orders(level)
+    yield from assembled(level)
+    yield from approach(level)
+    yield from narrow(level)
+
+
+def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY) -> tuple[float, float]:
+    """(compliance seen by the energy of a cosine, largest error of a displacement over its amplitude).
+
+    ``depth`` is the thickness in wavelengths.
+    """
+    rows = max(4, round(depth * cells))
+    mesh = MeshTri.init_tensor(
+        np.linspace(-WAVE / 2, WAVE / 2, cells + 1), np.linspace(-depth * WAVE, 0, rows + 1)
+    )
+    found = make_layer(mesh, body, degree=degree)
+    pressure = np.cos(K * found.x)
+    moved = found.displacement(pressure * found.weights)
+    exact = layer_compliance(K, depth * WAVE, body)
+    energy = (found.weights * pressure) @ moved / ((found.weights * pressure) @ pressure)
+    return float(energy), float(np.abs(moved / exact - pressure).max())
+
+
+def plane_orders(level: str):
+    """Plane strain: orders of P1 and P2 on one wave."""
+    exact, series = layer_compliance(K, WAVE / 2, BODY), {}
+    for degree, cells in ((1, 2 * np.array(CELLS[level])), (2, np.array(CELLS[level]))):
+        found = [plane_wave(n, degree) for n in cells]
+        energy, nodal = np.abs([f[0] / exact - 1 for f in found]), [f[1] for f in found]
+        series[f"P{degree}"] = (WAVE / cells, energy, 2 * degree)
+        if degree == 2:  # for P1 the two coincide
+            series["P2, nodes"] = (WAVE / cells, nodal, degree + 1)
+        yield Check(
+            f"plane layer P{degree}: order of the compliance",
+            fitted_order(WAVE / cells[-2:], energy[-2:]),
+            2 * degree,
+            0.2,
+            "element theory, energy of a smooth load",
+            ABSOLUTE,
+        )
+        yield Check(
+            f"plane layer P{degree}: compliance at kd = π",
+            found[-1][0],
+            exact,
+            {1: 40, 2: 60}[degree] / cells[-1] ** (2 * degree),
+            SOURCE,
+            unit="m/Pa",
+        )
+    yield plotting.convergence(
+        "layer_plane",
+        "Plane-strain layer, half a wavelength thick: relative error of the compliance of a wave, "
+        "from its energy, and for P2 largest error of a displacement at a node. Dotted: the order element theory expects.",
+        series,
+        "cell length (m)",
+        "relative error",
+    )
+
+
+def plane_finite(level: str):
+    """Plane strain at several depths and Poisson's ratios."""
+    rows, cells = [], 24 if level == "quick" else 48
+    for poisson in (0.0, 0.3, 0.45):
+        body = Elastic.from_e_prime(BODY.e_prime, poisson)
+        for s in (0.3, 1.0, 3.0) if level == "quick" else (0.3, 1.0, 3.0, 6.0):
+            depth = s / (2 * np.pi)
+            found, exact = plane_wave(cells, 2, depth, body)[0], layer_compliance(K, depth * WAVE, body)
+            rows.append((poisson, s, found, float(exact), abs(found / exact - 1)))
+    yield Table(
+        "layer_finite",
+        f"Compliance of a bonded layer, P2, {cells} cells per wavelength",
+        ("Poisson's ratio", "kd", "finite elements (m/Pa)", "exact (m/Pa)", "relative error"),
+        rows,
+    )
+    yield Check(
+        "plane layer: worst of several depths and Poisson's ratios",
+        max(r[-1] for r in rows),
+        0,
+        500 / cells**4,
+        SOURCE,
+        AT_MOST,
+    )
+    thin = make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 5), np.linspace(-0.3, 0, 4)), BODY)
+    yield Check(
+        "plane layer: uniform pressure",
+        thin.displacement(thin.weights).mean(),
+        0.3 / BODY.oedometric,
+        1e-9,
+        "compression without lateral strain",
+        unit="m/Pa",
+    )
+
+
+def brick(nodes: int, degree: int, depth: float = 1.0, layers: int | None = None) -> Layer3D:
+    """A square period of one wavelength, ``depth`` wavelengths thick."""
+    levels = graded_levels(depth * WAVE, layers or nodes // degree, 4.0)
+    return Layer3D(BODY, (WAVE, WAVE), levels, (nodes, nodes), degree)
+
+
+def brick_orders(level: str):
+    """Three dimensions: orders of trilinear and triquadratic bricks on a wave askew to the grid."""
+    exact, series = layer_compliance(K * np.sqrt(5), WAVE, BODY), {}
+    for degree in (1, 2):
+        nodes, errors = (
+            2 * np.array(CELLS[level][: len(CELLS[level]) - (level != "full" and degree == 2)]),
+            [],
+        )
+        for n in nodes:
+            grid = brick(n, degree)
+            x, y = grid.x
+            pressure = np.cos(K * (x + 2 * y))
+            force = pressure * grid.weights
+            energy = np.sum(fourier_compliance(grid).displacement(force) * force) / np.sum(pressure * force)
+            errors.append(abs(energy / exact - 1))
+        series[f"Q{degree}"] = (WAVE / nodes, errors, 2 * degree)
+        yield Check(
+            f"layer of bricks Q{degree}: order of the compliance",
+            fitted_order(WAVE / nodes[-2:], errors[-2:]),
+            2 * degree,
+            0.2,
+            "element theory, energy of a smooth load",
+            ABSOLUTE,
+        )
+    yield Check(
+        f"layer of bricks Q2: compliance of a wave askew, {nodes[-1]}² nodes",
+        errors[-1],
+        0,
+        1e-3,
+        SOURCE,
+        AT_MOST,
+    )
+    yield plotting.convergence(
+        "layer_bricks",
+        "Three-dimensional layer, one wavelength thick: error of the compliance of the wave (1, 2). "
+        "Dotted: the order element theory expects.",
+        series,
+        "node spacing (m)",
+        "relative error of the compliance",
+    )
+
+
+def assembled(level: str):
+    """The assembled layer by multigrid against the same wave by wave; what the rigid-body modes are worth."""
+    n, rows = MULTIGRID[level], []
+    for degree in (1, 2):
+        grid = brick(n, degree, layers=n // (4 * degree))
+        force = np.random.default_rng(7).standard_normal(grid.shape) * grid.weights
+        waves = fourier_compliance(grid).displacement(force)
+        for name, modes in near_null_spaces(grid, degree).items():
+            solved = solve(multigrid(grid, modes), force, tolerance=1e-9, max_iterations=300)
+            off = float(np.abs(solved.surface - waves).max() / np.abs(waves).max())
+            rows.append(
+                (f"Q{degree}", grid.unknowns, name, solved.report.iterations, solved.report.residual, off)
+            )
+        best = next(r for r in rows if r[0] == f"Q{degree}")
+        yield Check(
+            f"Q{degree}, {n}² nodes: multigrid against wave by wave",
+            best[-1],
+            0,
+            1e-7,
+            "the same discrete layer, eliminated in another order",
+            AT_MOST,
+            note=f"{best[1]} unknowns, {best[3]} iterations to 1e-9",
+        )
+    yield Check(
+        "Q1: iterations with rigid-body modes over those with translations alone",
+        rows[0][3] / rows[1][3],
+        0.9,
+        0,
+        "smoothed aggregation needs the near-null space",
+        AT_MOST,
+    )
+    yield Table(
+        "layer_multigrid",
+        "Conjugate gradients with smoothed aggregation on the assembled layer under random forces",
+        (
+            "element",
+            "unknowns",
+            "near-null space",
+            "iterations",
+            "residual",
+            "largest difference, wave by wave",
+        ),
+        rows,
+    )
+
+
+def near_null_spaces(grid: Layer3D, degree: int) -> dict[str, np.ndarray]:
+    """Rigid-body modes; for trilinear bricks also translations alone."""
+    modes = rigid_body_modes(grid)
+    return {"rigid-body modes": modes} | ({"translations": modes[:, :3]} if degree == 1 else {})
+
+
+def approach(level: str):
+    """How a wave on the layer nears the same wave on the half-space."""
+    depths = np.arange(0.5, 5.1 if level == "quick" else 7.1, 0.5)
+    cells = {"quick": 32, "default": 48, "full": 64}[level]
+    found = np.array(
+        [1 - plane_wave(cells, 2, s / (2 * np.pi))[0] / half_space_compliance(K, BODY) for s in depths]
+    )
+    exact = np.array([missing(s, BODY.poisson) for s in depths])
+    polynomial = (4 * depths**2 + 4 * depths + 2 * (5 - 12 * BODY.poisson + 8 * BODY.poisson**2)) / (
+        3 - 4 * BODY.poisson
+    )
+    floor = abs(1 - plane_wave(cells, 2, 2.0)[0] / half_space_compliance(K, BODY))
+    far = (depths >= 3) & (exact > 100 * floor)
+    yield Check(
+        "wave on a thick layer: exponent of the approach to the half-space",
+        np.polyfit(depths[far], np.log(np.abs(found[far]) / polynomial[far]), 1)[0],
+        -2,
+        0.02,
+        "expansion of the exact compliance, q(kd) exp(-2 kd)",
+        note=f"fitted over kd = {depths[far].min():g} to {depths[far].max():g}",
+    )
+    yield Check(
+        "wave on a layer: worst departure of the missing compliance",
+        np.max(np.abs(found - exact)),
+        0,
+        {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level],
+        SOURCE,
+        AT_MOST,
+        note="1 - C/C(half-space), absolute",
+    )
+    canvas, ax = plotting.axes()
+    fine = np.linspace(0.3, 7, 200)
+    ax.semilogy(
+        fine, [missing(s, BODY.poisson) for s in fine], "k-", linewidth=1, label="exact, bonded layer"
+    )
+    ax.semilogy(depths, np.abs(found), "o", label="finite elements, P2")
+    ax.semilogy(depths[3:], polynomial[3:] * np.exp(-2 * depths[3:]), "--", label="q(kd) exp(−2kd)")
+    ax.axhline(floor, color="0.6", linewidth=0.8, linestyle=":")
+    ax.text(depths[0], floor * 1.3, "error of this mesh on a thick layer", fontsize=8, color="0.4")
+    ax.set(xlabel="thickness times wavenumber, kd", ylabel="1 − C/C(half-space)")
+    ax.legend()
+    yield plotting.finish(
+        "layer_approach",
+        canvas,
+        "A wave on a layer against the same wave on the half-space: the layer is stiffer by a part that "
+        "falls exponentially with thickness.",
+    )
+
+
+def bending(found: Layer) -> float:
+    """Curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``: J (b/d)^2 for a thick layer.
+
+    The pressure is ``p0 (1 - X^2)^1.5``, X = x/b, for which a half-space sinks by ``(p0 b/E')(X^4 - 3 X^2)``
+    and a constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.
+    """
+    big, b = found.x / HALF_WIDTH, HALF_WIDTH
+    force = np.maximum(1 - big**2, 0) ** 1.5 * found.weights
+    extra = found.displacement(force) - b / BODY.e_prime * (big**4 - 3 * big**2)
+    inside = np.abs(big) < 1
+    curvature = 2 * np.polynomial.Polynomial.fit(big[inside], extra[inside], 4).convert().coef[2]
+    return float(curvature / (4 * (3 * np.pi / 8) * b / (np.pi * BODY.e_prime)))
+
+
+def narrow(level: str):
+    """The shape of the surface under a narrow load: 1/d² and its coefficient; periodic and free sides."""
+    b = HALF_WIDTH
+    depths = b * np.array([5, 10, 20] if level == "quick" else [5, 10, 20, 40])
+    deepest, fine = 2 * depths[-1], b / 20
+
+    def at(depth: float, sides: str = "periodic") -> float:
+        mesh = graded_mesh(8 * depth, depth, 1.5 * b, fine)
+        return bending(make_layer(mesh, BODY, strip=1.5 * b, sides=sides))
+
+    # depths are powers of two apart, the meshes near the load alike: their error drops out of differences
+    base, number = at(deepest), curvature_number(BODY.poisson)
+    found = np.array([at(d) - base for d in depths])
+    inverse = b**2 * (depths**-2.0 - deepest**-2.0)
+    yield Check(
+        "narrow load: order in 1/d of the extra curvature",
+        fitted_order(np.sqrt(inverse[-3:]), found[-3:]),
+        2,
+        0.05,
+        "expansion of the exact compliance for a load narrow against d",
+        ABSOLUTE,
+        note=f"differences to a layer of {deepest / b:g} b",
+    )
+    yield Check(
+        f"narrow load: extra curvature from d = {deepest / b:g} b to {depths[-1] / b:g} b",
+        found[-1],
+        number * inverse[-1],
+        0.02,
+        f"J b²/d², J = {number:.4f} by quadrature",
+        note="in units of 4w/(πE'b²)",
+    )
+    yield Check(
+        "narrow load, d = 10 b, width 8 d: curvature with free sides over periodic ones",
+        (at(depths[1], "free") - base) / found[1],
+        1,
+        0.01,
+        "sides so far do not matter",
+    )
+    yield narrow_figure(depths / b, found, number, inverse)
+
+
+def narrow_figure(depths, found, number: float, inverse):
+    """The extra curvature against depth, and the exact shape of the difference under a line load."""
+    canvas, (left, right) = plotting.axes(1, 2, width=7.4, height=3.5)
+    left.loglog(depths, found, "o", label="finite elements, P2")
+    left.loglog(depths, number * inverse, "k--", linewidth=1, label="J b²/d²")
+    left.set(xlabel="thickness over half-width, d/b", ylabel="extra curvature × πE'b²/(4w)")
+    left.set_xticks(depths, [f"{d:g}" for d in depths])
+    left.minorticks_off()
+    left.legend()
+    x = np.geomspace(0.03, 3, 60)
+    unit = 4 / (np.pi * BODY.e_prime)
+    right.loglog(x, line_load_difference(x, 1.0, BODY) / unit, label="exact")
+    right.loglog(x[:45], number / 2 * x[:45] ** 2, "k--", linewidth=1, label="(J/2)(x/d)²")
+    right.set(xlabel="distance from a line load, x/d", ylabel="difference of u(x) − u(0), × πE'/(4w)")
+    right.legend()
+    return plotting.finish(
+        "layer_narrow",
+        canvas,
+        f"Left: curvature that a layer adds under a smooth load of half-width b, over that of the deepest, "
+        f"{2 * depths[-1]:g} b. Right: "
+        "displacement differences under a line load, layer against half-space.",
+    )
