@@ -11,6 +11,7 @@ from .ehl.bdf import Advance
 from .ehl.result import smallest
 from .ehl.tail import outside_shear
 from .lubricant import shear_stress, viscosity
+from .patch import Closure
 from .unsteady_sharing import Contact, Sharing
 
 UNITS = {"time": "s", "entrainment_speed": "m/s", "sliding_speed": "m/s", "load": "N", "contact_load": "N",
@@ -68,14 +69,12 @@ def _shear(sharing: Sharing, time: float, sliding: float, solution: StepSolution
     setting, t, closure = sharing.setting, solution.terms, contact.closure
     p, grid, now = setting.problem, setting.grid, setting.conditions(time)
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
-    free = 1.0 - np.interp(x, closure.x, closure.contact_fraction, 0.0, 0.0)
-    face_free = 0.5 * (free[1:] + free[:-1])
-    rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * face_free))
+    free = 1.0 - _touching(x, closure)
+    rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
     lubricant = setting.contact.lubricant
     rate = sliding * now.viscosity * p.lubricant.viscosity / lubricant.viscosity / h      # the history scales eta
-    tau = shear_stress(lubricant, pressure, rate) * free
-    full = (t.P[1:] > 0.0) & (t.P[:-1] > 0.0)
-    couette = float(np.sum((0.5 * (tau[1:] + tau[:-1]) * np.diff(x))[full]))
+    tau = shear_stress(lubricant, pressure, rate)
+    couette = float(np.sum(0.5 * (tau[1:] + tau[:-1]) * free * np.diff(x) * full_part(x, pressure)))
     ambient = float(viscosity(lubricant, 0.0)) * now.viscosity * p.lubricant.viscosity / lubricant.viscosity
     for end, sign in ((0, 1.0), (-1, -1.0)):
         if t.P[end] > 0.0:
@@ -85,3 +84,27 @@ def _shear(sharing: Sharing, time: float, sliding: float, solution: StepSolution
             couette += ambient * sliding * reach * p.length_unit / p.film_unit
             rolling -= sign * tail * p.film_unit * p.pressure_unit
     return sharing.width * couette, sharing.width * rolling
+
+
+def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it ruptures the
+    pressure falls to zero like a square (p = dp/dx = 0 there), which the two nodes before give."""
+    wet = pressure > 0.0
+    root = np.sqrt(np.maximum(pressure, 0.0))
+    part = (wet[1:] & wet[:-1]).astype(float)
+    for i in np.flatnonzero(wet[1:] != wet[:-1]):
+        last, step = (i, 1) if wet[i] else (i + 1, -1)
+        before = last - step
+        if 0 <= before < x.size and root[before] > root[last]:
+            reach = root[last] * (x[last] - x[before]) / (root[before] - root[last])
+            part[i] = min(abs(reach / (x[i + 1] - x[i])), 1.0)
+    return part
+
+
+def _touching(x: np.ndarray, closure: Closure) -> np.ndarray:
+    """Share of the width in contact, averaged over each cell between neighbouring ``x``: the columns of the patch are
+    finer than the cells of the film, and vary from one to the next."""
+    step = closure.x[1] - closure.x[0] if closure.x.size > 1 else 0.0
+    edges = np.append(closure.x - 0.5 * step, closure.x[-1] + 0.5 * step)
+    touched = np.append(0.0, np.cumsum(closure.contact_fraction) * step)
+    return np.diff(np.interp(x, edges, touched)) / np.diff(x)

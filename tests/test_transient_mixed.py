@@ -1,0 +1,215 @@
+"""Load sharing in time: the steady limit, cycles, hysteresis, rest, balances, checkpoint, command line."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric import unsteady_start
+from lubfric.checkpoint import Checkpoint
+from lubfric.cli import main
+from lubfric.history import Harmonic, Ramp, Table, Transient
+from lubfric.mixed import prepare
+
+SCENE = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
+                                          surface={"correlation_length": 5e-6}, motion={"entrainment_speed": 0.02})
+MODEL = prepare(SCENE)
+
+
+def run(plan, times=None, model=MODEL, **options):
+    return lubfric.transient(replace(model, scene=replace(model.scene, transient=plan)), times, **options)
+
+
+def test_a_steady_scene_stays_at_the_steady_answer():
+    found = lubfric.transient(MODEL, [0.0, 1e-3, 0.1])
+    steady = lubfric.friction(MODEL)
+    np.testing.assert_allclose(found.coefficient, steady.coefficient, rtol=2e-3)
+    np.testing.assert_allclose(found.contact_load, steady.contact_load, rtol=3e-3)
+    assert found.coefficient[-1] == pytest.approx(found.coefficient[0], rel=3e-4)
+
+
+def test_a_slow_ramp_follows_the_stribeck_curve():
+    speed = Ramp(start=0.02, end=0.1, until=2.0)
+    found = run(Transient(2.0, speed=speed), np.linspace(0, 2, 6))
+    curve = lubfric.stribeck(MODEL, [speed.at(t) for t in found.time])
+    np.testing.assert_allclose(found.coefficient, curve.coefficient, rtol=0.01)
+    np.testing.assert_allclose(found.contact_load, curve.contact_load, atol=0.01 * SCENE.bodies.load)
+    assert found.contact_load[0] > 1 and found.contact_load[-1] == 0      # through the lift-off
+
+
+def test_balances_hold_at_every_output():
+    wave = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0)
+    found = run(Transient(0.02, speed=wave, load=Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)), np.linspace(0, 0.02, 21))
+    total = found.contact_load + found.film_load
+    np.testing.assert_allclose(total, found.load, rtol=1e-6)
+    touching = found.contact_load > 0
+    np.testing.assert_allclose(found.mean_gap[touching], found.mean_film[touching], rtol=3e-4)
+    nodal = np.trapezoid(found.pressure, found.x, axis=1) * SCENE.bodies.width
+    np.testing.assert_allclose(nodal, found.film_load, rtol=3e-3)         # without the tails
+    assert np.all(found.mass_residual < 1e-3)
+    parts = found.boundary_force + found.couette_force + found.rolling_force
+    np.testing.assert_allclose(parts, found.friction_force, rtol=1e-12)
+    boundary = 0.09 * found.contact_load * np.sign(found.sliding_speed)
+    np.testing.assert_allclose(found.boundary_force, boundary, rtol=1e-12)
+    np.testing.assert_allclose(found.coefficient, np.abs(found.friction_force) / found.load, rtol=1e-12)
+
+
+def test_shear_of_a_steady_film_is_that_of_the_steady_model():
+    fast = lubfric.transient(MODEL, [0.0, 1e-4])
+    steady = lubfric.friction(MODEL)
+    assert fast.couette_force[0] == pytest.approx(steady.couette_force, rel=5e-3)
+    assert fast.rolling_force[0] == pytest.approx(steady.rolling_force, rel=5e-3)
+
+
+def test_a_reciprocating_contact_becomes_periodic_and_mirrors_itself():
+    wave = Harmonic(amplitude=0.05, frequency=100.0, phase=np.pi / 2)
+    found = run(Transient(0.025, speed=wave), np.arange(51) * 5e-4)
+    f = found.coefficient
+    np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)             # one period later
+    np.testing.assert_allclose(f[20:41], f[10:31], rtol=5e-3)             # run backwards (the map itself is not symmetric)
+    assert f.max() > 1.5 * f.min()
+
+
+def loop_gap(period):
+    """Friction on the way down minus on the way up, at half the largest speed."""
+    wave = Harmonic(mean=0.05, amplitude=0.045, frequency=1 / period, phase=np.pi / 2)
+    times = np.array([1.25, 1.75]) * period
+    found = run(Transient(1.75 * period, speed=wave), times)
+    assert found.entrainment_speed == pytest.approx([0.05, 0.05])
+    return found.coefficient[0] - found.coefficient[1]
+
+
+def test_the_friction_loop_has_its_hysteresis():
+    """Slowing down drags a thick film along (less contact friction), speeding up a thin one."""
+    fast, slow = loop_gap(5e-3), loop_gap(0.1)
+    assert fast < -5e-4 and abs(slow) < 0.3 * abs(fast)
+
+
+def test_from_rest():
+    found = run(Transient(4e-3, speed=Ramp(start=0.0, end=0.1, until=2e-3)), [0.0, 1e-4, 1e-3, 4e-3])
+    assert found.contact_load[0] == pytest.approx(5.5) and found.film_load[0] == 0
+    assert found.coefficient[1] == pytest.approx(0.09, rel=0.05)
+    assert np.all(np.diff(found.contact_load) < 0)
+    assert found.central_film[-1] == pytest.approx(lubfric.friction(MODEL, 0.1).central_film, rel=0.01)
+
+
+def test_jumps_of_load_and_speed():
+    plan = Transient(0.02, speed=Table(times=(0, 5e-3, 5e-3, 0.02), values=(0.01, 0.01, 0.1, 0.1)),
+                     load=Table(times=(0, 0.01, 0.01, 0.02), values=(5.5, 5.5, 0.55, 0.55)))
+    found = run(plan, [0.0, 5e-3, 0.01, 0.02])
+    light = MODEL.scene.with_(bodies={"load": 0.55})
+    ends = [lubfric.friction(MODEL, 0.01), lubfric.friction(MODEL, 0.1), lubfric.friction(replace(MODEL, scene=light), 0.1)]
+    for index, steady in zip((1, 2, 3), ends):
+        assert found.central_film[index] == pytest.approx(steady.central_film, rel=0.01)
+        assert found.coefficient[index] == pytest.approx(steady.coefficient, rel=0.02)
+
+
+def test_the_flat_contact_runs_in_time():
+    flat = prepare(lubfric.load_scene("flat").with_(contact={"shape": (64, 64), "spacing": 8e-6}))
+    found = run(Transient(0.05, speed=Harmonic(mean=0.1, amplitude=0.05, frequency=20.0)), np.linspace(0, 0.05, 11), flat)
+    assert found.report.converged and 0 < found.contact_load.min() and np.ptp(found.coefficient) > 1e-3
+
+
+def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
+    real = unsteady_start.share_step
+
+    def failing(sharing, at, *rest):
+        found = real(sharing, at, *rest)
+        return replace(found, status="diverged") if at > 1.5e-3 else found
+
+    monkeypatch.setattr(unsteady_start, "share_step", failing)
+    with pytest.raises(lubfric.ConvergenceError) as caught:
+        lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
+    assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
+
+
+@pytest.mark.parametrize("plan, words", [
+    (Transient(1.0, load=Ramp(start=5.5, end=6.0, until=1.0)), "bodies.load"),
+    (Transient(1.0, initial="steady", speed=Ramp(start=0.0, end=1.0, until=1.0)), "'rest'"),
+    (Transient(1.0, initial_film=1e-8), "initial_film"),
+    (None, r"\[transient\]"),
+])
+def test_impossible_runs_are_refused(plan, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        run(plan)
+
+
+def test_a_smooth_scene_without_a_film_is_refused():
+    with pytest.raises(lubfric.InputError, match="initial_film"):
+        lubfric.transient(SCENE.with_(surface={"sq": 0.0}, transient=Transient(1.0, speed=Ramp(end=1.0))))
+
+
+SCRIPT = """
+import os, signal, sys, time
+import numpy as np
+import lubfric
+from lubfric.history import Harmonic, Transient
+scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
+    surface={"correlation_length": 5e-6},
+    transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))
+folder, die = sys.argv[1], len(sys.argv) > 3
+count = [0]
+def on_step(now, duration, row):
+    count[0] += 1
+    if die and count[0] == 13:
+        os.kill(os.getpid(), signal.SIGKILL)
+result = lubfric.transient(scene, checkpoint=folder, on_step=on_step)
+np.savez(sys.argv[2], calls=count[0], pressure=result.pressure, **result.columns)
+"""
+
+
+def test_a_killed_run_goes_on_where_it_was(tmp_path):
+    def start(folder, *more):
+        environment = os.environ | {"OMP_NUM_THREADS": "1"}
+        return subprocess.run([sys.executable, "-c", SCRIPT, str(tmp_path / folder), str(tmp_path / f"{folder}.npz"), *more],
+                              env=environment, cwd=Path(__file__).parents[1]).returncode
+
+    assert start("whole") == 0 and not (tmp_path / "whole").exists()
+    assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / "state.npz").is_file()
+    assert start("killed") == 0 and not (tmp_path / "killed").exists()
+    whole, resumed = (np.load(tmp_path / f"{name}.npz") for name in ("whole", "killed"))
+    assert whole["calls"] == resumed["calls"] + 13
+    for name in set(whole.files) - {"calls"}:
+        np.testing.assert_array_equal(resumed[name], whole[name])
+
+
+def test_a_checkpoint_of_another_run_or_a_damaged_one_is_refused(tmp_path):
+    store = Checkpoint(tmp_path, ["one"])
+    store.append(np.arange(3.0), np.arange(5.0))
+    store.save({"outputs": 1, "row_size": 3, "field_size": 5})
+    assert Checkpoint(tmp_path, ["one"]).load()[1].tolist() == [[0, 1, 2]]
+    with pytest.raises(lubfric.InputError, match="another run"):
+        Checkpoint(tmp_path, ["two"]).load()
+    (tmp_path / "rows.bin").write_bytes(b"")
+    with pytest.raises(lubfric.InputError, match="shorter"):
+        Checkpoint(tmp_path, ["one"]).load()
+
+
+def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
+    text = (Path(__file__).parents[1] / "docs" / "examples" / "stop_and_start.toml").read_text()
+    scene = tmp_path / "scene.toml"
+    scene.write_text(text.replace("[200, 200]", "[64, 64]").replace("0.45e-6", "0.8e-6").replace("outputs = 200", "outputs = 6"))
+    assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
+    names = {p.name for p in (tmp_path / "out").iterdir()}
+    assert names == {"history.csv", "history.png", "fields.npz", "result.json", "animation.gif"}
+    rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
+    assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
+    assert "t = 0.02 of 0.02 s" in capsys.readouterr().err
+    (tmp_path / "out" / "history.png").unlink()
+    assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
+
+
+@pytest.mark.slow
+def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
+    scene = lubfric.load_scene("paper").with_(transient=Transient(
+        0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)))
+    begun = time.perf_counter()
+    found = lubfric.transient(scene)
+    assert found.report.iterations >= 300 and time.perf_counter() - begun < 30
