@@ -1,7 +1,8 @@
 """``python -m verification mutations``: break `lubfric` in ten ways; the studies have to catch every one.
 
 Each mutant (`mutants`) runs a few studies at the quick level in a process of its own. Caught means that a check fails, or
-that a study is stopped by an error `lubfric` raises. The unbroken library runs the same studies and has to pass them all.
+that a study is stopped by an error `lubfric` raises on purpose; any other exception is a broken trial, not a catch. The
+unbroken library runs the same studies and has to pass them all.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from .wording import allowed, number
 
 SUITE = ("contact_grid", "ehl_grid", "friction", "load_sharing")
 NONE = "none"
+ON_PURPOSE = "lubfric.errors."
 
 
 @dataclass(frozen=True)
@@ -32,35 +34,41 @@ class Trial:
     """What the studies made of a mutant ("none": the library as it is).
 
     failures : (study, check, measured, allowed) of the checks that failed; checks : how many were looked at;
-    calls : how often the broken code ran; seconds : wall time.
+    crash : exception that `lubfric` did not raise on purpose, or ""; calls : how often the broken code ran;
+    seconds : wall time.
     """
 
     name: str
     what: str
     failures: tuple[tuple[str, str, str, str], ...]
     checks: int
+    crash: str
     calls: int
     seconds: float
 
     @property
     def passed(self) -> bool:
         """A mutant ran and was caught; the library as it is passed everything."""
-        return not self.failures if self.name == NONE else bool(self.failures) and self.calls > 0
+        if self.name == NONE:
+            return not self.failures and not self.crash
+        return bool(self.failures) and not self.crash and self.calls > 0
 
 
 def trial(name: str, thorough: bool = False, suite: tuple[str, ...] = SUITE) -> Trial:
     """Run the suite on one mutant, study by study until one fails (``thorough``: all of them)."""
     mutant = next((m for m in MUTANTS if m.name == name), None)
-    start, failures, checks = time.perf_counter(), [], 0
+    start, failures, checks, crash = time.perf_counter(), [], 0, ""
     with applied(mutant) if mutant else contextlib.nullcontext([]) as calls:
         for study in (s for s in STUDIES if s.name in suite):
             outcome = run_one(study, "quick", lambda check: None)
             checks += len(outcome.checks)
             failures += [(study.name, *words(c)) for c in outcome.checks if not c.passed]
+            if outcome.error and not outcome.error.startswith(ON_PURPOSE):
+                crash = outcome.error
             if failures and mutant and not thorough:
                 break
     what = mutant.what if mutant else "the library as it is"
-    return Trial(name, what, tuple(failures), checks, len(calls), time.perf_counter() - start)
+    return Trial(name, what, tuple(failures), checks, crash, len(calls), time.perf_counter() - start)
 
 
 def words(check: Check) -> tuple[str, str, str]:
@@ -104,7 +112,8 @@ def table(found: list[Trial], seconds: float) -> str:
     for t in found:
         study, check, measured, limit = t.failures[0] if t.failures else ("", "nothing", "", "")
         caught = f"{study}: {check}" if t.failures else check
-        note = "" if t.passed or t.name == NONE else " (NOT CAUGHT)" if t.calls else " (NEVER RAN)"
+        note = "" if t.passed else " (CRASHED)" if t.crash else " (FAILED)" if t.name == NONE else \
+            " (NOT CAUGHT)" if t.calls else " (NEVER RAN)"
         lines.append(f"| {t.name}{note} | {t.what} | {caught} | {measured} | {limit} | {len(t.failures)} of {t.checks} |")
     caught = sum(t.passed for t in found if t.name != NONE)
     mutants = sum(t.name != NONE for t in found)

@@ -1,0 +1,129 @@
+"""Rough contact and load sharing by finite elements: waves, Hertz, balance, and reports that tell the truth."""
+
+import math
+
+import numpy as np
+import pytest
+
+from verification.exact import Parabola
+from verification.exact_contact import Line, Sphere, Wave
+from verification.fem import ehl
+from verification.fem.compliance import Elastic
+from verification.fem.fluid import Fluid
+from verification.fem.harmonic import Strip, compliance
+from verification.fem.report import InputError, SolveError
+from verification.fem.rough import press
+from verification.fem.sharing import Bodies, root, rupture, share_load, shear
+
+E_PRIME, CELL = 231e9, 1e-6
+BODY = Elastic.from_e_prime(E_PRIME, 0.3)
+
+
+@pytest.fixture(scope="module")
+def strip():
+    return compliance(Strip((24, 12), (CELL, CELL), BODY))
+
+
+def test_compliance_is_symmetric_and_positive(strip):
+    c = strip.harmonics
+    assert np.abs(c - c.transpose(0, 2, 1)).max() <= 1e-9 * np.abs(c).max()
+    assert min(np.linalg.eigvalsh((h + h.T) / 2).min() for h in c) > 0
+
+
+def test_wave_along_the_line_under_a_wide_band_is_that_of_the_half_space():
+    """cos(k y) over |x| < L with k L >> 1 moves its middle by 4/(E' k) cos(k y)."""
+    wide = compliance(Strip((32, 4), (CELL, 2 * CELL), BODY, fineness=2))
+    k = 2 * math.pi / (4 * 2 * CELL)
+    wave = np.cos(k * np.arange(4) * 2 * CELL)
+    u = wide.apply(np.tile(wave, (32, 1)))
+    assert u[15:17] == pytest.approx(np.tile(4 / (E_PRIME * k) * wave, (2, 1)), rel=5e-3, abs=1e-6 * u.max())
+
+
+def test_poisson_ratio_does_not_matter_at_fixed_modulus(strip):
+    other = compliance(Strip((24, 12), (CELL, CELL), Elastic.from_e_prime(E_PRIME, 0.1)))
+    p = np.random.default_rng(0).random((24, 12))
+    a, b = strip.apply(p), other.apply(p)
+    assert np.ptp(a - b) <= 1e-2 * np.ptp(a)
+
+
+def test_hertz_line(strip):
+    x = (np.arange(24) - 11.5) * CELL
+    exact = Line(E_PRIME, 2e-3, 7.3e-6)
+    found = press(strip, np.tile(x[:, None] ** 2 / 4e-3, (1, 12)), exact.load)
+    assert found.pressure.max() == pytest.approx(exact.peak, rel=5e-3)
+    assert np.ptp(found.pressure, axis=1).max() <= 1e-6 * exact.peak
+    assert found.gap[0, 0] == pytest.approx(exact.gap(x[0]), rel=1e-2)
+    assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
+
+
+def test_hardness_caps_the_pressure_and_yielded_cells_overlap(strip):
+    x = (np.arange(24) - 11.5) * CELL
+    gap0 = np.tile(x[:, None] ** 2 / 4e-3, (1, 12))
+    exact = Line(E_PRIME, 2e-3, 7.3e-6)
+    found = press(strip, gap0, exact.load, hardness=0.8 * exact.peak)
+    assert found.yielded.any() and found.pressure.max() == pytest.approx(0.8 * exact.peak)
+    assert found.gap[found.yielded].max() <= 1e-15 and np.abs(found.gap[(found.pressure > 0) & ~found.yielded]).max() < 1e-15
+    assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
+
+
+def test_bad_input_and_a_solve_cut_short(strip):
+    gap0 = np.random.default_rng(1).random((24, 12)) * 1e-7
+    for call in (lambda: press(strip, gap0[:3], 1.0), lambda: press(strip, gap0, -1.0),
+                 lambda: press(strip, gap0, 1e9, hardness=1e9), lambda: Strip((23, 12), (CELL, CELL), BODY),
+                 lambda: Strip((24, 12), (CELL, CELL), BODY, side=4)):
+        with pytest.raises(InputError):
+            call()
+    with pytest.raises(SolveError) as caught:
+        press(strip, gap0, 100.0, max_iterations=0)
+    assert not caught.value.report.converged and caught.value.result.pressure.shape == (24, 12)
+
+
+@pytest.mark.parametrize("guess", [-8.0, 0.0, 5.0])
+def test_root_of_an_increasing_function(guess):
+    values = []
+    def f(x):
+        values.append(math.tanh(x - 1.2345) + 1e-3 * (x - 1.2345))
+        return values[-1]
+    root(f, lambda: abs(values[-1]) < 1e-12 or len(values) > 60, guess)
+    assert abs(values[-1]) < 1e-12
+
+
+def test_shear_of_a_rigid_film():
+    contact = ehl.LineContact(20.0, 2e-3, E_PRIME, 0.5, Fluid(0.36))
+    film = ehl.solve_ehl(contact, refinements=1)[-1]
+    exact = Parabola(0.36, 0.5, 2e-3, film.min_film, -1e5)
+    edges = np.linspace(-2e-5, 2e-5, 11)
+    couette, rolling = shear(film, 1.0, edges, np.ones(10))
+    assert couette == pytest.approx(exact.couette * 1.0, rel=5e-3)
+    assert rolling == pytest.approx(exact.rolling, rel=5e-3)
+    assert rupture(film) == pytest.approx(0.4751299 * math.sqrt(4e-3 * film.min_film), rel=2e-2)
+    dry, _ = shear(film, 1.0, edges, np.zeros(10))
+    assert 0 < dry < couette
+
+
+def test_load_sharing_closes_both_balances(strip):
+    rng = np.random.default_rng(3)
+    heights = 50e-9 * rng.standard_normal((24, 12))
+    line = ehl.LineContact(5.5 / 6e-3, 2e-3, E_PRIME, 0.01, Fluid(0.36, "roelands", 25e-9))
+    bodies = Bodies(line, 6e-3, strip, heights, math.inf, 0.09, 0.02)
+    found = share_load(bodies, refinements=0)
+    assert abs(found.residual) <= 1e-5 and found.report.converged
+    assert found.film_load + found.contact_load == pytest.approx(5.5, rel=1e-12)
+    assert found.pressed.pressure.sum() * CELL / 12 * 6e-3 == pytest.approx(found.contact_load, rel=1e-9)
+    assert found.coefficient == pytest.approx((0.09 * found.contact_load + found.couette + found.rolling) / 5.5, rel=1e-12)
+    with pytest.raises(SolveError) as caught:
+        share_load(bodies, refinements=0, max_evaluations=1, guess=3.0)
+    assert not caught.value.report.converged and caught.value.result.film_load > 0
+
+
+def test_closed_forms_of_contact_agree_with_each_other():
+    line, ball, wave = Line(E_PRIME, 2e-3, 4e-6), Sphere(E_PRIME, 2e-3, 4e-6), Wave(E_PRIME, 1e-7, 5e-5, 0.3)
+    x = np.linspace(-4e-6, 4e-6, 200001)
+    assert np.trapezoid(line.peak * np.sqrt(1 - (x / 4e-6) ** 2), x) == pytest.approx(line.load, rel=1e-6)
+    r = x[100000:]
+    assert np.trapezoid(2 * np.pi * r * ball.peak * np.sqrt(1 - (r / 4e-6) ** 2), r) == pytest.approx(ball.load, rel=1e-6)
+    assert line.gap(4e-6) == pytest.approx(0, abs=1e-20) and ball.gap(4e-6) == pytest.approx(0, abs=1e-20)
+    far = 4e-4
+    assert ball.gap(far) == pytest.approx(far**2 / 4e-3 - ball.approach + 2 * ball.load / (math.pi * E_PRIME * far), rel=1e-6)
+    y = (np.arange(100000) + 0.5) * 5e-5 / 100000
+    assert wave.pressure(y).mean() == pytest.approx(wave.mean_pressure, rel=1e-6)
