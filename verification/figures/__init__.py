@@ -13,7 +13,7 @@ import sys
 import time
 from pathlib import Path
 
-from .page import write_figure, write_index
+from .page import write_document, write_figure, write_index
 
 FIGURES = {
     "fig2": "verification.figures.surfaces:generated_surfaces",
@@ -40,6 +40,8 @@ def main(argv: list[str] | None = None) -> int:
         write_figure(options.out, figure)
         done.append((figure, seconds))
         write_index(options.out, done, options.quick)
+        if options.docs:
+            write_document(options.docs, done)
         print(f"{name}: {seconds:.1f} s  {figure.agrees}", file=sys.stderr, flush=True)
     print(f"{len(done)} figures in {time.perf_counter() - begun:.0f} s: {options.out / 'index.html'}")
     return 0
@@ -52,4 +54,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", type=Path, default=Path("out/figures"), metavar="DIR",
                         help="where the files go (default: %(default)s)")
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
+    parser.add_argument("--docs", type=Path, metavar="DIR",
+                        help="also write figures.md and images/ there (the project keeps them under docs)")
     return parser

@@ -54,7 +54,8 @@ def film_load(acf, length, seed) -> float:
 
 def real_curves(axis, speeds) -> list[np.ndarray]:
     """As `ensemble_member`, on the ground surface scaled to 100 nm; ``axis`` of the file lies along the motion."""
-    scene = PAPER.with_(surface=lubfric.scene.Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis))
+    scene = PAPER.with_(surface=lubfric.scene.Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis),
+                         contact={"shape": None, "spacing": None})
     return [lubfric.stribeck(scene.with_(**change), speeds).coefficient for change in MODELS.values()]
 
 
@@ -124,7 +125,7 @@ def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
         + (f"On the real ground surface, scaled to 100 nm: {_real_words(speeds, real)}" if real else
            "The real ground surface was not found (LUBFRIC_SURFACES, ../shared/surfaces) or left out of a quick run, and is skipped."))
     differs = (
-        f"The paper's asperity curve lies clearly above the other two. Here its largest deviation from the elastic half-space is {lines}. "
+        f"The paper's asperity curve lies clearly above the other two. On generated surfaces its largest deviation from the elastic half-space is {lines}. "
         "Which way it goes depends on the roughness: fine ripples (exponential) put the asperity model above on the flat strip, "
         "broad summits below. Under the cylinder independent asperities also miss the flattening by the whole contact "
         "load: they carry it on a shorter strip. The paper's surface and its asperity definition are not published, nor are the measured "
@@ -135,7 +136,8 @@ def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
 def _real_words(speeds, real) -> str:
     i = int(np.argmin(np.abs(speeds - 0.01)))
     return ", ".join(f"f = {c[1][i]:.4f} (elastic {c[0][i]:.4f}, asperities {c[2][i]:.4f}) with the motion along its {axis}"
-                     for axis, c in real.items()) + f" at {speeds[i]:.2g} m/s."
+                     for axis, c in real.items()) + f" at {speeds[i]:.2g} m/s; there the asperity model is above the half-space by up to " \
+        + " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values()) + ", as in the paper."
 
 
 def pressure_map(quick: bool) -> PaperFigure:
@@ -177,10 +179,11 @@ def _spots(pressure) -> int:
 
 
 def sections(quick: bool) -> PaperFigure:
-    """Fig. 10: film h, separation h - epsilon and surface z along the middle, at 0.001 and 0.3 m/s."""
+    """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model, rows, words = prepare(PAPER), [], []
-    line = model.surface.shape[1] // 2
+    pressure = lubfric.friction(model, 0.001, fields=True).balance.closure.contact.pressure
+    line = int(np.argmax(pressure.max(axis=0)))                    # through the highest contact pressure
     z = model.patch.heights
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)

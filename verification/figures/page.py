@@ -7,6 +7,15 @@ import html
 from dataclasses import dataclass, field
 from pathlib import Path
 
+DOCUMENT = """# The figures of the paper, computed here
+
+`python -m verification figures` computes Figs. 2 to 10 of Akchurin et al., Tribol. Lett. 59:19 (2015),
+[doi:10.1007/s11249-015-0536-z](https://doi.org/10.1007/s11249-015-0536-z), each as data (CSV), picture and verdict; `--only fig6`
+one of them, `--quick` on small grids. This page is written by the same command (`--docs docs`). Figs. 1 and 7 are a
+sketch and the measured surface, which is not published.
+
+"""
+
 
 @dataclass(frozen=True)
 class PaperFigure:
@@ -41,6 +50,15 @@ def write_index(folder: Path, figures: list[tuple[PaperFigure, float]], quick: b
     parts += [markdown(figure, seconds) for figure, seconds in figures]
     (folder / "index.md").write_text("\n".join(parts))
     (folder / "index.html").write_text(_page(figures, note))
+
+
+def write_document(folder: Path, figures: list[tuple[PaperFigure, float]]) -> None:
+    """figures.md with its pictures in images/, for the documents of the project."""
+    images = folder / "images"
+    images.mkdir(parents=True, exist_ok=True)
+    for figure, _ in figures:
+        (images / f"{figure.name}.png").write_bytes(figure.picture)
+    (folder / "figures.md").write_text(DOCUMENT + "\n".join(markdown(f, s, "images/") for f, s in figures))
 
 
 def markdown(figure: PaperFigure, seconds: float, images: str = "") -> str:

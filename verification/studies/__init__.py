@@ -45,4 +45,8 @@ STUDIES: tuple[Study, ...] = (
     Study("friction", "verification.studies.friction:friction", "The whole job of lubfric: grid, patch, area, tolerance"),
     Study("load_sharing", "verification.studies.load_sharing:load_sharing",
           "Load sharing, both halves by finite elements"),
+    Study("formulations", "verification.studies.formulations:formulations",
+          "Contact formulations of the paper against the default"),
+    Study("transient", "verification.studies.transient:transient", "Smooth contact in time: squeeze, stops, jumps"),
+    Study("transient_mixed", "verification.studies.transient_mixed:transient_mixed", "Load sharing in time"),
 )
