@@ -39,7 +39,7 @@ class Curves:
 
 def curves_of(acf, length, decay_level=INVERSE_E, seed=1, quick=False, models=ASPERITIES) -> Curves:
     """Everything that is computed for one surface; it serves every load, speed and lubricant."""
-    heights = rough(length, acf, seed, 272 if quick else 816, decay_level).heights
+    heights = rough(length, acf, seed, 400 if quick else 816, decay_level).heights
     e_prime, heaviest = SCENE.bodies.e_prime, max(LOADS)
     half_space = tabulated(contact_curve(heights, SPACING, e_prime, heaviest=heaviest, tolerance=1e-4))
     asperity = {model: tabulated(asperity_curve(heights, SPACING, e_prime, heaviest=heaviest, definition=model[0],
@@ -101,7 +101,7 @@ def friction_curves(quick: bool) -> PaperFigure:
 
 
 def _direct_scene(load, length, quick):
-    count = 272 if quick else 816
+    count = 400 if quick else 816
     return at_mean_pressure(SCENE, load).with_(surface={"correlation_length": length, "seed": 1},
                                                contact={"shape": (count, count)})
 

@@ -22,7 +22,7 @@ def rough(length: float, acf: str = "exponential", seed: int = 1, count: int = C
 
 def generated_surfaces(quick: bool) -> PaperFigure:
     """Both lengths with both autocorrelation functions, what the maps have, and what they were asked to have."""
-    count = 256 if quick else COUNT
+    count = 400 if quick else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
     rows, shown = [], min(count, 256)
     for row, acf in zip(grid, ("exponential", "gaussian")):

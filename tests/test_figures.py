@@ -1,0 +1,117 @@
+"""The figures of the paper: their models against the library and closed forms, and the command that writes them."""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.asperity_patch import asperity_curve
+from lubfric.contact import solve_contact
+from lubfric.contact_curve import contact_curve
+from verification.__main__ import main
+from verification.figures import FIGURES, cylinder, flat_model, spheres
+
+pytest.importorskip("PIL")
+
+
+def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
+    from lubfric.halfspace.free import love_coefficients
+    count, step = 201, 1e-6
+    kernel = love_coefficients((count, count), (step, step), spheres.E_PRIME)
+    half = kernel[:count // 2 + 1, :count // 2 + 1]
+    whole = 4 * half.sum() - 2 * half[0].sum() - 2 * half[:, 0].sum() + half[0, 0]
+    assert whole * spheres.E_PRIME / (count * step) == pytest.approx(spheres.MEAN_OF_BOX, rel=1e-3)
+
+
+def test_one_period_of_the_array_stands_for_many():
+    heights, step = spheres.unit_cell(14e-6, 4 * spheres.CELL)
+    one = solve_contact(spheres.HEIGHT - heights, step, spheres.E_PRIME, mean_pressure=2e7, tolerance=1e-8)
+    many = solve_contact(spheres.HEIGHT - np.tile(heights, (2, 3)), step, spheres.E_PRIME, mean_pressure=2e7, tolerance=1e-8)
+    assert many.approach == pytest.approx(one.approach, rel=1e-6)
+
+
+def test_both_gauges_of_the_sphere_array():
+    loads = [2e-3]
+    found = [spheres.approaches(d, loads, 2 * spheres.CELL) for d in spheres.SPACINGS]
+    left_out, kept = np.array(found)[:, :, 0].T
+    alone = (loads[0] / (2 / 3 * spheres.E_PRIME * math.sqrt(spheres.RADIUS))) ** (2 / 3)
+    assert np.all(np.diff(left_out) > 0) and np.all(np.diff(kept) < 0)
+    assert abs(left_out[-1] / alone - 1) < 0.06
+    # the next term for a square array: -3.9002 F/(lambda) of the potential of a point load and its background
+    expected = alone - 2 / (math.pi * spheres.E_PRIME) * loads[0] * 3.9002 / np.array(spheres.SPACINGS)
+    assert np.allclose(left_out, expected, rtol=0.03)
+
+
+@pytest.fixture(scope="module")
+def small():
+    scene = flat_model.at_mean_pressure(lubfric.load_scene("flat"), 1e8).with_(
+        surface={"correlation_length": 40e-6, "acf": "gaussian"}, contact={"shape": (96, 96), "spacing": 8e-6},
+        numerics={"tolerance": 1e-3})
+    heights = lubfric.mixed.prepare(scene).surface.heights
+    return scene, heights - heights.mean()
+
+
+@pytest.mark.parametrize("model", ["half-space", "summits"])
+def test_tables_give_what_friction_gives(small, model):
+    scene, heights = small
+    pressure = scene.bodies.mean_hertz_pressure
+    assert pressure == pytest.approx(1e8, rel=1e-12)
+    if model == "half-space":
+        curve = contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=pressure)
+    else:
+        curve = asperity_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=pressure, definition=model, reading="volume")
+    for speed, scaled in ((3e-3, False), (3e-2, True)):
+        table, = flat_model.film_tables(scene, speed, scaled=scaled, laws=[{}])
+        found = flat_model.share(table, flat_model.tabulated(curve), pressure, 0.09)
+        direct = lubfric.friction(scene.with_(contact={"model": model}, numerics={
+            "film_deflection": "scaled" if scaled else "hydrodynamic"}), speed)
+        assert found.coefficient == pytest.approx(direct.coefficient, rel=5e-3)
+        assert found.film_share == pytest.approx(direct.film_load / scene.bodies.load, rel=1e-2)
+
+
+def test_deviation_is_eq_13():
+    d, at = flat_model.deviation([0.1, 0.08, 0.02], [0.1, 0.05, 0.015])
+    assert d == pytest.approx(0.03 / 0.08) and at == 1
+    d, at = flat_model.deviation([math.nan, 0.1], [0.1, 0.09])
+    assert d == pytest.approx(0.1) and at == 1
+    assert flat_model.deviation([math.nan], [1.0])[1] == -1
+
+
+def test_a_load_the_model_cannot_carry_is_not_a_number(small):
+    scene, heights = small
+    curve = flat_model.tabulated(contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=1e6))
+    table, = flat_model.film_tables(scene, 1e-4, scaled=False, laws=[{}])
+    assert math.isnan(flat_model.share(table, curve, 1e8, 0.09).coefficient)
+
+
+def test_the_papers_mean_hertz_pressure():
+    assert cylinder.mean_pressure_check() == pytest.approx(102e6, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])
+def test_the_command_writes_picture_data_and_page(name, tmp_path):
+    assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")]) == 0
+    picture = (tmp_path / f"{name}.png").read_bytes()
+    assert picture.startswith(b"\x89PNG") and 5_000 < len(picture) < 150_000
+    with (tmp_path / f"{name}.csv").open() as file:
+        heading, *rows = csv.reader(file)
+    assert len(rows) >= 2 and all(len(row) == len(heading) for row in rows)
+    page = (tmp_path / "index.md").read_text()
+    assert "**Agrees.**" in page and "**Differs, and why.**" in page and "nan" not in page
+    assert f"{name}.png" in (tmp_path / "index.html").read_text()
+    assert f"images/{name}.png" in (tmp_path / "docs" / "figures.md").read_text()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["fig5", "fig6", "fig8", "film"])
+def test_the_longer_figures_quickly(name, tmp_path):
+    assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / f"{name}.png").stat().st_size > 5_000
+
+
+def test_an_unknown_figure_is_refused(tmp_path):
+    with pytest.raises(SystemExit) as refused:
+        main(["figures", "--only", "fig3", "--out", str(tmp_path)])
+    assert refused.value.code == 2 and "fig6" in FIGURES
