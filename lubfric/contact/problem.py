@@ -91,4 +91,4 @@ def starting_pressure(problem: Problem, start) -> np.ndarray | None:
     if pressure.min() < 0 or pressure.max() > limit:
         raise InputError(f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; "
                          f"allowed: 0 to {limit:g} Pa")
-    return np.minimum(pressure, problem.hardness)
+    return np.ascontiguousarray(np.minimum(pressure, problem.hardness))      # the solver writes through ravel()
