@@ -12,7 +12,6 @@ Under a cylinder the contact load does not flatten the surface as a whole: the f
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,8 +21,7 @@ from .contact_curve import ContactCurve
 from .errors import ConvergenceError
 from .patch import Closure
 
-APPROACH = 1.2                   # ratio between neighbouring nodes of the curve
-CURVE_RANGE = (1e-4, 1.0)        # of the height range
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])   # of the height range
 
 
 def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
@@ -37,8 +35,7 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     law = contact_law(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))
     nodes = []
-    count = 1 + math.ceil(math.log(CURVE_RANGE[1] / CURVE_RANGE[0]) / math.log(APPROACH))
-    for approach in span * np.geomspace(*CURVE_RANGE, count):
+    for approach in span * APPROACHES:
         found = law(top - approach)
         gap = _curve_gap(heights, top - approach, reading)
         if gap <= 0:
@@ -48,7 +45,7 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
         if nodes and nodes[-1][0] >= heaviest:
             break
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
-    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), count)
+    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0)
 
 
 def _curve_gap(heights, separation, reading) -> float:
