@@ -15,7 +15,7 @@ _HOME = {
     "asperity_contact": "asperity", "separation_for_load": "asperity", "AsperityResult": "asperity",
     "solve_ehl": "ehl", "EHLResult": "ehl",
     "solve_differential_deflection": "ehl.differential_deflection",
-    "Scene": "scene", "load_scene": "scene",
+    "Scene": "scene", "load_scene": "scene_file",
     "friction": "mixed", "FrictionResult": "mixed",
     "transient": "unsteady", "TransientResult": "unsteady", "Transient": "history",
     "stribeck": "sweep", "StribeckResult": "sweep",

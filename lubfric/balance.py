@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from .ehl import EHLResult
+from .errors import ConvergenceError
 from .patch import Closure
 from .report import CONVERGED, Report
 from .roots import increasing_root
@@ -46,13 +47,10 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, s
     Stops at |residual| <= tolerance. ``guess``: of ln(F_H/F_C); ``start``: a neighbouring Balance, its ln(F_H/F_C)
     moved by ``shift``; ``touching``: it is known that the film of the whole load does not clear the summits.
     """
-    film = start.film if start else None
-    if not touching:
-        whole = separated(total_load, solve_film, close, tolerance, film)
-        if whole.closure.volume_residual <= 0:
-            return whole
-        film = film or whole.film
-    last = {"film": film, "contact": start.closure.contact if start else None}
+    whole, notes = _whole(total_load, solve_film, close, tolerance, start, touching)
+    if whole is not None and whole.closure.volume_residual <= 0:
+        return whole
+    last = {"film": start.film if start else whole and whole.film, "contact": start.closure.contact if start else None}
     seen = []
 
     def residual(split):
@@ -67,7 +65,7 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, s
     root = increasing_root(residual, start.split + shift if start else guess, step=0.7 if start else 1.5,
                            bounds=BOUNDS, tolerance=tolerance, slope=start.slope if start else None)
     film_load, contact_load, film, closure = root.payload
-    report = _report(root.history, root.status, tolerance, film, closure)
+    report = _report(root.history, root.status, tolerance, film, closure, *notes)
     return Balance(film_load, contact_load, film, closure, report, _slope(seen) or (start.slope if start else None))
 
 
@@ -77,6 +75,17 @@ def separated(total_load, solve_film, close, tolerance, start_film=None) -> Bala
     closure = close(film, 0.0, None)
     return Balance(total_load, 0.0, film, closure, _report([0.0], CONVERGED, tolerance, film, closure,
                                                            "separated: the film clears the summits"))
+
+
+def _whole(total_load, solve_film, close, tolerance, start, touching):
+    """`separated`, unless it is known that the summits touch, or the film of the whole load fails: then the balance
+    that is found, one of a kind, is what excludes separation."""
+    if touching:
+        return None, ()
+    try:
+        return separated(total_load, solve_film, close, tolerance, start.film if start else None), ()
+    except ConvergenceError as error:
+        return None, (f"the film of the whole load was not solved ({error})",)
 
 
 def _slope(seen) -> float | None:
@@ -96,13 +105,10 @@ def share_by_separation(total_load, solve_film, close, carry, *, guess, toleranc
     clears the surface, and the rest as in `share_load`. The search begins at thicker films than the guess: a film
     far too thin would press the contact flat.
     """
-    film = start.film if start else None
-    if not touching:
-        whole = separated(total_load, solve_film, close, tolerance, film)
-        if whole.closure.volume_residual <= 0:
-            return whole
-        film = film or whole.film
-    last = {"film": film, "contact": start.closure.contact if start else None}
+    whole, notes = _whole(total_load, solve_film, close, tolerance, start, touching)
+    if whole is not None and whole.closure.volume_residual <= 0:
+        return whole
+    last = {"film": start.film if start else whole and whole.film, "contact": start.closure.contact if start else None}
 
     def residual(split):
         film_load = total_load / (1 + math.exp(-split))
@@ -114,7 +120,7 @@ def share_by_separation(total_load, solve_film, close, carry, *, guess, toleranc
     root = increasing_root(residual, (start.split + shift if start else guess) - THICKER, step=0.7, bounds=BOUNDS,
                            tolerance=tolerance)
     film_load, contact_load, film, closure = root.payload
-    report = _report(root.history, root.status, tolerance, film, closure)
+    report = _report(root.history, root.status, tolerance, film, closure, *notes)
     report = replace(report, residuals=report.residuals | {"load": min(root.history), "volume": abs(closure.volume_residual)})
     return Balance(film_load, contact_load, film, closure, report)
 

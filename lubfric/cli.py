@@ -51,7 +51,7 @@ def _run(arguments) -> int:
     from .mixed import friction, prepare
     from .output import read_csv, write_csv, write_fields, write_json
     from .plot import plot_contact, plot_stribeck
-    from .scene import load_scene
+    from .scene_file import load_scene
     from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
@@ -83,7 +83,7 @@ def _run(arguments) -> int:
 
 def _info(arguments) -> int:
     from .describe import describe_scene
-    from .scene import load_scene
+    from .scene_file import load_scene
     print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
     return 0
 

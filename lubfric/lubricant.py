@@ -60,7 +60,7 @@ class Lubricant:
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
         choice("density_law", self.density_law, DENSITY_LAWS)
         eta0 = positive("viscosity", self.viscosity, "Pa s")
-        alpha = nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa")
+        alpha = nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
         if self.viscosity_law == "roelands":
             if alpha == 0.0:
                 raise InputError("pressure_viscosity_coefficient = 0 1/Pa has no Roelands exponent; allowed: "

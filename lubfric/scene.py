@@ -13,6 +13,7 @@ from .lubricant import Lubricant
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
+LARGEST = 2**26        # cells of a contact grid
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
@@ -41,10 +42,10 @@ class Bodies:
     hardness: float | None = None
 
     def __post_init__(self):
-        validate.positive("bodies.radius", self.radius, "m")
+        validate.positive("bodies.radius", self.radius, "m", maximum=1e3)
         validate.positive("bodies.width", self.width, "m")
         validate.positive("bodies.load", self.load, "N")
-        validate.positive("bodies.e_prime", self.e_prime, "Pa")
+        validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
         validate.nonnegative("bodies.boundary_friction_coefficient",
                              self.boundary_friction_coefficient, "(-)")
         if self.hardness is not None:
@@ -93,7 +94,7 @@ class Roughness:
     sq [m]: standard deviation of the heights; a file is scaled to it when given.
     correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf.
     motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
-    spacing [m]: of a file that does not carry its own. oversize: a generated map is made this many times
+    spacing [m], unit ("m", "mm", "um", "nm"): of a file that does not carry its own. oversize: a generated map is made this many times
     as long in x and y, its middle cut out (for lengths that do not fit the patch) and scaled to sq.
     """
 
@@ -105,6 +106,7 @@ class Roughness:
     seed: int = 0
     motion_axis: str = "x"
     spacing: float | tuple[float, float] | None = None
+    unit: str | None = None
     oversize: int = 1
 
     def __post_init__(self):
@@ -151,10 +153,11 @@ class Patch:
         validate.choice("contact.geometry", self.geometry, GEOMETRIES)
         validate.choice("contact.region", self.region, REGIONS)
         if self.shape is not None:
-            if len(self.shape) != 2:
+            if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
                 raise InputError(f"contact.shape = {self.shape!r} must be a pair (nx, ny) of whole numbers >= 1")
-            for n in self.shape:
-                validate.integer("contact.shape", n, minimum=1)
+            cells = math.prod(validate.integer("contact.shape", n, minimum=1) for n in self.shape)
+            if cells > LARGEST:
+                raise InputError(f"contact.shape = {self.shape!r} has {cells:.3g} cells; allowed: up to {LARGEST:.3g}")
         if self.spacing is not None:
             validate.spacing("contact.spacing", self.spacing)
 
@@ -191,12 +194,17 @@ class Numerics:
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
         validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
-        validate.number("numerics.tolerance", self.tolerance, "(-)", above=0, maximum=0.2)
+        validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
         validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
         validate.integer("numerics.workers", self.workers, minimum=1)
+
+    @property
+    def forced_film_level(self) -> str:
+        """Film level given by name or by ``model = "full"``; "auto" where it is to be chosen."""
+        return "ehl" if self.model == "full" and self.film_level == "auto" else self.film_level
 
     @property
     def film_tolerance(self) -> float:
@@ -236,6 +244,8 @@ class Scene:
                                  f"{validate.nearest(section, self.__dataclass_fields__)}")
             old = getattr(self, section)
             if not isinstance(values, dict):
+                if section not in ("name", "transient") and not isinstance(values, type(old)):
+                    raise InputError(f"{section} = {values!r}; allowed: a dict of its fields, or a {type(old).__name__}")
                 changed[section] = values
                 continue
             for key in values:
@@ -244,15 +254,3 @@ class Scene:
                                      f"{validate.nearest(key, old.__dataclass_fields__)}")
             changed[section] = replace(old, **values)
         return replace(self, **changed)
-
-
-def load_scene(source, *, surface_file=None) -> Scene:
-    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
-
-    ``surface_file``: a height map to use instead of the scene's ``surface.file``.
-
-    Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
-    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
-    """
-    from .scene_file import read_scene
-    return read_scene(source, surface_file)

@@ -20,20 +20,40 @@ SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface
             "contact": Patch, "numerics": Numerics, "transient": Transient}
 EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range", "sliding_speed")}
 OPTIONAL = ("contact", "numerics", "transient")
+GENERATED = ("sq", "correlation_length", "acf", "decay_level", "seed", "oversize")
 HISTORIES = {"speed": ("motion", "entrainment_speed"), "sliding": ("motion", "sliding_speed"), "load": ("bodies", "load"),
              "radius": ("bodies", "radius"), "viscosity": ("lubricant", "viscosity")}
 
 
-def read_scene(source, surface_file=None) -> Scene:
-    """See `lubfric.load_scene`."""
+def load_scene(source, *, surface_file=None) -> Scene:
+    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+
+    ``surface_file``: a height map to use instead of the scene's own surface; in place of a generated one it keeps its
+    own grid.
+
+    Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
+    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
+    """
     text, folder, name = _text(source)
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"scene {source} is not valid TOML: {error}") from None
-    if surface_file is not None and isinstance(table.get("surface"), dict):
-        table["surface"]["file"] = str(Path(surface_file).absolute())
+        raise InputError(f"scene {source} is not valid TOML: {error} (numbers have a decimal point and no unit)") from None
+    if surface_file is not None:
+        _put_surface(table, Path(surface_file))
     return scene_from_table(table, folder, name)
+
+
+def _put_surface(table: dict, path: Path) -> None:
+    if not path.is_file():
+        raise InputError(f"surface = {str(path)!r}: no such file")
+    surface, contact = table.setdefault("surface", {}), table.setdefault("contact", {})
+    if isinstance(surface, dict) and isinstance(contact, dict) and "file" not in surface:
+        for key in GENERATED:
+            surface.pop(key, None)
+        contact.pop("shape", None), contact.pop("spacing", None)
+    if isinstance(surface, dict):
+        surface["file"] = str(path.absolute())
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -98,7 +118,10 @@ def _text(source) -> tuple[str, Path, str]:
     if not path.is_file():
         raise InputError(f"scene {str(source)!r} is neither a file nor a built-in scene"
                          f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}")
-    return path.read_text(), path.parent, path.stem
+    try:
+        return path.read_text(encoding="utf-8-sig"), path.parent, path.stem
+    except (UnicodeDecodeError, OSError) as error:
+        raise InputError(f"scene {str(source)!r} cannot be read as UTF-8 text: {error}") from None
 
 
 def _known(where: str, table: dict, allowed) -> None:
@@ -148,6 +171,8 @@ def _speeds(table: dict) -> None:
             raise InputError("motion.surface_speeds sum to 0 m/s: give entrainment_speed = 0 and a slide_roll_ratio")
         table["entrainment_speed"] = (u1 + u2) / 2
         table["slide_roll_ratio"] = 2 * (u2 - u1) / (u1 + u2)
+    if not isinstance(table.get("speeds", []), list):
+        raise InputError(f"motion.speeds = {table['speeds']!r}; allowed: a list of numbers in m/s")
     if "speed_range" in table:
         if "speeds" in table:
             raise InputError("[motion] takes speeds or speed_range, not both")
@@ -155,6 +180,6 @@ def _speeds(table: dict) -> None:
         if not isinstance(value, list) or len(value) != 3:
             raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
         low = validate.positive("motion.speed_range lowest", value[0], "m/s")
-        high = validate.positive("motion.speed_range highest", value[1], "m/s")
+        high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
         count = validate.integer("motion.speed_range count", value[2], minimum=1)
         table["speeds"] = [float(u) for u in np.geomspace(low, high, count)]

@@ -74,3 +74,17 @@ def test_the_strip_counts_cut_cells_by_their_share():
     for b in (0.05, 0.12, 0.33, 0.5):
         assert strip_weight(x, 0.1, b).sum() * 0.1 == pytest.approx(2 * b)
     assert math.isclose(strip_weight(x, 0.1, 9.0).sum(), 10)
+
+
+def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance():
+    from lubfric import ConvergenceError
+    solve_film, close, _ = models(0.01, 1.0)
+
+    def failing(load, start):
+        if load == 1.0:
+            raise ConvergenceError("too heavy", Report("film", ITERATION_LIMIT, 1, 1.0, 0.1))
+        return solve_film(load, start)
+    balance = share_load(1.0, failing, close, guess=0.0, tolerance=1e-8)
+    reference = share_load(1.0, solve_film, close, guess=0.0, tolerance=1e-8)
+    assert balance.film_load == pytest.approx(reference.film_load, rel=1e-6)
+    assert "too heavy" in balance.report.notes[0]

@@ -420,3 +420,12 @@ def test_constant_viscosity_needs_no_coefficient():
     constant = GOOD | {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0}
     barus = GOOD | {"viscosity_law": "barus", "pressure_viscosity_coefficient": 0.0}
     assert solve_ehl(**constant).min_film == pytest.approx(solve_ehl(**barus).min_film, rel=1e-9)
+
+
+def test_a_warm_start_from_a_far_heavier_load_does_not_end_in_a_root_without_an_inlet():
+    contact = dict(radius=0.01, e_prime=231e9, entrainment_speed=0.01, viscosity=0.05,
+                   pressure_viscosity_coefficient=2e-8)
+    heavy = solve_ehl(load_per_width=208269.86734083356, **contact)
+    warm = solve_ehl(load_per_width=3112.280250301359, start=heavy, **contact)
+    cold = solve_ehl(load_per_width=3112.280250301359, **contact)
+    assert warm.min_film == pytest.approx(cold.min_film, rel=6e-3)

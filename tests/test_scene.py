@@ -79,6 +79,13 @@ def test_a_file_equals_its_short_forms(tmp_path):
     ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
     ({"contact__spacing": "0.0"}, ["contact.spacing", "m"]),
     ({"numerics__tolerance": "0.0"}, ["numerics.tolerance"]),
+    ({"contact__shape": "200"}, ["contact.shape", "pair"]),
+    ({"contact__shape": "[200000, 200000]"}, ["contact.shape", "4e+10 cells"]),
+    ({"numerics__tolerance": "1e-6"}, ["numerics.tolerance", "0.0001"]),
+    ({"bodies__e_prime": "231.0"}, ["bodies.e_prime", "231", "Pa"]),
+    ({"lubricant__pressure_viscosity_coefficient": "25.0"}, ["pressure_viscosity_coefficient", "25", "1/Pa"]),
+    ({"motion__speeds": "'0.1'"}, ["motion.speeds", "list"]),
+    ({"motion__speed_range": "[1.0, 1e-3, 4]"}, ["speed_range highest"]),
     ({"motion__surface_speeds": "[0.0, 0.6]"}, ["surface_speeds", "not both"]),
     ({"motion__speeds": "[0.1]", "motion__speed_range": "[1e-3, 1.0, 4]"}, ["speeds or speed_range"]),
 ])
@@ -96,6 +103,39 @@ def test_missing_files_and_broken_toml(tmp_path):
         lubfric.load_scene(write(tmp_path, "[bodies\nradius = 1"))
 
 
+def test_text_of_other_encodings(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + toml().encode())                  # a byte order mark is no part of the text
+    assert lubfric.load_scene(path).bodies.load == 5.5
+    path.write_bytes("# \u00b5".encode("latin-1") + toml().encode())
+    with pytest.raises(lubfric.InputError, match="UTF-8"):
+        lubfric.load_scene(path)
+
+
+def test_another_surface_keeps_its_own_grid(tmp_path):
+    np.save(tmp_path / "map.npy", np.zeros((4, 4)))
+    scene = lubfric.load_scene("paper", surface_file=tmp_path / "map.npy")
+    assert scene.surface.file.endswith("map.npy") and scene.surface.sq is None and scene.contact.shape is None
+    with pytest.raises(lubfric.InputError, match="no such file"):
+        lubfric.load_scene("paper", surface_file=tmp_path / "nothing.npy")
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"spacing": 0.4}, ["rms slope", "both in m"]),
+    ({"spacing": 9e-6}, ["contact.spacing", "half-width"]),
+    ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip"]),
+])
+def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
+    from lubfric.rough_map import check_grid
+    patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
+    rng = np.random.default_rng(1)
+    heights = rng.standard_normal(patch["shape"]) * (1.0 if "rms slope" in words else 1e-8)
+    with pytest.raises(lubfric.InputError) as caught:
+        check_grid(PAPER, lubfric.Surface(heights, patch["spacing"]))
+    for word in words:
+        assert word in str(caught.value)
+
+
 def test_with_replaces_one_value_and_is_strict():
     heavier = PAPER.with_(bodies={"load": 11.0}, name="heavier")
     assert heavier.bodies.load == 11.0 and heavier.bodies.radius == PAPER.bodies.radius
@@ -105,6 +145,8 @@ def test_with_replaces_one_value_and_is_strict():
         PAPER.with_(bodies={"lod": 1.0})
     with pytest.raises(lubfric.InputError, match="did you mean 'bodies'"):
         PAPER.with_(body={"load": 1.0})
+    with pytest.raises(lubfric.InputError, match="bodies = 3"):
+        PAPER.with_(bodies=3)
 
 
 def test_the_resolved_scene_is_plain_data():

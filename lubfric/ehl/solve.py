@@ -155,8 +155,8 @@ def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
 
 
 def _sound(levels: list[Solution]) -> bool:
-    """Converged, and no root with tension in the film."""
+    """Converged, and no root with tension in the film or with the inlet on the wrong side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
-    P = levels[-1].terms.P
-    return bool(P.min() >= -1e-3 * P.max())
+    P, X = levels[-1].terms.P, levels[-1].terms.X
+    return bool(X[0] < 0.0 and X[-1] < -X[0] and P.min() >= -1e-3 * P.max())
