@@ -10,16 +10,17 @@ import numpy as np
 
 from . import validate
 from .asperity_patch import AsperityPatch, asperity_curve
-from .balance import Balance, share_by_separation, share_load
+from .balance import Balance
 from .contact_curve import contact_curve
-from .ehl import solve_ehl
 from .flat_patch import FlatPatch
 from .halfspace import half_space
+from .levels.balance_at import forces
+from .levels.decision import Decision
+from .levels.settle import settle
 from .patch import CylinderPatch, centred_axis, strip_weight
-from .report import CONVERGED, Report
+from .report import Report
 from .rough_map import contact_map
 from .scene import Scene
-from .shear import ShearForce, shear_force
 from .surface import Surface
 
 STRIP_POINTS = 128
@@ -45,7 +46,8 @@ class FrictionResult:
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
     carries F_H (NaN without entrainment); film_to_roughness_ratio: central_film/Sq. The residuals are
     relative: load (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
-    (`EHLResult`) and, for a cylinder in contact, the dry contact (`ContactResult`).
+    (`EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact (`ContactResult`). ``decision``: how much
+    was modelled, and the numbers it was judged by (``decision.text`` in words).
     """
 
     speed: float
@@ -67,6 +69,7 @@ class FrictionResult:
     seconds: float
     report: Report
     balance: Balance | None = None
+    decision: Decision | None = None
 
 
 def prepare(scene: Scene) -> Model:
@@ -105,102 +108,55 @@ def _cylinder_patch(scene: Scene, heights, spacing) -> CylinderPatch | AsperityP
 
 
 def friction(scene: Scene | Model, speed: float | None = None, *, start: FrictionResult | None = None,
-             fields: bool = False, raise_on_failure: bool = True) -> FrictionResult:
+             tolerance: float | None = None, model: str | None = None, fields: bool = False,
+             raise_on_failure: bool = True) -> FrictionResult:
     """Friction coefficient of ``scene`` at an entrainment speed [m/s] (default: the scene's own).
 
     The film and the rough contact share the load so that F_T = F_C + F_H and the lubricant volume
     of Eq. (8) hold together (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without
     entrainment the contact carries everything; when the film clears the summits no contact is solved.
 
-    ``start``: the result (with fields) of a neighbouring speed of the same model, for a warm start.
-    ``fields``: keep film and contact in ``result.balance``.
-    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance. Raises
-    `InputError` before any work, `ConvergenceError` with report and result when a part does not converge
-    (``raise_on_failure=False`` returns the unconverged balance, but a failed film or contact always raises).
+    ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
+    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid.
+    ``start``: the result of a neighbouring speed of the same map, for a warm start.
+    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
+    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
+    of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
+    not converge (``raise_on_failure=False`` returns the unconverged balance, but a failed film or contact always raises).
     """
     begun = time.perf_counter()
-    model = scene if isinstance(scene, Model) else prepare(scene)
-    scene = model.scene
-    speed = scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
-    balance = _dry(model) if speed == 0 else _balanced(model, speed, start.balance if start else None)
-    result = _result(model, speed, balance, time.perf_counter() - begun)
+    ready = at_tolerance(scene, tolerance, model)
+    speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
+    balance, decision = settle(ready, speed, start.balance if start else None, given_grid=fields)
+    result = _result(ready, speed, balance, decision, begun)
     if raise_on_failure:
         result.report.raise_if_failed(result)
-    return result if fields else replace(result, balance=None)
+    return result
 
 
-def _balanced(model: Model, speed: float, start: Balance | None) -> Balance:
-    scene = model.scene
-    bodies, lubricant = scene.bodies, scene.lubricant
-    scaled = scene.numerics.film_deflection == "scaled"
-
-    def solve_film(load, start):
-        modulus = bodies.e_prime * (load / bodies.load if scaled else 1.0)
-        return solve_ehl(load_per_width=load / bodies.width, radius=bodies.radius, e_prime=modulus,
-                         entrainment_speed=speed, viscosity=lubricant.viscosity,
-                         pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-                         viscosity_law=lubricant.viscosity_law, density=lubricant.density_law,
-                         tolerance=scene.numerics.film_tolerance, start=start)
-
-    def close(film, contact_load, start):
-        return model.patch.close(film.film_at(model.patch.x), contact_load, start, _contact_shape(model, film))
-
-    def carry(film, start):
-        return model.patch.carry(film.film_at(model.patch.x), start, _contact_shape(model, film))
-
-    reference = max(2 * model.surface.sq, 1e-12)
-    film_share = 4.895 * lubricant.viscosity * abs(speed) * bodies.radius * bodies.width / (reference * bodies.load)
-    share = min(film_share, 0.9)                       # rigid isoviscous film of two sigma
-    options = {"guess": math.log(share / (1 - share)), "tolerance": scene.numerics.volume_tolerance, "start": start}
-    if scene.numerics.closure == "load":
-        balance = share_load(bodies.load, solve_film, close, **options)
-    else:
-        balance = share_by_separation(bodies.load, solve_film, close, carry, **options)
-    model.patch.check(balance.closure)
-    return balance
+def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
+    """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
+    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
+    ready = isinstance(scene, Model)
+    asked = (scene.scene if ready else scene).with_(numerics=changed)
+    if not ready:
+        return prepare(asked)
+    return replace(scene, scene=asked) if changed else scene
 
 
-def _contact_shape(model: Model, film) -> np.ndarray | None:
-    """What the surface is pressed under, up to a constant, where it is not the film itself (None).
-
-    With Johnson's modulus the film holds the deflection of the whole load; the contact adds its own share itself.
-    """
-    if model.scene.numerics.film_deflection == "hydrodynamic":
-        return None
-    parabola = model.patch.x**2 / (2 * film.radius)
-    share = film.e_prime / model.scene.bodies.e_prime
-    return parabola + share * (film.film_at(model.patch.x) - parabola)
-
-
-def _dry(model: Model) -> Balance:
-    """No entrainment, no film: the contact carries the whole load under the undeformed cylinder."""
-    bodies = model.scene.bodies
-    closure = model.patch.close(model.patch.x**2 / (2 * bodies.radius), bodies.load)
-    model.patch.check(closure)
-    report = Report("load sharing", CONVERGED, 0, 0.0, model.scene.numerics.volume_tolerance,
-                    residuals={"volume": 0.0, "load": 0.0}, notes=("no entrainment: all contact",))
-    return Balance(0.0, bodies.load, None, closure, report)
-
-
-def _result(model: Model, speed: float, balance: Balance, seconds: float) -> FrictionResult:
+def _result(model: Model, speed: float, balance: Balance, decision: Decision, begun: float) -> FrictionResult:
     scene, closure, film = model.scene, balance.closure, balance.film
-    bodies, motion = scene.bodies, scene.motion
-    shear = ShearForce(0.0, 0.0)
-    if film is not None:
-        shear = shear_force(film, scene.lubricant, entrainment_speed=speed, slide_roll_ratio=motion.slide_roll_ratio,
-                            radius=bodies.radius, width=bodies.width, cavitated=scene.numerics.cavitated_shear,
-                            contact_fraction=lambda x: np.interp(x, closure.x, closure.contact_fraction, 0.0, 0.0))
-    boundary = bodies.boundary_friction_coefficient * balance.contact_load * (motion.slide_roll_ratio != 0)
+    found = forces(scene, speed, balance)
     central = film.central_film if film is not None else math.nan
     sq = model.surface.sq
     return FrictionResult(
-        speed=speed, coefficient=(boundary + shear.total) / bodies.load, contact_load=balance.contact_load,
-        film_load=balance.film_load, shear_force=shear.total, couette_force=shear.couette,
-        rolling_force=shear.rolling, boundary_force=boundary,
+        speed=speed, coefficient=found.coefficient, contact_load=balance.contact_load,
+        film_load=balance.film_load, shear_force=found.shear.total, couette_force=found.shear.couette,
+        rolling_force=found.shear.rolling, boundary_force=found.boundary,
         real_contact_area_fraction=closure.real_contact_area_fraction,
         plastic_area_fraction=closure.plastic_area_fraction,
         min_film=film.min_film if film is not None else math.nan, central_film=central, mean_gap=closure.mean_gap,
         film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
-        load_residual=(balance.contact_load + balance.film_load - bodies.load) / bodies.load,
-        volume_residual=0.0 if film is None else closure.volume_residual,
-        seconds=seconds, report=balance.report, balance=balance)
+        load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
+        volume_residual=0.0 if film is None else closure.volume_residual, seconds=time.perf_counter() - begun,
+        report=replace(balance.report, notes=(*balance.report.notes, decision.text)), balance=balance, decision=decision)

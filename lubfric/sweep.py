@@ -8,11 +8,11 @@ import numpy as np
 
 from . import validate
 from .errors import ConvergenceError
-from .mixed import FrictionResult, Model, friction, prepare
+from .mixed import FrictionResult, Model, at_tolerance, friction
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
 
-QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in ("report", "balance"))
+QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in ("report", "balance", "decision"))
 
 
 @dataclass(frozen=True)
@@ -45,20 +45,21 @@ class StribeckResult:
     report: Report
 
 
-def stribeck(scene: Scene | Model, speeds=None, executor=None, *, fields: bool = False, on_point=None,
-             raise_on_failure: bool = True) -> StribeckResult:
+def stribeck(scene: Scene | Model, speeds=None, executor=None, *, tolerance: float | None = None, model: str | None = None,
+             fields: bool = False, on_point=None, raise_on_failure: bool = True) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
     `concurrent.futures.Executor`; the speeds are then split into neighbouring runs. ``on_point(done, total,
-    result_or_None)`` is called as points end. ``fields``: keep film and contact of every point.
+    result_or_None)`` is called as points end. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``:
+    keep film and contact of every point, on the scene's own contact grid.
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
     `ConvergenceError` is raised with the whole curve as its ``result`` (``raise_on_failure=False`` returns it).
     """
     base = scene.scene if isinstance(scene, Model) else scene
     speeds = base.motion.speeds if speeds is None else speeds
     speeds = validate.array("speeds", np.atleast_1d(np.asarray(speeds, float)), "m/s", ndim=1)
-    model = scene if isinstance(scene, Model) else prepare(scene)
+    model = at_tolerance(scene, tolerance, model)
     order = np.argsort(-np.abs(speeds), kind="stable")
     runs = [order] if executor is None else np.array_split(order, min(order.size, 8))
     points, errors = [None] * speeds.size, {}
@@ -85,7 +86,7 @@ def _run(model, cases, fields):
     start = None
     for index, speed in cases:
         try:
-            start = friction(model, speed, start=start, fields=True)
+            start = friction(model, speed, start=start, fields=fields)
         except Exception as error:              # kept in ``errors``; raised once every point is done
             start = None
             yield index, error

@@ -24,7 +24,7 @@ def test_without_entrainment_the_contact_carries_everything():
     point = lubfric.friction(MODEL, 0.0)
     assert point.coefficient == pytest.approx(SCENE.bodies.boundary_friction_coefficient, rel=1e-12)
     assert point.contact_load == SCENE.bodies.load and point.film_load == 0 and np.isnan(point.min_film)
-    slow = lubfric.friction(MODEL, 1e-6)
+    slow = lubfric.friction(MODEL, 1e-6, model="full")       # the tolerance holds for f; areas want the whole grid
     assert slow.coefficient == pytest.approx(0.09, rel=1e-3)
     assert slow.real_contact_area_fraction == pytest.approx(point.real_contact_area_fraction, rel=1e-2)
 

@@ -9,6 +9,7 @@ import numpy as np
 from ..contact.problem import COARSEST
 from ..patch import CylinderPatch, strip_weight
 
+LEAST_ROUGHNESS = 0.9      # of Sq, kept by the averages over the largest cells
 MARGIN = 0.1               # of the length in contact, kept free on each side
 MARGIN_CELLS = 4
 
@@ -31,6 +32,18 @@ def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch |
                    region_weight=_weight(x, coarse.spacing[0], half_width))
 
 
+def grids(model) -> list:
+    """The patch of ``model``, from the coarsest grid that still holds its roughness to its own."""
+    patches, kept = [model.patch], LEAST_ROUGHNESS * model.surface.sq
+    half_width = model.scene.bodies.half_width if model.scene.contact.region == "hertz" else None
+    while isinstance(patches[0], CylinderPatch):
+        coarse = coarsened(patches[0], half_width)
+        if coarse is None or coarse.heights.std() < kept:
+            break
+        patches.insert(0, coarse)
+    return patches
+
+
 def in_contact(patch: CylinderPatch, pressure: np.ndarray) -> tuple[float, float]:
     """Ends [m] of the part of x where contact may be on a finer grid: touched columns and area A, and a margin."""
     used = np.flatnonzero(pressure.any(axis=1) | (patch.region_weight > 0))
@@ -39,7 +52,7 @@ def in_contact(patch: CylinderPatch, pressure: np.ndarray) -> tuple[float, float
     return float(low - margin), float(high + margin)
 
 
-def cut(patch: CylinderPatch, ends: tuple[float, float], half_width: float | None) -> CylinderPatch:
+def cut(patch: CylinderPatch, ends: tuple[float, float]) -> CylinderPatch:
     """The columns of ``patch`` between ``ends`` [m], a whole number of fours; the patch itself where all are needed."""
     first, last = np.searchsorted(patch.x, ends)
     count = min(4 * -(-max(int(last - first), COARSEST) // 4), patch.x.size)

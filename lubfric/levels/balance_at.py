@@ -1,0 +1,139 @@
+"""One balance of film and contact at chosen levels, on a chosen patch; and the friction of a balance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import balance as sharing
+from ..balance import Balance
+from ..report import CONVERGED, Report
+from ..shear import ShearForce, shear_force
+from .film_level import film_at_level
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain."""
+
+    level: str
+    film_tolerance: float
+    volume_tolerance: float
+    touching: bool = False
+
+
+@dataclass(frozen=True)
+class Forces:
+    """What resists the sliding: f = (boundary + shear.total)/F_T.
+
+    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). a is what a change of
+    the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
+    the slope that the balance was found with.
+    """
+
+    coefficient: float
+    boundary: float
+    shear: ShearForce
+    sensitivity: float
+
+
+def balance_at(model, patch, speed: float, settings: Settings, start: Balance | None = None) -> Balance:
+    """Divide the load of ``model.scene`` between a film of ``settings.level`` and ``patch``, by the scene's closure."""
+    scene = model.scene
+    bodies, numerics, lubricant = scene.bodies, scene.numerics, scene.lubricant
+    solve_film, close, carry = _parts(model, patch, speed, settings)
+    reference = max(2 * model.surface.sq, 1e-12)
+    film_share = 4.895 * lubricant.viscosity * abs(speed) * bodies.radius * bodies.width / (reference * bodies.load)
+    share = min(film_share, 0.9)                       # rigid isoviscous film of two sigma
+    options = {"guess": math.log(share / (1 - share)), "tolerance": settings.volume_tolerance,
+               "touching": settings.touching}
+    if start is not None:
+        options |= {"start": carried_over(start, patch), "shift": _shift(start, speed)}
+    if numerics.closure == "load":
+        return sharing.share_load(bodies.load, solve_film, close, **options)
+    return sharing.share_by_separation(bodies.load, solve_film, close, carry, **options)
+
+
+def separated_at(model, patch, speed: float, settings: Settings, start: Balance | None = None) -> Balance:
+    """The film with all the load: in balance where the volume residual of its closure is <= 0."""
+    solve_film, close, _ = _parts(model, patch, speed, settings)
+    return sharing.separated(model.scene.bodies.load, solve_film, close, settings.volume_tolerance,
+                             start.film if start else None)
+
+
+def dry(model, patch) -> Balance:
+    """No film: the contact carries the whole load under the undeformed cylinder."""
+    bodies = model.scene.bodies
+    closure = patch.close(patch.x**2 / (2 * bodies.radius), bodies.load)
+    report = Report("load sharing", CONVERGED, 0, 0.0, model.scene.numerics.volume_tolerance,
+                    residuals={"volume": 0.0, "load": 0.0}, notes=("no entrainment: all contact",))
+    return Balance(0.0, bodies.load, None, closure, report)
+
+
+def forces(scene, speed: float, balance: Balance) -> Forces:
+    """Boundary and viscous friction of a balance (paper, Eqs. 9-12)."""
+    bodies, motion, film, closure = scene.bodies, scene.motion, balance.film, balance.closure
+    shear = ShearForce(0.0, 0.0)
+    if film is not None:
+        shear = shear_force(film, scene.lubricant, entrainment_speed=speed, slide_roll_ratio=motion.slide_roll_ratio,
+                            radius=bodies.radius, width=bodies.width, cavitated=scene.numerics.cavitated_shear,
+                            contact_fraction=lambda x: np.interp(x, closure.x, closure.contact_fraction, 0.0, 0.0))
+    sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
+    boundary = sliding * balance.contact_load
+    total = abs(boundary + shear.total)
+    moved = sliding * balance.film_load + abs(shear.couette) + abs(shear.rolling)
+    gain = 1.0
+    if balance.slope and balance.contact_load > 0:
+        gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))
+    return Forces((boundary + shear.total) / bodies.load, boundary, shear, gain * moved / total if total > 0 else 1.0)
+
+
+def carried_over(start: Balance, patch) -> Balance:
+    """``start`` with its contact pressure, if any, on the cells of ``patch``: the nearest ones of its own."""
+    closure = start.closure
+    pressure = getattr(closure.contact, "pressure", closure.contact)
+    heights = getattr(patch, "heights", None)
+    if pressure is None or heights is None or pressure.shape == heights.shape and np.array_equal(closure.x, patch.x):
+        return start
+    step = closure.x[1] - closure.x[0]
+    row = np.rint((patch.x - closure.x[0]) / step).astype(int)
+    column = np.arange(heights.shape[1]) * pressure.shape[1] // heights.shape[1]
+    inside = (row >= 0) & (row < closure.x.size)
+    moved = np.where(inside[:, None], pressure[np.clip(row, 0, closure.x.size - 1)][:, column], 0.0)
+    return replace(start, closure=replace(closure, contact=moved if moved.any() else None))
+
+
+def _shift(start: Balance, speed: float) -> float:
+    """At the same gap a film carries about in proportion to its speed."""
+    if start.film is None or start.film.entrainment_speed == 0:
+        return 0.0
+    return math.log(abs(speed / start.film.entrainment_speed))
+
+
+def _parts(model, patch, speed, settings):
+    scene = model.scene
+
+    def solve_film(load, start):
+        return film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance, start=start)
+
+    def close(film, contact_load, start):
+        return patch.close(film.film_at(patch.x), contact_load, start, _shape(scene, patch, film))
+
+    def carry(film, start):
+        return patch.carry(film.film_at(patch.x), start, _shape(scene, patch, film))
+
+    return solve_film, close, carry
+
+
+def _shape(scene, patch, film) -> np.ndarray | None:
+    """What the surface is pressed under, up to a constant, where it is not the film itself (None).
+
+    With Johnson's modulus the film holds the deflection of the whole load; the contact adds its own share itself.
+    """
+    if scene.numerics.film_deflection == "hydrodynamic":
+        return None
+    parabola = patch.x**2 / (2 * film.radius)
+    share = film.e_prime / scene.bodies.e_prime
+    return parabola + share * (film.film_at(patch.x) - parabola)

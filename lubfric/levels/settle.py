@@ -1,0 +1,196 @@
+"""The loop that spends no more than the tolerance needs: levels, grids and inner tolerances of one operating point.
+
+Error budget, as shares of the tolerance on f: 0.2 what the film level leaves out, 0.3 the grid of the film, 0.4 the
+grid of the contact, 0.05 the volume balance, 0.01 the contact solver. An error of the film reaches f by the factor
+``sensitivity`` (`lubfric.levels.balance_at.Forces`): tolerances of the film are divided by it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from ..analytic.film import moes_flow_film
+from ..balance import Balance
+from ..flat_patch import FlatPatch
+from ..patch import CylinderPatch
+from .balance_at import Forces, Settings, balance_at, dry, forces, separated_at
+from .contact_grid import cut, grids, in_contact
+from .decision import FILM_SHARE, GRID_SHARE, Decision
+from .film_error import FilmError
+from .film_level import EHL, ISOVISCOUS, level_error, lowest_level
+
+LOOSEST_FILM, LOOSEST_VOLUME = 0.03, 0.02
+TIGHTEST_FILM, TIGHTEST_VOLUME = 1e-5, 1e-8
+LARGEST_ERROR = 0.3        # of a film to first order: beyond it the estimate is none
+SLACK = 1.5                # a tolerance off by less is not worth another solve
+WORST_GRID = 2.0           # relative error of the film's load that the coarsest grid may make
+SAFE_FILM = 2.0            # times Moes' film: more than any film has
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One balance, the friction of it, and the patch and settings it was found with."""
+
+    balance: Balance
+    forces: Forces
+    patch: object
+    settings: Settings
+    film_error: FilmError
+
+
+def settle(model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> tuple[Balance, Decision]:
+    """Balance of ``model`` at ``speed`` [m/s], and how far it was modelled. ``given_grid``: on the scene's own."""
+    scene, numerics = model.scene, model.scene.numerics
+    decision = Decision(film="none", contact="", tolerance=numerics.tolerance, forced=_forced(numerics))
+    if speed == 0 or numerics.film_level == "none":
+        balance = dry(model, model.patch)
+        model.patch.check(balance.closure)
+        return balance, replace(decision, contact=_contact_name(model), shape=_shape(model.patch))
+    touching = numerics.contact_level != "none" and _certainly_touching(model, model.patch, speed)
+    if not touching:
+        balance, settings, error = _separated(model, speed, start)
+        clearance = -(balance.closure.mean_gap - balance.closure.mean_film) / max(model.surface.sq, 1e-12)
+        if clearance >= 0 or numerics.contact_level == "none":
+            return balance, replace(decision, film=settings.level, contact="none", film_error=error, clearance=clearance,
+                                    film_tolerance=settings.film_tolerance if settings.level == EHL else 0.0)
+    return _in_contact(model, speed, start, decision, given_grid or numerics.grid == "given" or numerics.model == "full")
+
+
+def _separated(model, speed, start) -> tuple[Balance, Settings, FilmError]:
+    numerics, load = model.scene.numerics, model.scene.bodies.load
+    level, error = numerics.forced_film_level, FilmError()
+    if level == "auto":
+        level, error = lowest_level(model.scene, speed, load, FILM_SHARE * numerics.tolerance)
+    settings = Settings(level, numerics.film_tolerance, numerics.volume_tolerance)
+    return separated_at(model, model.patch, speed, settings, start), settings, FilmError() if level == EHL else error
+
+
+def _certainly_touching(model, patch, speed) -> bool:
+    """Twice Moes' film over an undeformed cylinder, thicker than any film everywhere, would not clear the summits."""
+    bodies, lubricant = model.scene.bodies, model.scene.lubricant
+    film = SAFE_FILM * moes_flow_film(load_per_width=bodies.load / bodies.width, radius=bodies.radius,
+                                      e_prime=bodies.e_prime, entrainment_speed=abs(speed), viscosity=lubricant.viscosity,
+                                      pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient)
+    return patch.close(film + patch.x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
+
+
+def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Decision]:
+    ladder = [model.patch] if given_grid else grids(model)
+    stages: list[Stage] = []
+    limit = GRID_SHARE * decision.tolerance
+    for patch in ladder:
+        stages.append(_stage(model, patch, speed, stages[-1] if stages else None, start))
+        error = _grid_error(stages, limit)
+        if error <= limit:
+            break
+    stage, note = stages[-1], ""
+    if patch is model.patch:
+        if len(stages) > 1 and error > decision.tolerance:
+            change = abs(stages[-2].forces.coefficient / stage.forces.coefficient - 1)
+            note = f"the map is too coarse for its roughness: f changed by {100 * change:.2g} % when its cells were halved"
+        error = None
+    return stage.balance, replace(
+        decision, film=stage.settings.level, contact=_contact_name(model), film_error=stage.film_error,
+        sensitivity=stage.forces.sensitivity, shape=_shape(stage.patch), grid_error=error, note=note,
+        coarsening=_coarsening(model.patch, stage.patch),
+        film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0)
+
+
+def _stage(model, patch, speed, last: Stage | None, start: Balance | None) -> Stage:
+    """The balance on ``patch``, with the film level and the tolerances that its own sensitivity asks for.
+
+    Without a stage before it, begins with the rigid isoviscous film, which costs next to nothing.
+    """
+    whole = patch
+    if last and isinstance(patch, CylinderPatch) and model.scene.contact.region == "hertz":
+        contact = last.balance.closure.contact
+        patch = patch if contact is None else cut(patch, in_contact(last.patch, contact.pressure))
+    touching = _certainly_touching(model, whole, speed)
+    settings = replace(last.settings if last else _probe(model), touching=touching)
+    begun = last.balance if last else start
+    while True:
+        balance = balance_at(model, patch, speed, settings, begun)
+        if patch is not whole and not _inside(patch, balance):
+            patch = whole
+            continue
+        found = forces(model.scene, speed, balance)
+        error = level_error(balance.film, model.scene, speed)
+        better = _needed(model, speed, settings, balance, found, error)
+        if better is None:
+            whole.check(balance.closure)
+            return Stage(balance, found, patch, settings, error)
+        settings, begun = better, balance
+
+
+def _probe(model) -> Settings:
+    numerics = model.scene.numerics
+    level = numerics.forced_film_level
+    return Settings(ISOVISCOUS if level == "auto" else level, LOOSEST_FILM if numerics.ehl_tolerance is None else
+                    numerics.ehl_tolerance, numerics.volume_tolerance)
+
+
+def _needed(model, speed, settings, balance, found: Forces, error: FilmError) -> Settings | None:
+    """Settings that the balance shows to be needed; None where its own will do."""
+    numerics = model.scene.numerics
+    sensitivity = max(found.sensitivity, 1e-12)
+    film, volume = numerics.film_tolerance, numerics.volume_tolerance
+    if numerics.ehl_tolerance is None:
+        film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
+    if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
+        volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
+    level, allowed = settings.level, min(FILM_SHARE * numerics.tolerance / sensitivity, LARGEST_ERROR)
+    if numerics.forced_film_level == "auto" and error.total > allowed:
+        level = lowest_level(model.scene, speed, balance.film_load, allowed)[0]
+    enough = film >= settings.film_tolerance / SLACK or level != EHL
+    if level == settings.level and enough and abs(balance.closure.volume_residual) <= SLACK * volume:
+        return None
+    return replace(settings, level=level, film_tolerance=film, volume_tolerance=volume)
+
+
+def _inside(patch, balance: Balance) -> bool:
+    """No contact in the outermost columns of a patch that was cut."""
+    contact = balance.closure.contact
+    return contact is None or not (contact.pressure[0].any() or contact.pressure[-1].any())
+
+
+def _grid_error(stages: list[Stage], limit: float) -> float:
+    """Estimated relative error of the last f from the contact grid; infinite where nothing can be said.
+
+    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else the changes
+    d1, d2 of f over the last three grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly converging):
+    the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance.
+    """
+    now = stages[-1]
+    if now.balance.contact_load == 0:
+        return math.inf
+    bound = WORST_GRID * now.forces.sensitivity
+    if bound <= limit:
+        return bound
+    if len(stages) < 3:
+        return math.inf
+    f = [stage.forces.coefficient for stage in stages[-3:]]
+    d2, d1 = abs(f[1] - f[0]) / abs(f[2]), abs(f[2] - f[1]) / abs(f[2])
+    ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.75
+    return max(d1 * ratio / (1 - ratio), d2 / 12)
+
+
+def _forced(numerics) -> tuple[str, ...]:
+    full = numerics.model == "full"
+    return tuple(name for name in ("film_level", "contact_level", "grid") if full or getattr(numerics, name) != "auto")
+
+
+def _contact_name(model) -> str:
+    if isinstance(model.patch, CylinderPatch):
+        return "semi-periodic"
+    return "flat periodic curve" if isinstance(model.patch, FlatPatch) else f"independent {model.scene.contact.model}"
+
+
+def _shape(patch) -> tuple[int, int] | None:
+    return patch.heights.shape if hasattr(patch, "heights") else None
+
+
+def _coarsening(whole, patch) -> tuple[int, int]:
+    if not hasattr(whole, "spacing"):
+        return (1, 1)
+    return tuple(round(a / b) for a, b in zip(patch.spacing, whole.spacing))
