@@ -65,6 +65,8 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
     fraction, c = _secant(a, b), None
     while True:
         x = a[0] + fraction * (b[0] - a[0])
+        if x in (a[0], b[0]):                  # the bracket is down to rounding, and f still jumps in it
+            return _root(best, history, tolerance)
         point = (x, evaluate(x))
         if done():
             return _root(best, history, tolerance)

@@ -12,8 +12,9 @@ from ..roots import increasing_root
 from .nested import approach_controlled, load_controlled
 from .residual import length_scale
 
+FLATTENED = 10.0      # times E' height/spacing: 1.1 would do for a periodic ripple
 LOOSEST = 1e-2        # tolerance of a solve whose mean gap is far off
-CERTAIN = 20.0        # a surplus so many tolerances away from zero has a certain sign
+CERTAIN = 20.0        # a surplus so many times its uncertainty away from zero has a certain sign
 
 
 def gap_controlled(problem, mean_gap: float, start=None):
@@ -42,6 +43,12 @@ def pressure_guess(problem) -> float:
     return min(problem.operator.e_prime * problem.roughness / longest, 0.5 * problem.hardness)
 
 
+def flattening_pressure(problem) -> float:
+    """No roughness needs more [Pa]: all of its height in the shortest ripple that the grid resolves."""
+    height = float(np.ptp(problem.gap0))
+    return FLATTENED * problem.operator.e_prime * height / min(problem.operator.spacing)
+
+
 def by_load(problem, mean_gap: float, guess: float, start=None):
     """The load with that mean gap: one bracketed root in the logarithm of the pressure, each solve begun from
     the last and only as tight as the sign of its surplus asks. The mean gap falls with the load: one root."""
@@ -57,14 +64,16 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
             spent, iterations = spent + found.convolutions + 1, iterations + found.iterations
             u = problem.operator.apply(pressure)
             volume = np.maximum(problem.gap0 + u - found.approach, 0.0).mean()
-            value = (mean_gap - volume) / min(mean_gap, length_scale(pressure, u, problem.gap0, problem.operator))
-            if tolerance == finest or abs(value) > CERTAIN * tolerance:
+            scale = length_scale(pressure, u, problem.gap0, problem.operator)
+            smaller = min(mean_gap, scale)
+            value, doubt = (mean_gap - volume) / smaller, CERTAIN * tolerance * scale / smaller
+            if tolerance == finest or abs(value) > doubt:
                 return value, found
-            tolerance = max(finest, min(tolerance / 10, abs(value) / CERTAIN))
+            tolerance = max(finest, tolerance * min(0.1, abs(value) / doubt))
 
     if start is not None and start.any():
         guess = float(start.mean())
-    upper = math.log(problem.hardness) if math.isfinite(problem.hardness) else 700.0
+    upper = math.log(min(problem.hardness, flattening_pressure(problem)))
     root = increasing_root(surplus, math.log(guess), step=0.7, bounds=(-300.0, upper),
                            tolerance=0.5 * problem.tolerance)
     found = root.payload

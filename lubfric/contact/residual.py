@@ -15,14 +15,14 @@ def dot(a, b) -> float:
 def length_scale(pressure, displacement, gap0, operator) -> float:
     """Length L [m] that gap residuals are measured in.
 
-    ``max(Σ p u / Σ p, min((4/pi) p_mean d/E', rms gap0))``. The first term is the load-weighted elastic
-    deflection (twice the elastic energy per load): the indentation of one touching cell, about the
-    approach of a Hertz contact, about the roughness height when most of it is pressed flat. In full
-    contact, where hardly any deflection per load is left to measure by, the second takes over: the
-    deflection of the shortest ripple the grid resolves (d: the finer spacing) under the mean
-    pressure, or the roughness if that is less. Scales with the lengths, and not with E' and p
-    together. Never below 1e-9 of that ripple, which is where rounding begins (flat on flat). Infinite
-    without load.
+    ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the roughness r (rms gap0) and the deflection
+    ``d = (4/pi) p_mean a/E'`` of the shortest ripple the grid resolves (a: the finer spacing) under the mean
+    pressure. The load-weighted elastic deflection Σ p u / Σ p (twice the elastic energy per load) is the
+    indentation of one touching cell, about the approach of a Hertz contact, about the roughness height when most
+    of it is pressed flat. Without periodicity it would count the bulk, which bends under the whole load however
+    smooth the surface: hence at most max(d, r). In full contact, where hardly any of it is left to measure by, at
+    least min(d, r). Scales with the lengths, and not with E' and p together. Never below 1e-9 d, which is where
+    rounding begins (flat on flat). Infinite without load.
     """
     return deflection_scale(dot(pressure, displacement), pressure.sum(), float(gap0.std()), operator)
 
@@ -32,7 +32,8 @@ def deflection_scale(energy: float, total: float, roughness: float, operator) ->
     if total <= 0:
         return math.inf
     ripple = 4 / math.pi * total / math.prod(operator.shape) * min(operator.spacing) / operator.e_prime
-    return float(max(energy / total, min(ripple, roughness), 1e-9 * ripple))
+    smaller, larger = sorted((ripple, roughness))
+    return float(max(min(energy / total, larger), smaller, 1e-9 * ripple))
 
 
 def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:
