@@ -1,4 +1,4 @@
-"""Rough contact and load sharing by finite elements: waves, Hertz, balance, and reports that tell the truth."""
+"""Rough contact and load sharing by finite elements: waves, Hertz, balance, and reports that are true."""
 
 import math
 
@@ -62,15 +62,22 @@ def test_hardness_caps_the_pressure_and_yielded_cells_overlap(strip):
     exact = Line(E_PRIME, 2e-3, 7.3e-6)
     found = press(strip, gap0, exact.load, hardness=0.8 * exact.peak)
     assert found.yielded.any() and found.pressure.max() == pytest.approx(0.8 * exact.peak)
-    assert found.gap[found.yielded].max() <= 1e-15 and np.abs(found.gap[(found.pressure > 0) & ~found.yielded]).max() < 1e-15
+    assert (
+        found.gap[found.yielded].max() <= 1e-15
+        and np.abs(found.gap[(found.pressure > 0) & ~found.yielded]).max() < 1e-15
+    )
     assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
 
 
 def test_bad_input_and_a_solve_cut_short(strip):
     gap0 = np.random.default_rng(1).random((24, 12)) * 1e-7
-    for call in (lambda: press(strip, gap0[:3], 1.0), lambda: press(strip, gap0, -1.0),
-                 lambda: press(strip, gap0, 1e9, hardness=1e9), lambda: Strip((23, 12), (CELL, CELL), BODY),
-                 lambda: Strip((24, 12), (CELL, CELL), BODY, side=4)):
+    for call in (
+        lambda: press(strip, gap0[:3], 1.0),
+        lambda: press(strip, gap0, -1.0),
+        lambda: press(strip, gap0, 1e9, hardness=1e9),
+        lambda: Strip((23, 12), (CELL, CELL), BODY),
+        lambda: Strip((24, 12), (CELL, CELL), BODY, side=4),
+    ):
         with pytest.raises(InputError):
             call()
     with pytest.raises(SolveError) as caught:
@@ -81,9 +88,11 @@ def test_bad_input_and_a_solve_cut_short(strip):
 @pytest.mark.parametrize("guess", [-8.0, 0.0, 5.0])
 def test_root_of_an_increasing_function(guess):
     values = []
+
     def f(x):
         values.append(math.tanh(x - 1.2345) + 1e-3 * (x - 1.2345))
         return values[-1]
+
     root(f, lambda: abs(values[-1]) < 1e-12 or len(values) > 60, guess)
     assert abs(values[-1]) < 1e-12
 
@@ -110,7 +119,9 @@ def test_load_sharing_closes_both_balances(strip):
     assert abs(found.residual) <= 1e-5 and found.report.converged
     assert found.film_load + found.contact_load == pytest.approx(5.5, rel=1e-12)
     assert found.pressed.pressure.sum() * CELL / 12 * 6e-3 == pytest.approx(found.contact_load, rel=1e-9)
-    assert found.coefficient == pytest.approx((0.09 * found.contact_load + found.couette + found.rolling) / 5.5, rel=1e-12)
+    assert found.coefficient == pytest.approx(
+        (0.09 * found.contact_load + found.couette + found.rolling) / 5.5, rel=1e-12
+    )
     with pytest.raises(SolveError) as caught:
         share_load(bodies, refinements=0, max_evaluations=1, guess=3.0)
     assert not caught.value.report.converged and caught.value.result.film_load > 0
@@ -121,9 +132,13 @@ def test_closed_forms_of_contact_agree_with_each_other():
     x = np.linspace(-4e-6, 4e-6, 200001)
     assert np.trapezoid(line.peak * np.sqrt(1 - (x / 4e-6) ** 2), x) == pytest.approx(line.load, rel=1e-6)
     r = x[100000:]
-    assert np.trapezoid(2 * np.pi * r * ball.peak * np.sqrt(1 - (r / 4e-6) ** 2), r) == pytest.approx(ball.load, rel=1e-6)
+    assert np.trapezoid(2 * np.pi * r * ball.peak * np.sqrt(1 - (r / 4e-6) ** 2), r) == pytest.approx(
+        ball.load, rel=1e-6
+    )
     assert line.gap(4e-6) == pytest.approx(0, abs=1e-20) and ball.gap(4e-6) == pytest.approx(0, abs=1e-20)
     far = 4e-4
-    assert ball.gap(far) == pytest.approx(far**2 / 4e-3 - ball.approach + 2 * ball.load / (math.pi * E_PRIME * far), rel=1e-6)
+    assert ball.gap(far) == pytest.approx(
+        far**2 / 4e-3 - ball.approach + 2 * ball.load / (math.pi * E_PRIME * far), rel=1e-6
+    )
     y = (np.arange(100000) + 0.5) * 5e-5 / 100000
     assert wave.pressure(y).mean() == pytest.approx(wave.mean_pressure, rel=1e-6)

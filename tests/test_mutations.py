@@ -1,4 +1,6 @@
-"""The mutation test is itself tested: mutants change what they say, leave nothing behind, and are caught for a reason."""
+"""The mutation test is itself tested: mutants change what they say, leave nothing behind, and are caught for
+a reason.
+"""
 
 import json
 
@@ -28,8 +30,11 @@ def test_every_place_exists_and_is_restored(mutant):
 
 def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
     from lubfric import mixed
+
     original = mixed.centred_axis
-    gone = Mutant("gone", "", {"lubfric.mixed:centred_axis": lambda f: f, "lubfric.mixed:no_such": lambda f: f})
+    gone = Mutant(
+        "gone", "", {"lubfric.mixed:centred_axis": lambda f: f, "lubfric.mixed:no_such": lambda f: f}
+    )
     with pytest.raises(AttributeError, match="no_such"), applied(gone):
         pass
     assert mixed.centred_axis is original
@@ -37,6 +42,7 @@ def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
 
 def test_calls_are_counted():
     from lubfric import mixed
+
     mutant = next(m for m in MUTANTS if m.name == "half_cell")
     right = mixed.centred_axis(4, 2.0)
     with applied(mutant) as calls:
@@ -71,7 +77,9 @@ def test_a_crash_is_not_a_catch():
     assert not Trial("half_cell", "", (failure,), 3, "TypeError: x", 5, 0.1).passed
     assert not Trial("half_cell", "", (), 3, "", 5, 0.1).passed
     assert not Trial(NONE, "", (failure,), 3, "", 0, 0.1).passed
-    text = table([good, Trial("x", "", (), 3, "", 5, 0.1), Trial("y", "", (failure,), 3, "TypeError", 5, 0.1)], 1.0)
+    text = table(
+        [good, Trial("x", "", (), 3, "", 5, 0.1), Trial("y", "", (failure,), 3, "TypeError", 5, 0.1)], 1.0
+    )
     assert "1 of 3 mutants caught" in text and "x (NOT CAUGHT)" in text and "y (CRASHED)" in text
 
 

@@ -1,8 +1,8 @@
 """Closed forms of dry smooth contact, written from the literature and without `lubfric`.
 
-E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. L. Johnson, Contact Mechanics, 1985,
-chs. 4 and 5, doi:10.1017/CBO9781139171731; wavy line contact: H. M. Westergaard, J. Appl. Mech. 6 (1939) A49-A53,
-doi:10.1115/1.4008919.
+E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. L. Johnson, Contact Mechanics,
+1985, chs. 4 and 5, doi:10.1017/CBO9781139171731; wavy line contact: H. M. Westergaard, J. Appl. Mech. 6
+(1939) A49-A53, doi:10.1115/1.4008919.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ class Line:
     def gap(self, x):
         """Gap in m at x: twice the integral of the slope ``sqrt(x^2 - b^2)/(2R)`` beyond the edge."""
         t = np.maximum(np.abs(x) / self.half_width, 1.0)
-        return self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
+        return (
+            self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
+        )
 
     def mean_gap(self, half: float) -> float:
         """Over |x| < half, m."""
@@ -74,7 +76,7 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Wave:
-    """Surface ``amplitude cos(2 pi x/length)`` on a plane at a share s = p/p* of the pressure that closes it."""
+    """Surface ``amplitude cos(2 pi x/length)`` on a plane; share s = p/p* of the pressure that closes it."""
 
     e_prime: float
     amplitude: float
@@ -93,7 +95,9 @@ class Wave:
 
     @property
     def mean_gap(self) -> float:
-        """``amplitude (1 - s + s ln s)``, m: the pressure is minus the derivative of the energy by the mean gap."""
+        """``amplitude (1 - s + s ln s)``, m: the pressure is minus the derivative of the energy by the mean
+        gap.
+        """
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
     def pressure(self, x):

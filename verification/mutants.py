@@ -1,8 +1,8 @@
 """Ten ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
 
-A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A place that no
-longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never ran is not taken for one
-that was caught.
+A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A
+place that no longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never
+ran is not taken for one that was caught.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ from lubfric.contact.residual import length_scale
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mistake: ``name``, ``what`` it is in a sentence, and for each place "module:attribute" its replacement."""
+    """A mistake: ``name``, ``what`` it is in a sentence, and for each place "module:attribute" its
+    replacement.
+    """
 
     name: str
     what: str
@@ -76,29 +78,36 @@ def times(factor: float) -> Callable:
 
 def reversed_couette(original):
     """Face fluxes with -rho H for the Couette flow."""
+
     def residual(grid, problem, z, H):
         R, terms = original(grid, problem, z, H)
         flux = terms.flux - 2 * terms.face_density * terms.face_H
         R = R.copy()
-        R[:grid.n] = 1 - flux / terms.q
+        R[: grid.n] = 1 - flux / terms.q
         return R, replace(terms, flux=flux)
+
     return residual
 
 
 def first_row_only(original):
     """Gap of the first row along y instead of the mean."""
-    return lambda patch, film, gap, contact: original(patch, film, np.broadcast_to(gap[:, :1], gap.shape), contact)
+    return lambda patch, film, gap, contact: original(
+        patch, film, np.broadcast_to(gap[:, :1], gap.shape), contact
+    )
 
 
 def decadic_exponent(original):
     """Roelands' z with the decadic logarithm of the viscosity."""
+
     def exponent(lubricant):
         return lubricant.pressure_viscosity_coefficient * 1.96e8 / (np.log10(lubricant.viscosity) + 9.67)
+
     return exponent
 
 
 def without_overlap(original):
     """A working set and a residual that know only cells under pressure."""
+
     def working_set(descent):
         work = original(descent)
         under = work.pressure > 0
@@ -109,6 +118,7 @@ def without_overlap(original):
         scale = length_scale(descent.pressure, operator.apply(descent.pressure), gap0, operator)
         residual = float(np.sum(pressure * np.abs(gap)) / pressure.sum() / scale)
         return replace(work, cells=cells, pressure=pressure, gap=gap, residual=residual)
+
     return working_set
 
 
@@ -119,24 +129,30 @@ def no_penetration(original):
 
 def half_load(original):
     """The contact pressed with half of what it should carry."""
-    return lambda *args, **options: original(*args, **options | {"mean_pressure": options["mean_pressure"] / 2})
+    return lambda *args, **options: original(
+        *args, **options | {"mean_pressure": options["mean_pressure"] / 2}
+    )
 
 
 def lower_side(original):
     """Shear taken on the lower surface: the pressure-gradient part changes sign."""
+
     def force(*args, **options):
         found = original(*args, **options)
         return replace(found, rolling=-found.rolling)
+
     return force
 
 
 def mean_wave_only(original):
     """Every wave along y lost: the row of images that makes a point load a point load."""
+
     def coefficients(*args):
         kernel = original(*args).copy()
         kernel[:, 1:] = 0
         kernel[0, 1:] = 1e-6 * kernel[0, 0]
         return kernel
+
     return coefficients
 
 
@@ -151,20 +167,49 @@ def corner_axis(original):
 
 
 MUTANTS = (
-    Mutant("kernel_factor_2", "influence coefficients halved, as printed in the paper's Appendix 1",
-           {"lubfric.halfspace.operator:_symbol": times(0.5)}),
-    Mutant("couette_sign", "Couette flow of Reynolds' equation runs backwards", {"lubfric.ehl.newton:residual": reversed_couette}),
-    Mutant("missing_y_mean", "volume balance on one row instead of the mean along y",
-           {"lubfric.patch:CylinderPatch._closure": first_row_only}),
-    Mutant("viscosity_exponent", "Roelands' exponent with the decadic logarithm",
-           {"lubfric.lubricant:Lubricant.roelands_exponent": decadic_exponent}),
-    Mutant("penetration_ignored", "contact set and stopping test look at p g only",
-           {"lubfric.contact.descent:Descent.working_set": without_overlap,
-            "lubfric.contact.solve:contact_residuals": no_penetration}),
+    Mutant(
+        "kernel_factor_2",
+        "influence coefficients halved, as printed in the paper's Appendix 1",
+        {"lubfric.halfspace.operator:_symbol": times(0.5)},
+    ),
+    Mutant(
+        "couette_sign",
+        "Couette flow of Reynolds' equation runs backwards",
+        {"lubfric.ehl.newton:residual": reversed_couette},
+    ),
+    Mutant(
+        "missing_y_mean",
+        "volume balance on one row instead of the mean along y",
+        {"lubfric.patch:CylinderPatch._closure": first_row_only},
+    ),
+    Mutant(
+        "viscosity_exponent",
+        "Roelands' exponent with the decadic logarithm",
+        {"lubfric.lubricant:Lubricant.roelands_exponent": decadic_exponent},
+    ),
+    Mutant(
+        "penetration_ignored",
+        "contact set and stopping test look at p g only",
+        {
+            "lubfric.contact.descent:Descent.working_set": without_overlap,
+            "lubfric.contact.solve:contact_residuals": no_penetration,
+        },
+    ),
     Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.patch:solve_contact": half_load}),
     Mutant("shear_side", "shear taken on the lower surface", {"lubfric.mixed:shear_force": lower_side}),
-    Mutant("lost_images", "semi-periodic operator without its waves along y, the sum over images",
-           {"lubfric.halfspace.operator:semiperiodic_coefficients": mean_wave_only}),
-    Mutant("stale_warm_start", "contact of the neighbouring load returned for this one", {"lubfric.patch:solve_contact": stale}),
-    Mutant("half_cell", "film and strip half a cell off the roughness", {"lubfric.mixed:centred_axis": corner_axis}),
+    Mutant(
+        "lost_images",
+        "semi-periodic operator without its waves along y, the sum over images",
+        {"lubfric.halfspace.operator:semiperiodic_coefficients": mean_wave_only},
+    ),
+    Mutant(
+        "stale_warm_start",
+        "contact of the neighbouring load returned for this one",
+        {"lubfric.patch:solve_contact": stale},
+    ),
+    Mutant(
+        "half_cell",
+        "film and strip half a cell off the roughness",
+        {"lubfric.mixed:centred_axis": corner_axis},
+    ),
 )

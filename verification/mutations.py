@@ -1,8 +1,8 @@
 """``python -m verification mutations``: break `lubfric` in ten ways; the studies have to catch every one.
 
-Each mutant (`mutants`) runs a few studies at the quick level in a process of its own. Caught means that a check fails, or
-that a study is stopped by an error `lubfric` raises on purpose; any other exception is a broken trial, not a catch. The
-unbroken library runs the same studies and has to pass them all.
+Each mutant (`mutants`) runs a few studies at the quick level in a process of its own. Caught means that a
+check fails, or that a study is stopped by an error `lubfric` raises on purpose; any other exception is a
+broken trial, not a catch. The unbroken library runs the same studies and has to pass them all.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from .check import Check
-from .mutants import MUTANTS, Mutant, applied
+from .mutants import MUTANTS, applied
 from .run import run_one
 from .studies import STUDIES
 from .wording import allowed, number
@@ -80,7 +80,7 @@ def words(check: Check) -> tuple[str, str, str]:
 
 def trials(names: list[str], thorough: bool, workers: int):
     """Trials in the order they end, each in a fresh process."""
-    os.environ.setdefault("OMP_NUM_THREADS", "1")          # one thread to a process, read as it starts
+    os.environ.setdefault("OMP_NUM_THREADS", "1")  # one thread to a process, read as it starts
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, mp_context=context, max_tasks_per_child=1) as pool:
         waiting = [pool.submit(trial, name, thorough) for name in names]
@@ -91,7 +91,9 @@ def main(argv: list[str]) -> int:
     """Exit code 0: every mutant was caught and the library as it is passed."""
     known = [NONE, *(m.name for m in MUTANTS)]
     p = argparse.ArgumentParser("python -m verification mutations", description=__doc__)
-    p.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=f"run only these: {', '.join(known)}")
+    p.add_argument(
+        "--only", nargs="+", choices=known, metavar="NAME", help=f"run only these: {', '.join(known)}"
+    )
     p.add_argument("--all-checks", action="store_true", help="go on after the first study that fails")
     p.add_argument("--workers", type=int, default=2, help="processes (default: %(default)s)")
     p.add_argument("--json", type=Path, metavar="FILE", help="write the table here, too")
@@ -102,22 +104,40 @@ def main(argv: list[str]) -> int:
         found.append(t)
     print(table(found, time.perf_counter() - start))
     if options.json:
-        options.json.write_text(json.dumps([asdict(t) | {"passed": t.passed} for t in found], indent=1) + "\n")
+        options.json.write_text(
+            json.dumps([asdict(t) | {"passed": t.passed} for t in found], indent=1) + "\n"
+        )
     return 0 if all(t.passed for t in found) else 1
 
 
 def table(found: list[Trial], seconds: float) -> str:
     """Markdown: mutant, verdict, the first check that caught it and its numbers."""
-    lines = ["| mutant | what is wrong | caught by | measured | allowed | failing checks |", "|---|---|---|---|---|---|"]
+    lines = [
+        "| mutant | what is wrong | caught by | measured | allowed | failing checks |",
+        "|---|---|---|---|---|---|",
+    ]
     for t in found:
         study, check, measured, limit = t.failures[0] if t.failures else ("", "nothing", "", "")
         caught = f"{study}: {check}" if t.failures else check
-        note = "" if t.passed else " (CRASHED)" if t.crash else " (FAILED)" if t.name == NONE else \
-            " (NOT CAUGHT)" if t.calls else " (NEVER RAN)"
-        lines.append(f"| {t.name}{note} | {t.what} | {caught} | {measured} | {limit} | {len(t.failures)} of {t.checks} |")
+        note = (
+            ""
+            if t.passed
+            else " (CRASHED)"
+            if t.crash
+            else " (FAILED)"
+            if t.name == NONE
+            else " (NOT CAUGHT)"
+            if t.calls
+            else " (NEVER RAN)"
+        )
+        cells = (t.name + note, t.what, caught, measured, limit, f"{len(t.failures)} of {t.checks}")
+        lines.append(f"| {' | '.join(cells)} |")
     caught = sum(t.passed for t in found if t.name != NONE)
     mutants = sum(t.name != NONE for t in found)
     lines += ["", f"{caught} of {mutants} mutants caught in {seconds:.0f} s"]
-    lines += ["the library as it is FAILED" if not t.passed else f"the library as it is passes {t.checks} checks"
-              for t in found if t.name == NONE]
+    lines += [
+        "the library as it is FAILED" if not t.passed else f"the library as it is passes {t.checks} checks"
+        for t in found
+        if t.name == NONE
+    ]
     return "\n".join(lines)

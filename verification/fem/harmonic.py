@@ -1,13 +1,15 @@
-"""Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along y.
+"""Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along
+y.
 
-For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``, and elasticity in three
-dimensions becomes one problem in the section for each wavenumber k, with the three amplitudes for unknowns and k in the
-strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element Method, 3rd ed. 1977, ch. 15). P2 triangles on
-a square of side D, bottom fixed and sides free, stand for the half-space: k = 0 misses it by a constant and a part that
-falls like 1/D^2, every other k by exp(-k D/2).
+For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``, and
+elasticity in three dimensions becomes one problem in the section for each wavenumber k, with the three
+amplitudes for unknowns and k in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element
+Method, 3rd ed. 1977, ch. 15). P2 triangles on a square of side D, bottom fixed and sides free, stand for the
+half-space: k = 0 misses it by a constant and a part that falls like 1/D^2, every other k by exp(-k D/2).
 
-Pressure is constant on the cells of a patch along x; the compliance gives mean displacements of the cells, so it is
-symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
+Pressure is constant on the cells of a patch along x; the compliance gives mean displacements of the cells, so
+it is symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier
+transforms.
 """
 
 from __future__ import annotations
@@ -26,10 +28,11 @@ from .report import InputError
 
 @dataclass(frozen=True)
 class Strip:
-    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, nx even, centred on x = 0, repeated along y.
+    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, nx even, centred on x = 0, repeated
+    along y.
 
-    side : of the square body is dx 2^side; fineness : each cell along x is 2^fineness facets; growth : cell length per
-    distance from the patch.
+    side : of the square body is dx 2^side; fineness : each cell along x is 2^fineness facets; growth : cell
+    length per distance from the patch.
     """
 
     shape: tuple[int, int]
@@ -41,10 +44,14 @@ class Strip:
 
     def __post_init__(self):
         if self.shape[0] % 2 or min(self.shape) < 2 or min(self.spacing) <= 0:
-            raise InputError(f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m")
+            raise InputError(
+                f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m"
+            )
         if not 1 << self.side >= 8 * self.shape[0] or not 0 <= self.fineness <= 4 or not 0 < self.growth <= 1:
-            raise InputError(f"side = {self.side}, fineness = {self.fineness}, growth = {self.growth}; allowed: at least "
-                             "8 patches, 0 to 4, (0, 1]")
+            raise InputError(
+                f"side = {self.side}, fineness = {self.fineness}, growth = {self.growth}; allowed: at least "
+                "8 patches, 0 to 4, (0, 1]"
+            )
 
     @property
     def half(self) -> float:
@@ -85,24 +92,32 @@ def compliance(strip: Strip) -> Compliance:
     loads = cell_loads(strip, mesh, basis)[free]
     dense = loads.toarray()
     waves = 2 * np.pi * np.arange(strip.shape[1] // 2 + 1) / (strip.shape[1] * strip.spacing[1])
-    harmonics = [unit * loads.T @ factorised(constant + k * linear + k**2 * square).solve(dense) for k in waves / unit]
+    harmonics = [
+        unit * loads.T @ factorised(constant + k * linear + k**2 * square).solve(dense) for k in waves / unit
+    ]
     return Compliance(strip, np.array(harmonics), free.size)
 
 
 def factorised(matrix):
     """Sparse LU of a symmetric positive definite matrix."""
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return splu(
+        matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
 
 
 def graded_mesh(strip: Strip) -> MeshTri:
-    """Triangles split until none is longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
+    """Triangles split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
+    patch)``.
+    """
     dx = strip.spacing[0]
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
     while True:
         corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+        longest = np.max(
+            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
+        )
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
         distance = np.hypot(aside, corners[1]).min(axis=0)
         large = np.flatnonzero(longest > np.hypot(fine, strip.growth * distance))
@@ -134,7 +149,9 @@ def strains(u, k):
 
 def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
     """(degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
-    top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
+    top = mesh.facets_satisfying(
+        lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True
+    )
     ends = mesh.p[0, mesh.facets[:, top]]
     inside = np.abs(ends.mean(axis=0)) < strip.half
     top, ends = top[inside], ends[:, inside]
@@ -145,5 +162,5 @@ def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
         raise AssertionError("a facet of the mesh crosses the edge of a cell")
     length = np.abs(np.diff(ends, axis=0))[0]
     rows = np.concatenate([*basis.nodal_dofs[1, mesh.facets[:, top]], basis.facet_dofs[1, top]])
-    weights = np.concatenate([length / 6, length / 6, 4 * length / 6])        # Simpson: exact for P2
+    weights = np.concatenate([length / 6, length / 6, 4 * length / 6])  # Simpson: exact for P2
     return sp.csr_matrix((-weights, (rows, np.tile(cell, 3))), shape=(basis.N, strip.shape[0]))

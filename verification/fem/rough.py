@@ -1,10 +1,12 @@
 """Contact of a rough strip on the finite-element compliance of `harmonic`, by a primal-dual active set.
 
-    u = C p,   g = g0 - delta + u,   0 <= p <= H,   g = 0 where 0 < p < H,   g >= 0 where p = 0,   g <= 0 where p = H
+    u = C p,   g = g0 - delta + u,   0 <= p <= H,
+    g = 0 where 0 < p < H,   g >= 0 where p = 0,   g <= 0 where p = H
 
-for a given load. In each step the cells of the set are in contact, the others are not or have yielded; one dense linear
-system gives their pressures and delta; the signs of pressures and gaps give the next set (Hintermueller, Ito & Kunisch
-2003, doi:10.1137/S1052623401383558). The set repeats itself at the solution, which is then exact up to rounding.
+for a given load. In each step the cells of the set are in contact, the others are not or have yielded; one
+dense linear system gives their pressures and delta; the signs of pressures and gaps give the next set
+(Hintermueller, Ito & Kunisch 2003, doi:10.1137/S1052623401383558). The set repeats itself at the solution,
+which is then exact up to rounding.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import numpy as np
 from .harmonic import Compliance
 from .report import CONVERGED, ITERATION_LIMIT, InputError, SolveReport
 
-FIRST = 0.15         # share of the cells, those of least gap, in the first set
+FIRST = 0.15  # share of the cells, those of least gap, in the first set
 
 
 @dataclass(frozen=True)
@@ -31,18 +33,29 @@ class Pressed:
     report: SolveReport
 
 
-def press(compliance: Compliance, gap0: np.ndarray, load_per_width: float, *, hardness: float = math.inf,
-          start: Pressed | None = None, tolerance: float = 1e-9, max_iterations: int = 100,
-          raise_on_failure: bool = True) -> Pressed:
+def press(
+    compliance: Compliance,
+    gap0: np.ndarray,
+    load_per_width: float,
+    *,
+    hardness: float = math.inf,
+    start: Pressed | None = None,
+    tolerance: float = 1e-9,
+    max_iterations: int = 100,
+    raise_on_failure: bool = True,
+) -> Pressed:
     """Press the strip with ``load_per_width`` (N/m) against an undeformed gap (m), known up to a constant.
 
-    ``start``: an earlier result, for its set. Residuals: tension and penetration (largest -p and -g in largest p and
-    approach span of g0), load (relative). Raises `SolveError` when the largest is above ``tolerance``.
+    ``start``: an earlier result, for its set. Residuals: tension and penetration (largest -p and -g in
+    largest p and approach span of g0), load (relative). Raises `SolveError` when the largest is above
+    ``tolerance``.
     """
     (nx, ny), (dx, _) = compliance.strip.shape, compliance.strip.spacing
     if gap0.shape != (nx, ny) or not 0 < load_per_width < hardness * nx * dx:
-        raise InputError(f"gap0 has shape {gap0.shape}, load_per_width = {load_per_width} N/m; allowed: {(nx, ny)}, "
-                         f"0 to {hardness * nx * dx:g}")
+        raise InputError(
+            f"gap0 has shape {gap0.shape}, load_per_width = {load_per_width} N/m; allowed: {(nx, ny)}, "
+            f"0 to {hardness * nx * dx:g}"
+        )
     total, coefficients = load_per_width * ny / dx, compliance.coefficients
     touching, yielded = first_set(gap0, start)
     history, status = [], ITERATION_LIMIT
@@ -56,8 +69,16 @@ def press(compliance: Compliance, gap0: np.ndarray, load_per_width: float, *, ha
         if status == CONVERGED or len(history) > max_iterations:
             break
         touching, yielded = next_set(pressure, gap, touching, yielded, hardness)
-    report = SolveReport("contact on finite elements, active set", status, len(history), history[-1], tolerance,
-                         residuals, tuple(history), len(history))
+    report = SolveReport(
+        "contact on finite elements, active set",
+        status,
+        len(history),
+        history[-1],
+        tolerance,
+        residuals,
+        tuple(history),
+        len(history),
+    )
     result = Pressed(np.clip(pressure, 0, hardness), gap, approach, yielded, report)
     if raise_on_failure:
         report.raise_if_failed(result)
@@ -72,12 +93,16 @@ def first_set(gap0: np.ndarray, start: Pressed | None) -> tuple[np.ndarray, np.n
 
 
 def next_set(pressure, gap, touching, yielded, hardness) -> tuple[np.ndarray, np.ndarray]:
-    """Cells under tension open, overlapping ones touch, those above the hardness yield, opened yielded ones recover."""
+    """Cells under tension open, overlapping ones touch, those above the hardness yield, opened yielded ones
+    recover.
+    """
     free = ~touching & ~yielded
     overloaded = touching & (pressure > hardness)
     recovered = yielded & (gap > 0)
-    return ((touching & (pressure > 0) & ~overloaded) | (free & (gap < 0)) | recovered,
-            (yielded & ~recovered) | overloaded)
+    return (
+        (touching & (pressure > 0) & ~overloaded) | (free & (gap < 0)) | recovered,
+        (yielded & ~recovered) | overloaded,
+    )
 
 
 def solve(coefficients, gap0, touching, yielded, hardness, total) -> tuple[np.ndarray, float]:
@@ -104,8 +129,10 @@ def solve(coefficients, gap0, touching, yielded, hardness, total) -> tuple[np.nd
 def measure(gap0, pressure, gap, yielded, hardness, total) -> dict[str, float]:
     """See `press`."""
     largest, span = np.abs(pressure).max(), np.ptp(gap0)
-    return {"tension": float(max(-pressure.min(), 0) / largest),
-            "overload": float(max(pressure.max() / hardness - 1, 0)),
-            "penetration": float(max(-gap[~yielded].min(initial=0.0), 0) / span),
-            "opening of yielded cells": float(max(gap[yielded].max(initial=0.0), 0) / span),
-            "load": float(abs(pressure.sum() / total - 1))}
+    return {
+        "tension": float(max(-pressure.min(), 0) / largest),
+        "overload": float(max(pressure.max() / hardness - 1, 0)),
+        "penetration": float(max(-gap[~yielded].min(initial=0.0), 0) / span),
+        "opening of yielded cells": float(max(gap[yielded].max(initial=0.0), 0) / span),
+        "load": float(abs(pressure.sum() / total - 1)),
+    }

@@ -1,8 +1,9 @@
 """Load sharing between a film and a rough contact, both by finite elements.
 
-A film that carries F_H (`ehl`, full system) is the shape under which the rough strip (`harmonic`) is pressed with
-F_C = F_T - F_H; the lubricant volume between the rough surfaces over the Hertz strip of the total load has to be that of
-the film (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z, Eqs. 8-12). One bracketed root in ln(F_H/F_C).
+A film that carries F_H (`ehl`, full system) is the shape under which the rough strip (`harmonic`) is pressed
+with F_C = F_T - F_H; the lubricant volume between the rough surfaces over the Hertz strip of the total load
+has to be that of the film (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z, Eqs. 8-12). One bracketed
+root in ln(F_H/F_C).
 """
 
 from __future__ import annotations
@@ -20,17 +21,17 @@ from .harmonic import Compliance
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport
 from .rough import Pressed, press
 
-POINTS = 16          # of the film in a cell of the contact
-PARTS = 10           # of a cell of the film, to integrate shear on
-WIDEST = 30.0        # largest |ln(F_H/F_C)| looked at
+POINTS = 16  # of the film in a cell of the contact
+PARTS = 10  # of a cell of the film, to integrate shear on
+WIDEST = 30.0  # largest |ln(F_H/F_C)| looked at
 
 
 @dataclass(frozen=True)
 class Bodies:
-    """load F_T (N) on a line of length width (m); the line contact under the whole load is ``contact``.
+    """``contact`` is the line contact under the whole load F_T, on a line of length width (m).
 
-    heights (nx, ny) in m on the strip of ``compliance``; hardness in Pa (inf: elastic); boundary_friction f_b;
-    sliding u2 - u1 in m/s, the shear taken on the upper surface 2.
+    heights (nx, ny) in m on the strip of ``compliance``; hardness in Pa (inf: elastic); boundary_friction
+    f_b; sliding u2 - u1 in m/s, the shear taken on the upper surface 2.
     """
 
     contact: ehl.LineContact
@@ -61,7 +62,9 @@ class Bodies:
 
 @dataclass(frozen=True)
 class Shared:
-    """A division of the load. Forces in N; mean_gap, mean_film in m; area: share of the strip in contact; coefficient f."""
+    """A division of the load. Forces in N; mean_gap, mean_film in m; area: share of the strip in contact;
+    coefficient f.
+    """
 
     film_load: float
     contact_load: float
@@ -81,11 +84,20 @@ class Shared:
         return (self.mean_gap - self.mean_film) / (self.mean_gap + self.mean_film)
 
 
-def share_load(bodies: Bodies, *, guess: float = 0.0, refinements: int = 1, tolerance: float = 1e-5,
-               max_evaluations: int = 40, raise_on_failure: bool = True) -> Shared:
-    """The division at which |residual| <= ``tolerance``; ``guess`` of ln(F_H/F_C), ``refinements`` of the film's mesh.
+def share_load(
+    bodies: Bodies,
+    *,
+    guess: float = 0.0,
+    refinements: int = 1,
+    tolerance: float = 1e-5,
+    max_evaluations: int = 40,
+    raise_on_failure: bool = True,
+) -> Shared:
+    """The division at which |residual| <= ``tolerance``; ``guess`` of ln(F_H/F_C), ``refinements`` of the
+    film's mesh.
 
-    Raises `SolveError` with report and last division when the root is not found, or what film and contact raise.
+    Raises `SolveError` with report and last division when the root is not found, or what film and contact
+    raise.
     """
     tried = {}
 
@@ -99,8 +111,16 @@ def share_load(bodies: Bodies, *, guess: float = 0.0, refinements: int = 1, tole
     root(at, done, guess)
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
-    report = SolveReport("load sharing by finite elements", status, len(history), min(history), tolerance,
-                         {"volume": min(history)}, history, len(history))
+    report = SolveReport(
+        "load sharing by finite elements",
+        status,
+        len(history),
+        min(history),
+        tolerance,
+        {"volume": min(history)},
+        history,
+        len(history),
+    )
     found = replace(best(tried), report=report)
     if raise_on_failure:
         report.raise_if_failed(found)
@@ -145,15 +165,30 @@ def divided(bodies: Bodies, split: float, refinements: int, tried: dict) -> Shar
     film = ehl.solve_ehl(contact, refinements=refinements)[-1]
     shape = cell_means(film, bodies.edges)
     near = min(tried, key=lambda s: abs(s - split), default=None)
-    pressed = press(bodies.compliance, shape[:, None] - bodies.heights, contact_load / bodies.width,
-                    hardness=bodies.hardness, start=None if near is None else tried[near].pressed)
+    pressed = press(
+        bodies.compliance,
+        shape[:, None] - bodies.heights,
+        contact_load / bodies.width,
+        hardness=bodies.hardness,
+        start=None if near is None else tried[near].pressed,
+    )
     weight = bodies.weight / bodies.weight.sum()
     touching = (pressed.pressure > 0).mean(axis=1)
     couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - touching))
     boundary = bodies.boundary_friction * contact_load * (bodies.sliding != 0)
-    return Shared(film_load, contact_load, couette, rolling, (boundary + couette + rolling) / bodies.load,
-                  float(weight @ np.maximum(pressed.gap, 0).mean(axis=1)), float(weight @ shape),
-                  float(weight @ touching), film, pressed, film.report)
+    return Shared(
+        film_load,
+        contact_load,
+        couette,
+        rolling,
+        (boundary + couette + rolling) / bodies.load,
+        float(weight @ np.maximum(pressed.gap, 0).mean(axis=1)),
+        float(weight @ shape),
+        float(weight @ touching),
+        film,
+        pressed,
+        film.report,
+    )
 
 
 def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
@@ -163,13 +198,21 @@ def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
 
 
 def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
-    """(Couette, rolling) force on the upper surface in N/m: integrals of eta sliding/h and of (h/2) dp/dx, each times
-    the lubricated share ``wet`` of the cells between ``edges`` (1 outside); the first up to rupture, where the film is
-    that of the flow; both from far upstream, where the gap is a parabola."""
+    """(Couette, rolling) force on the upper surface in N/m: integrals of eta sliding/h and of (h/2) dp/dx,
+    each times the lubricated share ``wet`` of the cells between ``edges`` (1 outside); the first up to
+    rupture, where the film is that of the flow; both from far upstream, where the gap is a parabola.
+    """
     c, dofs = film.contact, film.body.line.doflocs[0]
     start, end = dofs.min() * c.half_width, rupture(film)
-    x = np.unique(np.concatenate([np.linspace(a, b, PARTS, endpoint=False) for a, b in zip(*film.body.line.mesh.p[0][
-        film.body.line.mesh.t] * c.half_width, strict=True)] + [edges, [end]]))
+    x = np.unique(
+        np.concatenate(
+            [
+                np.linspace(a, b, PARTS, endpoint=False)
+                for a, b in zip(*film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width, strict=True)
+            ]
+            + [edges, [end]]
+        )
+    )
     x = x[(x > start) & (x <= end)]
     middle = 0.5 * (x[1:] + x[:-1])
     p, h = film.at(middle)
@@ -177,10 +220,15 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     couette = np.sum(share * c.fluid.eta(np.maximum(p, 0)) * sliding / h * np.diff(x))
     rolling = np.sum(share * h / 2 * np.diff(film.at(x)[0]))
     floor = film.H[dofs.argmin()] * c.film_unit - x[0] ** 2 / (2 * c.radius)
-    far = [quad(lambda t: t ** (2 * n - 2) / (floor * t**2 + 1 / (2 * c.radius)) ** n, 0, -1 / x[0])[0] for n in (1, 2)]
+    far = [quad(upstream, 0, -1 / x[0], (n, floor, c.radius))[0] for n in (1, 2)]
     couette += c.fluid.viscosity * sliding * far[0]
     rolling += 6 * c.fluid.viscosity * c.entrainment_speed * (far[0] - film.flow_film * far[1])
     return float(couette), float(rolling)
+
+
+def upstream(t: float, n: int, floor: float, radius: float) -> float:
+    """Integrand of 1/h^n over x to -infinity in t = -1/x, h = floor + x^2/2R."""
+    return t ** (2 * n - 2) / (floor * t**2 + 1 / (2 * radius)) ** n
 
 
 def rupture(film: ehl.Solution) -> float:
@@ -188,5 +236,9 @@ def rupture(film: ehl.Solution) -> float:
     c, order = film.contact, np.argsort(film.body.x)
     x, H = film.body.x[order] * c.half_width, film.H[order] * c.film_unit
     thinnest = int(H.argmin())
-    return brentq(lambda at: float(film.at(np.array([at]))[1][0]) - film.flow_film, x[thinnest],
-                  x[thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]], xtol=1e-6 * c.half_width)
+    return brentq(
+        lambda at: float(film.at(np.array([at]))[1][0]) - film.flow_film,
+        x[thinnest],
+        x[thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]],
+        xtol=1e-6 * c.half_width,
+    )
