@@ -53,35 +53,55 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
 
 
 def plot_contact(path: Path, model, point) -> None:
-    """Contact pressure map, and film, separation and surface along the middle of one speed's contact.
+    """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
-    ``point``: a `FrictionResult` with fields. Heights are drawn as in the paper's Fig. 10: the smooth film h,
-    the separation h_s = h - epsilon and the rough surface z on one axis.
+    ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
+    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in which
+    u has zero mean over the section.
     """
-    balance = point.balance
-    contact, film = balance.closure.contact, balance.film
-    x, heights = model.patch.x, model.surface.heights - model.surface.heights.mean()
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
-    if contact is None:
-        left.text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", ha="center", va="center",
-                  transform=left.transAxes)
-        left.set_axis_off()
-    else:
-        width = contact.pressure.shape[1] * model.surface.spacing[1]
-        image = left.imshow(contact.pressure.T / 1e9, origin="lower", aspect="auto", cmap="magma_r", vmin=0,
-                            extent=(x[0] * 1e6, x[-1] * 1e6, 0, width * 1e6))
-        figure.colorbar(image, ax=left, label="contact pressure (GPa)")
-        left.set(xlabel="x (µm), direction of motion", ylabel="y (µm)")
+    x = model.patch.x
+    heights = model.surface.heights - model.surface.heights.mean()
+    contact = point.balance.closure.contact
+    row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
+    _pressure_map(figure, left, model, contact, row)
     left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
-    if film is not None and heights.shape[0] == x.size:
-        smooth, row = film.film_at(x), heights.shape[1] // 2
-        approach = 0.0 if contact is None else contact.approach
-        right.plot(x * 1e6, smooth * 1e9, color=BLUE, label="film thickness h")
-        right.plot(x * 1e6, (smooth - approach) * 1e9, color=RED, label="separation $h_s$ = h − ε")
-        right.plot(x * 1e6, heights[:, row] * 1e9, color=GREY, lw=0.8, label="surface z")
-        right.set(xlabel="x (µm)", ylabel="height (nm)", title="section through the middle")
-        right.legend(frameon=False)
+    if point.balance.film is not None and heights.shape[0] == x.size:
+        _section(right, x, heights[:, row], point.balance, row)
+        right.set_title(f"section at y = {row * model.surface.spacing[1] * 1e6:.1f} µm")
     else:
         right.set_axis_off()
     figure.savefig(path, dpi=150)
+
+
+def _pressure_map(figure, axes, model, contact, row) -> None:
+    if contact is None:
+        axes.text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", ha="center", va="center",
+                  transform=axes.transAxes)
+        axes.set_axis_off()
+        return
+    x, (_, dy), half_width = model.patch.x, model.surface.spacing, model.scene.bodies.half_width
+    image = axes.imshow(contact.pressure.T / 1e9, origin="lower", aspect="auto", cmap="magma_r", vmin=0,
+                        extent=(x[0] * 1e6, x[-1] * 1e6, 0, contact.pressure.shape[1] * dy * 1e6))
+    figure.colorbar(image, ax=axes, label="contact pressure (GPa)")
+    for edge in (-half_width, half_width):
+        axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
+    axes.axhline(row * dy * 1e6, color=GREEN, lw=0.8, ls=":")
+    axes.set(xlabel="x (µm), direction of motion; dashed: Hertz strip", ylabel="y (µm); dotted: section")
+
+
+def _section(axes, x, surface, balance, row) -> None:
+    smooth, contact = balance.film.film_at(x), balance.closure.contact
+    micro = x * 1e6
+    axes.plot(micro, smooth * 1e9, color=BLUE, label="film thickness h")
+    axes.plot(micro, surface * 1e9, color=GREY, lw=0.8, ls="--", label="surface z, undeformed")
+    if contact is not None:
+        deflection = contact.displacement[:, row]
+        gauge = deflection.mean()
+        axes.plot(micro, (surface - deflection + gauge) * 1e9, color=GREY, lw=1, label="surface, deformed")
+        # gap + deformed surface is what the surface is pressed under
+        axes.plot(micro, (contact.gap[:, row] + surface - deflection + gauge) * 1e9, color=RED,
+                  label="separation $h_s$ = h − ε")
+    axes.set(xlabel="x (µm)", ylabel="height (nm)")
+    axes.legend(frameon=False, fontsize=8)
