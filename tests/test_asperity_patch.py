@@ -11,11 +11,16 @@ from lubfric.asperity_patch import AsperityPatch, asperity_curve
 from lubfric.contact_curve import contact_curve
 from lubfric.mixed import prepare
 
-CYLINDER = lubfric.load_scene("paper").with_(contact={"shape": (96, 96), "spacing": 0.6e-6},
-                                             surface={"correlation_length": 4e-6}, numerics={"tolerance": 1e-3})
-FLAT = lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing": 8e-6},
-                                        surface={"correlation_length": 40e-6, "acf": "gaussian"},
-                                        numerics={"tolerance": 1e-3})
+CYLINDER = lubfric.load_scene("paper").with_(
+    contact={"shape": (96, 96), "spacing": 0.6e-6},
+    surface={"correlation_length": 4e-6},
+    numerics={"tolerance": 1e-3},
+)
+FLAT = lubfric.load_scene("flat").with_(
+    contact={"shape": (128, 128), "spacing": 8e-6},
+    surface={"correlation_length": 40e-6, "acf": "gaussian"},
+    numerics={"tolerance": 1e-3},
+)
 MODELS = ("summits", "patches")
 RADIUS, E = 30e-6, 231e9
 
@@ -23,7 +28,7 @@ RADIUS, E = 30e-6, 231e9
 def one_ball(model, reading="volume"):
     """A single paraboloid, 0.5 um high, in the middle of a patch 24 um square."""
     x = (np.arange(121) - 60) * 0.2e-6
-    z = np.maximum(0.5e-6 - (x[:, None]**2 + x**2) / (2 * RADIUS), 0.0)
+    z = np.maximum(0.5e-6 - (x[:, None] ** 2 + x**2) / (2 * RADIUS), 0.0)
     z -= z.mean()
     return AsperityPatch(z, (0.2e-6, 0.2e-6), x, np.ones(x.size), E, 121 * 0.2e-6, None, model, reading, 1e-6)
 
@@ -34,13 +39,14 @@ def test_one_asperity_is_hertz(model):
     closure = patch.close(np.full(121, 0.5e-6), load)
     approach = (load / (2 / 3 * E * np.sqrt(RADIUS))) ** (2 / 3)
     # patches are counted in whole cells
-    assert closure.real_contact_area_fraction == pytest.approx(np.pi * RADIUS * approach / (121 * 0.2e-6) ** 2,
-                                                               rel=0.1 if model == "patches" else 0.02)
+    assert closure.real_contact_area_fraction == pytest.approx(
+        np.pi * RADIUS * approach / (121 * 0.2e-6) ** 2, rel=0.1 if model == "patches" else 0.02
+    )
     separation = patch.heights.max() - approach
     gap = np.maximum(separation - patch.heights, 0).mean()
     assert closure.mean_gap == pytest.approx(gap, abs=0.03 * approach)
     centre = closure.contact_fraction[60] * 121 * 0.2e-6
-    assert centre == pytest.approx(2 * np.sqrt(RADIUS * approach), rel=0.07)         # chord through the middle
+    assert centre == pytest.approx(2 * np.sqrt(RADIUS * approach), rel=0.07)  # chord through the middle
 
 
 @pytest.mark.parametrize("reading", ["volume", "mean-plane"])
@@ -51,7 +57,9 @@ def test_carry_is_the_inverse_of_close(model, reading):
     closure = patch.close(shape + 2e-7, 3.0)
     film = shape + 2e-7 + closure.mean_gap - closure.mean_film
     load, again = patch.carry(film)
-    assert load == pytest.approx(3.0, rel=2e-2 if model == "patches" else 1e-3)      # patches jump where they join
+    assert load == pytest.approx(
+        3.0, rel=2e-2 if model == "patches" else 1e-3
+    )  # patches jump where they join
     assert again.mean_gap == pytest.approx(again.mean_film, rel=1e-5)
     assert patch.carry(shape + 1e-5)[0] == 0
 
@@ -61,7 +69,7 @@ def test_carry_is_the_inverse_of_close(model, reading):
 def test_both_closures_agree(model, speed):
     for scene in (CYLINDER, FLAT):
         if scene is FLAT and model == "patches" and speed < 1e-2:
-            continue                                                  # patches cannot carry this load
+            continue  # patches cannot carry this load
         scene = scene.with_(contact={"model": model})
         load = lubfric.friction(scene, speed)
         separation = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed)
@@ -75,24 +83,32 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     scene = CYLINDER.with_(bodies={"hardness": hardness}, numerics={"tolerance": 1e-4})
     load = lubfric.friction(scene, speed)
     paper = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed, fields=True)
-    assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)    # each solved to 1e-4
+    assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
     assert paper.film_load == pytest.approx(load.film_load, rel=2e-3)
-    assert abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
+    assert (
+        abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
+    )
     assert paper.balance.closure.contact.report.solver == "single loop, consistent"
 
 
 def test_the_flat_contact_closes_both_ways():
-    curves = [lubfric.stribeck(FLAT.with_(numerics={"closure": c}), np.geomspace(1e-3, 1, 5))
-              for c in ("load", "separation")]
+    curves = [
+        lubfric.stribeck(FLAT.with_(numerics={"closure": c}), np.geomspace(1e-3, 1, 5))
+        for c in ("load", "separation")
+    ]
     assert np.allclose(curves[0].coefficient, curves[1].coefficient, rtol=1e-3)
 
 
 @pytest.mark.parametrize("model", MODELS)
 def test_the_curve_is_the_law(model):
-    z = lubfric.generate_surface((128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
+    z = lubfric.generate_surface(
+        (128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2
+    ).heights
     law = contact_law(z, 2e-6, E, definition=model)
     separation = 2.2e-7
-    curve = asperity_curve(z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume")
+    curve = asperity_curve(
+        z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume"
+    )
     for level in (2.5e-7, 3.5e-7):
         there = law(level)
         gap, area, _ = curve.at(there.mean_pressure)
@@ -110,7 +126,9 @@ def test_a_load_that_patches_cannot_carry_is_an_error():
 
 
 def test_pressure_at_is_the_inverse_of_the_curve():
-    z = lubfric.generate_surface((64, 64), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
+    z = lubfric.generate_surface(
+        (64, 64), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2
+    ).heights
     curve = contact_curve(z, 2e-6, E, heaviest=2e8)
     for pressure in (2e8, 3e7, 1e4, 1e2, 1.0):
         assert curve.pressure_at(curve.at(pressure)[0]) == pytest.approx(pressure, rel=1e-6)
@@ -122,9 +140,11 @@ def test_johnsons_modulus_keeps_the_strip_and_changes_little_when_the_film_carri
     point = lubfric.friction(scaled, 1e-2, fields=True)
     film = point.balance.film
     assert film.half_width == pytest.approx(CYLINDER.bodies.half_width, rel=1e-12)
-    assert film.e_prime == pytest.approx(CYLINDER.bodies.e_prime * point.film_load / CYLINDER.bodies.load, rel=1e-12)
+    assert film.e_prime == pytest.approx(
+        CYLINDER.bodies.e_prime * point.film_load / CYLINDER.bodies.load, rel=1e-12
+    )
     alone = lubfric.friction(CYLINDER, 1e-2)
-    assert point.film_load > alone.film_load                 # a flatter gap carries more
+    assert point.film_load > alone.film_load  # a flatter gap carries more
     full = [lubfric.friction(s, 1.0).coefficient for s in (scaled, CYLINDER)]
     assert full[0] == pytest.approx(full[1], rel=1e-9)
     both = lubfric.friction(scaled.with_(numerics={"closure": "separation"}), 1e-2)
@@ -151,9 +171,16 @@ def test_oversize_cuts_the_middle_of_a_longer_map():
         prepare(CYLINDER.with_(surface={"correlation_length": 30e-6}))
 
 
-@pytest.mark.parametrize("section,key,value", [
-    ("contact", "model", "summit"), ("contact", "asperity_separation", "plane"), ("numerics", "closure", "film"),
-    ("numerics", "film_deflection", "total"), ("surface", "oversize", 0)])
+@pytest.mark.parametrize(
+    "section,key,value",
+    [
+        ("contact", "model", "summit"),
+        ("contact", "asperity_separation", "plane"),
+        ("numerics", "closure", "film"),
+        ("numerics", "film_deflection", "total"),
+        ("surface", "oversize", 0),
+    ],
+)
 def test_bad_options(section, key, value):
     with pytest.raises(lubfric.InputError, match=f"{section}.{key}"):
         CYLINDER.with_(**{section: {key: value}})

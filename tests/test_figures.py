@@ -18,9 +18,10 @@ pytest.importorskip("PIL")
 
 def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
     from lubfric.halfspace.free import love_coefficients
+
     count, step = 201, 1e-6
     kernel = love_coefficients((count, count), (step, step), spheres.E_PRIME)
-    half = kernel[:count // 2 + 1, :count // 2 + 1]
+    half = kernel[: count // 2 + 1, : count // 2 + 1]
     whole = 4 * half.sum() - 2 * half[0].sum() - 2 * half[:, 0].sum() + half[0, 0]
     assert whole * spheres.E_PRIME / (count * step) == pytest.approx(spheres.MEAN_OF_BOX, rel=1e-3)
 
@@ -28,7 +29,9 @@ def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
 def test_one_period_of_the_array_stands_for_many():
     heights, step = spheres.unit_cell(14e-6, 4 * spheres.CELL)
     one = solve_contact(spheres.HEIGHT - heights, step, spheres.E_PRIME, mean_pressure=2e7, tolerance=1e-8)
-    many = solve_contact(spheres.HEIGHT - np.tile(heights, (2, 3)), step, spheres.E_PRIME, mean_pressure=2e7, tolerance=1e-8)
+    many = solve_contact(
+        spheres.HEIGHT - np.tile(heights, (2, 3)), step, spheres.E_PRIME, mean_pressure=2e7, tolerance=1e-8
+    )
     assert many.approach == pytest.approx(one.approach, rel=1e-6)
 
 
@@ -47,8 +50,10 @@ def test_both_gauges_of_the_sphere_array():
 @pytest.fixture(scope="module")
 def small():
     scene = flat_model.at_mean_pressure(lubfric.load_scene("flat"), 1e8).with_(
-        surface={"correlation_length": 40e-6, "acf": "gaussian"}, contact={"shape": (96, 96), "spacing": 8e-6},
-        numerics={"tolerance": 1e-3})
+        surface={"correlation_length": 40e-6, "acf": "gaussian"},
+        contact={"shape": (96, 96), "spacing": 8e-6},
+        numerics={"tolerance": 1e-3},
+    )
     heights = lubfric.mixed.prepare(scene).surface.heights
     return scene, heights - heights.mean()
 
@@ -61,12 +66,18 @@ def test_tables_give_what_friction_gives(small, model):
     if model == "half-space":
         curve = contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=pressure)
     else:
-        curve = asperity_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=pressure, definition=model, reading="volume")
+        curve = asperity_curve(
+            heights, 8e-6, scene.bodies.e_prime, heaviest=pressure, definition=model, reading="volume"
+        )
     for speed, scaled in ((3e-3, False), (3e-2, True)):
-        table, = flat_model.film_tables(scene, speed, scaled=scaled, laws=[{}])
+        (table,) = flat_model.film_tables(scene, speed, scaled=scaled, laws=[{}])
         found = flat_model.share(table, flat_model.tabulated(curve), pressure, 0.09)
-        direct = lubfric.friction(scene.with_(contact={"model": model}, numerics={
-            "film_deflection": "scaled" if scaled else "hydrodynamic"}), speed)
+        direct = lubfric.friction(
+            scene.with_(
+                contact={"model": model}, numerics={"film_deflection": "scaled" if scaled else "hydrodynamic"}
+            ),
+            speed,
+        )
         assert found.coefficient == pytest.approx(direct.coefficient, rel=5e-3)
         assert found.film_share == pytest.approx(direct.film_load / scene.bodies.load, rel=1e-2)
 
@@ -82,7 +93,7 @@ def test_deviation_is_eq_13():
 def test_a_load_the_model_cannot_carry_is_not_a_number(small):
     scene, heights = small
     curve = flat_model.tabulated(contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=1e6))
-    table, = flat_model.film_tables(scene, 1e-4, scaled=False, laws=[{}])
+    (table,) = flat_model.film_tables(scene, 1e-4, scaled=False, laws=[{}])
     assert math.isnan(flat_model.share(table, curve, 1e8, 0.09).coefficient)
 
 
@@ -92,7 +103,10 @@ def test_the_papers_mean_hertz_pressure():
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])
 def test_the_command_writes_picture_data_and_page(name, tmp_path):
-    assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")]) == 0
+    assert (
+        main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")])
+        == 0
+    )
     picture = (tmp_path / f"{name}.png").read_bytes()
     assert picture.startswith(b"\x89PNG") and 5_000 < len(picture) < 150_000
     with (tmp_path / f"{name}.csv").open() as file:

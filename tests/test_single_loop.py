@@ -22,15 +22,30 @@ def case(shape, hardness, size=None):
     if shape == "flat":
         film, area, pressure = np.zeros((N, N)), np.ones((N, N)), size or 300e6
     elif shape == "cylinder":
-        film, area = np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1), np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1)
+        film, area = (
+            np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1),
+            np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1),
+        )
         pressure = b**2 * np.pi * E / (8 * RADIUS) / (N * D)
     else:
-        square = x[:, None]**2 + x**2
-        film, area, pressure = square / (2 * RADIUS), (square <= b**2) * 1.0, 2 / 3 * b**3 * E / RADIUS / (N * D)**2
+        square = x[:, None] ** 2 + x**2
+        film, area, pressure = (
+            square / (2 * RADIUS),
+            (square <= b**2) * 1.0,
+            2 / 3 * b**3 * E / RADIUS / (N * D) ** 2,
+        )
     boundary = BOUNDARIES[shape]
     operator = half_space((N, N), D, E, boundary)
-    direct = solve_contact(film - z, D, E, mean_pressure=pressure, hardness=hardness, boundary=boundary,
-                           operator=operator, tolerance=1e-7)
+    direct = solve_contact(
+        film - z,
+        D,
+        E,
+        mean_pressure=pressure,
+        hardness=hardness,
+        boundary=boundary,
+        operator=operator,
+        tolerance=1e-7,
+    )
     volume = np.sum(area * np.maximum(direct.gap, 0)) / area.sum()
     film = film + volume - np.sum(area * film) / area.sum()
     return z, film, {"weight": area, "hardness": hardness, "boundary": boundary, "operator": operator}, direct
@@ -51,11 +66,22 @@ def test_agrees_with_the_load_controlled_contact(method, shape, hardness):
     gap = film - z - found.approach + options["operator"].apply(found.pressure)
     assert np.allclose(gap, found.gap, atol=1e-14)
     area = options["weight"]
-    assert np.sum(area * np.maximum(gap, 0)) / area.sum() == pytest.approx(np.sum(area * film) / area.sum(), rel=1e-5)
+    assert np.sum(area * np.maximum(gap, 0)) / area.sum() == pytest.approx(
+        np.sum(area * film) / area.sum(), rel=1e-5
+    )
 
 
-@pytest.mark.parametrize("shape,size", [("flat", 1e6), ("flat", 1.5e9), ("cylinder", 2e-6), ("cylinder", 25e-6),
-                                        ("ball", 3e-6), ("ball", 25e-6)])
+@pytest.mark.parametrize(
+    "shape,size",
+    [
+        ("flat", 1e6),
+        ("flat", 1.5e9),
+        ("cylinder", 2e-6),
+        ("cylinder", 25e-6),
+        ("ball", 3e-6),
+        ("ball", 25e-6),
+    ],
+)
 def test_from_one_spot_to_most_of_the_area(shape, size):
     z, film, options, direct = case(shape, None, size)
     found = single_loop(z, film, D, E, **options)
@@ -85,7 +111,9 @@ def test_the_separation_test_alone_stops_too_early_and_is_not_believed():
     assert not early.report.converged and early.report.residual > 0.1 and early.report.iterations < 5
     honest = single_loop(z, film, D, E, **options)
     assert "Eq. (23) met at iteration 1" in honest.report.notes[0]
-    strict = single_loop(z, film, D, E, form="printed", stop="separation", separation_tolerance=1e-12, **options)
+    strict = single_loop(
+        z, film, D, E, form="printed", stop="separation", separation_tolerance=1e-12, **options
+    )
     assert strict.report.converged and difference(strict, direct) < 1e-4
 
 
@@ -113,10 +141,20 @@ def test_a_warm_start_saves_iterations():
     assert difference(warm, again) < 1e-4 and warm.report.iterations < again.report.iterations
 
 
-@pytest.mark.parametrize("change,match", [
-    ({"film": 0.0}, "mean of film"), ({"film": np.zeros((3, 4))}, "film has shape"), ({"weight": -1.0}, "weight"),
-    ({"form": "print"}, "printed"), ({"stop": "step"}, "stop"), ({"separation_tolerance": 0}, "separation_tolerance")])
+@pytest.mark.parametrize(
+    "change,match",
+    [
+        ({"film": 0.0}, "mean of film"),
+        ({"film": np.zeros((3, 4))}, "film has shape"),
+        ({"weight": -1.0}, "weight"),
+        ({"form": "print"}, "printed"),
+        ({"stop": "step"}, "stop"),
+        ({"separation_tolerance": 0}, "separation_tolerance"),
+    ],
+)
 def test_bad_input(change, match):
-    z = lubfric.generate_surface((32, 32), D, sq=1e-7, correlation_length=3e-6, acf="gaussian", seed=1).heights
+    z = lubfric.generate_surface(
+        (32, 32), D, sq=1e-7, correlation_length=3e-6, acf="gaussian", seed=1
+    ).heights
     with pytest.raises(lubfric.InputError, match=match):
         single_loop(z, **({"film": 1e-7, "spacing": D, "e_prime": E} | change))

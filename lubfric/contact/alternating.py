@@ -20,22 +20,48 @@ from .result import ContactResult
 UPDATES = ("root", "repeat")
 
 
-def alternating(heights, film, spacing, e_prime, *, weight=None, hardness=None, boundary=("periodic", "periodic"),
-                tolerance=1e-6, update="root", start=None, operator=None, max_iterations=100,
-                raise_on_failure=True) -> ContactResult:
+def alternating(
+    heights,
+    film,
+    spacing,
+    e_prime,
+    *,
+    weight=None,
+    hardness=None,
+    boundary=("periodic", "periodic"),
+    tolerance=1e-6,
+    update="root",
+    start=None,
+    operator=None,
+    max_iterations=100,
+    raise_on_failure=True,
+) -> ContactResult:
     """Contact under the separation ``h - epsilon``: system (3) solved at one epsilon after the other.
 
-    update : "repeat", epsilon straight from Eq. (8) over the lubricated area, as described. An error in epsilon
+    update : "repeat", epsilon straight from Eq. (8) over the lubricated area, as described. An error in
+    epsilon
         is passed on by the share with which the deflection of the lubricated area follows epsilon: nothing in
-        an elastic periodic cell, nearly all of it under a cylinder, where the iteration creeps. "root" (default):
-        the volume balance as a function of epsilon, its zero bracketed; the volume falls with epsilon, so there is one.
+        an elastic periodic cell, nearly all of it under a cylinder, where the iteration creeps. "root"
+        (default): the volume balance as a function of epsilon, its zero bracketed; the volume falls with
+        epsilon, so there is one.
     max_iterations : of the outer loop; the others, the result and its residuals as in
         `lubfric.contact.single_loop.single_loop`. ``report.iterations`` counts the outer loop,
         ``report.evaluations`` every convolution.
     """
     validate.choice("update", update, UPDATES)
-    contact, pressure = impose(heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator,
-                               max_iterations)
+    contact, pressure = impose(
+        heights,
+        film,
+        spacing,
+        e_prime,
+        weight,
+        hardness,
+        boundary,
+        tolerance,
+        start,
+        operator,
+        max_iterations,
+    )
     if contact.separated:
         return contact.touchless()
     if pressure is None or not pressure.any():
@@ -90,13 +116,21 @@ def _by_repetition(contact: Imposed, pressure) -> Outcome:
 
 def _by_root(contact: Imposed, pressure) -> Outcome:
     inner, first = _Inner(contact, pressure), _first_offset(contact, pressure)
-    lowest = float(contact.problem.gap0.min())              # first touch: below it there is no pressure
+    lowest = float(contact.problem.gap0.min())  # first touch: below it there is no pressure
 
     def surplus(offset):
         return inner.solve(offset), (inner.pressure, offset)
 
     step = max(0.05 * abs(first - lowest), 1e-3 * contact.mean_film)
-    root = increasing_root(surplus, first, step=step, bounds=(lowest + 1e-9 * abs(first - lowest), np.inf),
-                           tolerance=0.5 * contact.problem.tolerance, max_evaluations=contact.problem.max_iterations)
+    root = increasing_root(
+        surplus,
+        first,
+        step=step,
+        bounds=(lowest + 1e-9 * abs(first - lowest), np.inf),
+        tolerance=0.5 * contact.problem.tolerance,
+        max_evaluations=contact.problem.max_iterations,
+    )
     pressure, offset = root.payload
-    return Outcome(pressure, offset, root.status, len(root.history), inner.convolutions, list(root.history), [])
+    return Outcome(
+        pressure, offset, root.status, len(root.history), inner.convolutions, list(root.history), []
+    )

@@ -1,7 +1,7 @@
 """Contact under an imposed film: the separation h - epsilon is given in shape, Eq. (8) gives epsilon.
 
-What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8),
-doi:10.1007/s11249-015-0536-z. In the sign of this library the gap is ``g = h - epsilon - z + K p``.
+What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7),
+(8), doi:10.1007/s11249-015-0536-z. In the sign of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from .result import ContactResult
 
 @dataclass(frozen=True)
 class Imposed:
-    """gap0 = h - z [m] (its minimum moved to zero) with operator and limits (``problem``); area A as weights that
-    sum to 1; mean film [m] over A. Offsets epsilon [m] inside are against that gap0."""
+    """gap0 = h - z [m] (its minimum moved to zero) with operator and limits (``problem``); area A as weights
+    that sum to 1; mean film [m] over A. Offsets epsilon [m] inside are against that gap0."""
 
     problem: Problem
     weight: np.ndarray
@@ -48,7 +48,8 @@ class Imposed:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement, overlap=0.0) -> float:
-        """epsilon of Eq. (8) with the contact spots, where the gap is zero, counted in: the same in the solution.
+        """epsilon of Eq. (8) with the contact spots, where the gap is zero, counted in: the same in the
+        solution.
 
         ``overlap`` [m] (field): the overlap of yielded cells, which holds no lubricant.
         """
@@ -81,16 +82,36 @@ class Imposed:
             status = CONVERGED
         elif status == CONVERGED:
             status = STAGNATED
-        report = Report(solver, status, state.iterations, worst, problem.tolerance, residuals, tuple(state.history),
-                        state.convolutions + 1, tuple(state.notes))
+        report = Report(
+            solver,
+            status,
+            state.iterations,
+            worst,
+            problem.tolerance,
+            residuals,
+            tuple(state.history),
+            state.convolutions + 1,
+            tuple(state.notes),
+        )
         size = p.size
-        return ContactResult(p, gap, u, float(state.offset) + problem.offset, float(p.mean()), float(np.maximum(gap, 0.0).mean()),
-                             np.count_nonzero(p) / size, np.count_nonzero(p >= problem.hardness) / size, report)
+        return ContactResult(
+            p,
+            gap,
+            u,
+            float(state.offset) + problem.offset,
+            float(p.mean()),
+            float(np.maximum(gap, 0.0).mean()),
+            np.count_nonzero(p) / size,
+            np.count_nonzero(p >= problem.hardness) / size,
+            report,
+        )
 
     def touchless(self) -> ContactResult:
         """The result when the film keeps the surfaces apart."""
         zero = np.zeros_like(self.problem.gap0)
-        state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
+        state = Outcome(
+            zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"]
+        )
         return self.certify(state, "none")
 
 
@@ -107,16 +128,21 @@ class Outcome:
     notes: list = None
 
 
-def impose(heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator,
-           max_iterations) -> tuple[Imposed, np.ndarray | None]:
+def impose(
+    heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator, max_iterations
+) -> tuple[Imposed, np.ndarray | None]:
     """Validated `Imposed` contact and starting pressure (None: to be guessed)."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = _on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
     if weight.min() < 0 or weight.sum() == 0:
-        raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
+        raise InputError(
+            "weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)"
+        )
     weight = weight / weight.sum()
-    problem = make_problem(film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    problem = make_problem(
+        film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations
+    )
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
     return Imposed(problem, weight, mean_film), starting_pressure(problem, start)
 
@@ -124,9 +150,11 @@ def impose(heights, film, spacing, e_prime, weight, hardness, boundary, toleranc
 def _on_grid(name, value, shape, unit) -> np.ndarray:
     field = np.asarray(value, dtype=float)
     if field.ndim == 1:
-        field = field[:, None]                 # along x
+        field = field[:, None]  # along x
     try:
         field = np.broadcast_to(field, shape)
     except ValueError:
-        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
+        raise InputError(
+            f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]"
+        ) from None
     return validate.array(name, field, unit, ndim=2)

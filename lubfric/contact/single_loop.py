@@ -6,7 +6,7 @@ doi:10.1016/S0043-1648(99)00113-1) on the cells in contact, the mean of the conv
 separation from Eq. (8) over the lubricated area. "consistent" (default) keeps the single loop and changes
 what stands in the way of convergence:
 
-- overlapping cells, and yielded cells that have opened, join the search direction instead of a step of their own;
+- overlapping cells, and yielded cells that have opened, join the search direction, not a step of their own;
 - the length of the step is exact for the separation of this iteration (Eq. 18 is right for a given *load*);
 - Eq. (8) counts the contact spots with their gap of zero, which cannot overshoot: its right side then falls
   by less than epsilon rises, whatever the share of contact;
@@ -25,13 +25,28 @@ from .result import ContactResult
 
 FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")
-PATIENCE = 200                    # iterations without a tenth off the best residual
+PATIENCE = 200  # iterations without a tenth off the best residual
 
 
-def single_loop(heights, film, spacing, e_prime, *, weight=None, hardness=None, boundary=("periodic", "periodic"),
-                tolerance=1e-6, form="consistent", stop="residual", separation_tolerance=1e-6, start=None, operator=None,
-                max_iterations=2000, raise_on_failure=True) -> ContactResult:
-    """Contact of a rough surface under the separation ``h - epsilon``, epsilon from the lubricant volume, Eq. (8).
+def single_loop(
+    heights,
+    film,
+    spacing,
+    e_prime,
+    *,
+    weight=None,
+    hardness=None,
+    boundary=("periodic", "periodic"),
+    tolerance=1e-6,
+    form="consistent",
+    stop="residual",
+    separation_tolerance=1e-6,
+    start=None,
+    operator=None,
+    max_iterations=2000,
+    raise_on_failure=True,
+) -> ContactResult:
+    """Contact of a rough surface under the separation ``h - epsilon``, epsilon from the volume, Eq. (8).
 
     Parameters
     ----------
@@ -43,24 +58,35 @@ def single_loop(heights, film, spacing, e_prime, *, weight=None, hardness=None, 
     spacing, e_prime, hardness, boundary, tolerance, start, operator, max_iterations, raise_on_failure : as in
         `lubfric.solve_contact`
 
-    Returns a `ContactResult` with ``approach`` = epsilon. ``report.residuals``, from the returned pressure alone, with
-    the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
-    `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve converged when the largest is <=
-    tolerance, *also* when it was stopped by Eq. (23); the notes say when Eq. (23) was met first.
-    Raises `InputError` before any work, `ConvergenceError` with report and result otherwise.
+    Returns a `ContactResult` with ``approach`` = epsilon. ``report.residuals``, from the returned pressure
+    alone, with the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
+    `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve converged when
+    the largest is <= tolerance, *also* when it was stopped by Eq. (23); the notes say when Eq. (23) was met
+    first. Raises `InputError` before any work, `ConvergenceError` with report and result otherwise.
     """
     validate.choice("form", form, FORMS)
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
-    contact, pressure = impose(heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator,
-                               max_iterations)
+    contact, pressure = impose(
+        heights,
+        film,
+        spacing,
+        e_prime,
+        weight,
+        hardness,
+        boundary,
+        tolerance,
+        start,
+        operator,
+        max_iterations,
+    )
     if contact.separated:
         return contact.touchless()
     if pressure is None or not pressure.any():
         pressure = contact.first_pressure()
     step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
     watch = _Watch(contact, stop, separation_tolerance)
-    with np.errstate(all="ignore"):                # a printed loop may overflow; it then ends as diverged
+    with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
         outcome = _loop(contact, step, watch)
     result = contact.certify(outcome, f"single loop, {form}")
     if raise_on_failure:
@@ -96,7 +122,14 @@ class _Watch:
 
     def __init__(self, contact: Imposed, stop: str, separation_tolerance: float):
         self.contact, self.stop, self.separation_tolerance = contact, stop, separation_tolerance
-        self.history, self.notes, self.done, self.waiting, self.best, self.old = [], [], False, 0, np.inf, None
+        self.history, self.notes, self.done, self.waiting, self.best, self.old = (
+            [],
+            [],
+            False,
+            0,
+            np.inf,
+            None,
+        )
 
     def see(self, iteration, step) -> float:
         problem, p = self.contact.problem, step.pressure
@@ -158,7 +191,8 @@ class _Printed:
 
 
 class _Consistent:
-    """Two-sided working set, directions kept (Polak-Ribiere, never negative), epsilon from Eq. (8) after every step."""
+    """Two-sided working set, directions kept (Polak-Ribiere, never negative), epsilon from Eq. (8) after
+    every step."""
 
     def __init__(self, contact: Imposed, pressure):
         self.contact, self.pressure = contact, pressure
@@ -177,13 +211,13 @@ class _Consistent:
             keep = max(0.0, np.vdot(r, r - self.residue) / np.vdot(self.residue, self.residue))
             d += np.where(free, keep * self.direction, 0.0)
         curvature = np.vdot(d, problem.operator.apply(d)) - self.bulk * d.sum() ** 2
-        if curvature <= 0 and self.bulk > 0:       # contact has left the area the bulk was taken from
+        if curvature <= 0 and self.bulk > 0:  # contact has left the area the bulk was taken from
             curvature, self.bulk = curvature + self.bulk * d.sum() ** 2, 0.0
         step = -np.vdot(r, d) / curvature
         if not step > 0:
             if self.direction is None:
                 return False
-            self.direction = None                  # begin again from the steepest descent
+            self.direction = None  # begin again from the steepest descent
             return self.advance()
         self.pressure = np.clip(p + step * d, 0.0, hardness)
         self.direction, self.residue = d, r
@@ -193,7 +227,8 @@ class _Consistent:
         return True
 
     def _follow(self, more) -> None:
-        """epsilon from Eq. (8); yielded cells overlap as they do once epsilon has taken up the bulk deflection."""
+        """epsilon from Eq. (8); yielded cells overlap as they do once epsilon has taken up the bulk
+        deflection."""
         problem = self.contact.problem
         offset = self.offset + self.bulk * more
         gap = problem.gap0 + self.displacement - offset
@@ -202,15 +237,17 @@ class _Consistent:
 
 
 def bulk(contact: Imposed, pressure) -> float:
-    """Deflection [m/Pa] that one loaded cell, wherever it is, leaves at least everywhere in A and the contact.
+    """Deflection [m/Pa] that one loaded cell, wherever it is, leaves at least everywhere in A and the
+    contact.
 
     The least deflection under a uniform pressure on the box around A and the contact: it is below the energy
-    of any pressure in that box (equilibrium measure), so the operator less this constant stays positive there.
-    Zero when periodic. Without it epsilon would creep: a smooth cylinder's mean gap hardly depends on the load.
+    of any pressure in that box (equilibrium measure), so the operator less this constant stays positive
+    there. Zero when periodic. Without it epsilon would creep: a smooth cylinder's mean gap hardly depends on
+    the load.
     """
     box = np.zeros(pressure.shape)
     rows = np.flatnonzero(((pressure > 0) | (contact.weight > 0)).any(axis=1))
     columns = np.flatnonzero(((pressure > 0) | (contact.weight > 0)).any(axis=0))
-    inside = np.s_[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1]
+    inside = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     box[inside] = 1.0
     return max(0.0, float(contact.problem.operator.apply(box)[inside].min() / box.sum()))

@@ -1,8 +1,9 @@
 """``python -m verification figures``: Figs. 2 to 10 of the paper, each as data, picture and a verdict.
 
 Paper: A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribol. Lett. 59:19 (2015),
-doi:10.1007/s11249-015-0536-z. A figure is a function ``name(quick)`` that returns a `PaperFigure`; its verdict is
-written from the numbers of the run. ``--quick`` takes smaller grids and fewer cases, to see that all works.
+doi:10.1007/s11249-015-0536-z. A figure is a function ``name(quick)`` that returns a `PaperFigure`; its
+verdict is written from the numbers of the run. ``--quick`` takes smaller grids and fewer cases, to see that
+all works.
 """
 
 from __future__ import annotations
@@ -49,11 +50,25 @@ def main(argv: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("python -m verification figures", description=__doc__)
-    parser.add_argument("--only", nargs="+", choices=list(FIGURES), metavar="NAME",
-                        help=f"some of: {', '.join(FIGURES)} (fig4 draws Figs. 3 and 4)")
-    parser.add_argument("--out", type=Path, default=Path("out/figures"), metavar="DIR",
-                        help="where the files go (default: %(default)s)")
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        choices=list(FIGURES),
+        metavar="NAME",
+        help=f"some of: {', '.join(FIGURES)} (fig4 draws Figs. 3 and 4)",
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=Path("out/figures"),
+        metavar="DIR",
+        help="where the files go (default: %(default)s)",
+    )
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
-    parser.add_argument("--docs", type=Path, metavar="DIR",
-                        help="also write figures.md and images/ there (the project keeps them under docs)")
+    parser.add_argument(
+        "--docs",
+        type=Path,
+        metavar="DIR",
+        help="also write figures.md and images/ there (the project keeps them under docs)",
+    )
     return parser

@@ -23,14 +23,17 @@ MODELS = {
 }
 FLAT_STRIP = {"bodies": {"hardness": None}, "contact": {"model": "summits", "geometry": "flat"}}
 LENGTHS = (1e-6, 2e-6, 4e-6, 8e-6, 16e-6, 32e-6)
-PAPER_FILM_LOAD = 0.225                       # N, at 0.001 m/s
+PAPER_FILM_LOAD = 0.225  # N, at 0.001 m/s
 REAL = "ground-77nm.x3p"
 
 
 def scene_of(acf="gaussian", length=8e-6, seed=1):
-    """The paper's cylinder on a generated surface; lengths that do not fit 90 um are cut from a longer map."""
+    """The paper's cylinder on a generated surface; lengths that do not fit 90 um are cut from a longer
+    map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
-    return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
+    return PAPER.with_(
+        surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5}
+    )
 
 
 def real_surface() -> Path | None:
@@ -44,7 +47,10 @@ def real_surface() -> Path | None:
 def ensemble_member(acf, length, seed, speeds) -> list[np.ndarray]:
     """Friction over ``speeds`` of one surface with each of `MODELS`, and with summits on the flat strip."""
     scene = scene_of(acf, length, seed)
-    return [lubfric.stribeck(scene.with_(**change), speeds).coefficient for change in (*MODELS.values(), FLAT_STRIP)]
+    return [
+        lubfric.stribeck(scene.with_(**change), speeds).coefficient
+        for change in (*MODELS.values(), FLAT_STRIP)
+    ]
 
 
 def film_load(acf, length, seed) -> float:
@@ -53,37 +59,68 @@ def film_load(acf, length, seed) -> float:
 
 
 def real_curves(axis, speeds) -> list[np.ndarray]:
-    """As `ensemble_member`, on the ground surface scaled to 100 nm; ``axis`` of the file lies along the motion."""
-    scene = PAPER.with_(surface=lubfric.scene.Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis),
-                         contact={"shape": None, "spacing": None})
+    """As `ensemble_member`, on the ground surface scaled to 100 nm; ``axis`` of the file lies along the
+    motion."""
+    scene = PAPER.with_(
+        surface=lubfric.scene.Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis),
+        contact={"shape": None, "spacing": None},
+    )
     return [lubfric.stribeck(scene.with_(**change), speeds).coefficient for change in MODELS.values()]
 
 
 def stribeck_curves(quick: bool) -> PaperFigure:
-    """Fig. 8: three models, ensemble mean and band; the real surface; F_H at 0.001 m/s over correlation length."""
+    """Fig. 8: three models, ensemble mean and band; the real surface; F_H at 0.001 m/s over correlation
+    length."""
     speeds = np.geomspace(1e-3, 1.0, 5 if quick else 11)
     seeds = range(1, 3 if quick else 9)
     kinds = (("gaussian", 8e-6), ("exponential", 8e-6))
     found = spread(ensemble_member, [(*kind, seed, speeds) for kind in kinds for seed in seeds], quick)
-    curves = {kind: np.array(found[i * len(seeds):(i + 1) * len(seeds)]) for i, kind in enumerate(kinds)}
+    curves = {kind: np.array(found[i * len(seeds) : (i + 1) * len(seeds)]) for i, kind in enumerate(kinds)}
     file = real_surface()
-    real = dict(zip("xy", spread(real_curves, [("x", speeds), ("y", speeds)], quick))) if file and not quick else {}
+    real = (
+        dict(zip("xy", spread(real_curves, [("x", speeds), ("y", speeds)], quick)))
+        if file and not quick
+        else {}
+    )
     counted = range(1, 3 if quick else 13)
     lengths = LENGTHS[2:4] if quick else LENGTHS
     cases = [("gaussian", length, seed) for length in lengths for seed in counted]
     loads = np.array(spread(film_load, cases, quick)).reshape(len(lengths), -1)
     picture = _draw_stribeck(speeds, curves, real, lengths, loads)
-    rows = [(*kind, name, float(u), float(m), float(lo), float(hi)) for kind, c in curves.items()
-            for name, values in zip((*MODELS, "asperities (summits), flat strip"), c.transpose(1, 0, 2))
-            for u, m, lo, hi in zip(speeds, values.mean(0), values.min(0), values.max(0))]
-    rows += [("ground, motion along file " + axis, "", name, float(u), float(f), float(f), float(f))
-             for axis, c in real.items() for name, values in zip(MODELS, c) for u, f in zip(speeds, values)]
-    table = [(length, float(row.mean()), float(row.std()), float(row.min()), float(row.max())) for length, row in
-             zip(lengths, loads)]
+    rows = [
+        (*kind, name, float(u), float(m), float(lo), float(hi))
+        for kind, c in curves.items()
+        for name, values in zip((*MODELS, "asperities (summits), flat strip"), c.transpose(1, 0, 2))
+        for u, m, lo, hi in zip(speeds, values.mean(0), values.min(0), values.max(0))
+    ]
+    rows += [
+        ("ground, motion along file " + axis, "", name, float(u), float(f), float(f), float(f))
+        for axis, c in real.items()
+        for name, values in zip(MODELS, c)
+        for u, f in zip(speeds, values)
+    ]
+    table = [
+        (length, float(row.mean()), float(row.std()), float(row.min()), float(row.max()))
+        for length, row in zip(lengths, loads)
+    ]
     agrees, differs = _stribeck_verdict(speeds, curves, real, table)
-    return PaperFigure("fig8", "Fig. 8: the cylinder, three contact models", agrees, differs, picture, {
-        "fig8": (("surface", "L [m]", "model", "speed [m/s]", "f mean [-]", "f lowest [-]", "f highest [-]"), rows),
-        "fig8_film_load": (("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]"), table)})
+    return PaperFigure(
+        "fig8",
+        "Fig. 8: the cylinder, three contact models",
+        agrees,
+        differs,
+        picture,
+        {
+            "fig8": (
+                ("surface", "L [m]", "model", "speed [m/s]", "f mean [-]", "f lowest [-]", "f highest [-]"),
+                rows,
+            ),
+            "fig8_film_load": (
+                ("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]"),
+                table,
+            ),
+        },
+    )
 
 
 def _draw_stribeck(speeds, curves, real, lengths, loads) -> bytes:
@@ -92,18 +129,41 @@ def _draw_stribeck(speeds, curves, real, lengths, loads) -> bytes:
         for i, (name, c) in enumerate(zip((*MODELS, "asperities, flat strip"), values.transpose(1, 0, 2))):
             ax.semilogx(speeds, c.mean(0), "o^sv"[i] + "-", ms=4, color=f"C{i}", label=name)
             ax.fill_between(speeds, c.min(0), c.max(0), color=f"C{i}", alpha=0.15, lw=0)
-        ax.set(title=f"{acf}, L = {length * 1e6:g} µm, {len(values)} seeds", xlabel="entrainment speed U (m/s)",
-               ylabel="friction coefficient (-)", ylim=(0, 0.1))
+        ax.set(
+            title=f"{acf}, L = {length * 1e6:g} µm, {len(values)} seeds",
+            xlabel="entrainment speed U (m/s)",
+            ylabel="friction coefficient (-)",
+            ylim=(0, 0.1),
+        )
     for axis, c in real.items():
-        panels[0].semilogx(speeds, c[1], "k" + ("--" if axis == "x" else ":"), lw=1,
-                           label=f"ground surface, motion along its {axis}")
+        panels[0].semilogx(
+            speeds,
+            c[1],
+            "k" + ("--" if axis == "x" else ":"),
+            lw=1,
+            label=f"ground surface, motion along its {axis}",
+        )
     panels[0].legend(fontsize=7, loc="lower left")
     ax = panels[2]
-    ax.errorbar(np.array(lengths) * 1e6, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd")
-    ax.plot(np.repeat(np.array(lengths) * 1e6, loads.shape[1]), loads.ravel(), ".", color="grey", ms=3, label="seeds")
+    ax.errorbar(
+        np.array(lengths) * 1e6, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd"
+    )
+    ax.plot(
+        np.repeat(np.array(lengths) * 1e6, loads.shape[1]),
+        loads.ravel(),
+        ".",
+        color="grey",
+        ms=3,
+        label="seeds",
+    )
     ax.axhline(PAPER_FILM_LOAD, color="C1", ls="--", label="paper: 0.225 N")
-    ax.set(xscale="log", xlabel="correlation length (µm), Gaussian, 1/e", ylabel="$F_H$ at 0.001 m/s (N)", ylim=(0, None),
-           title="film load at 0.001 m/s")
+    ax.set(
+        xscale="log",
+        xlabel="correlation length (µm), Gaussian, 1/e",
+        ylabel="$F_H$ at 0.001 m/s (N)",
+        ylim=(0, None),
+        title="film load at 0.001 m/s",
+    )
     ax.legend(fontsize=8)
     return png(canvas)
 
@@ -111,9 +171,15 @@ def _draw_stribeck(speeds, curves, real, lengths, loads) -> bytes:
 def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
     change = {kind: (c.mean(0)[1] / c.mean(0)[0] - 1) for kind, c in curves.items()}
     most = max(float(np.max(np.abs(v))) for v in change.values())
-    off = {kind: [100 * float(v[np.argmax(np.abs(v))]) for v in (c.mean(0)[i] / c.mean(0)[0] - 1 for i in (2, 3))]
-           for kind, c in curves.items()}
-    lines = "; ".join(f"{acf}: {a:+.0f} % (under the cylinder), {b:+.0f} % (flat strip)" for (acf, _), (a, b) in off.items())
+    off = {
+        kind: [
+            100 * float(v[np.argmax(np.abs(v))]) for v in (c.mean(0)[i] / c.mean(0)[0] - 1 for i in (2, 3))
+        ]
+        for kind, c in curves.items()
+    }
+    lines = "; ".join(
+        f"{acf}: {a:+.0f} % (under the cylinder), {b:+.0f} % (flat strip)" for (acf, _), (a, b) in off.items()
+    )
     inside = [f"{length * 1e6:g}" for length, mean, sd, low, high in table if low <= PAPER_FILM_LOAD <= high]
     below = [f"{length * 1e6:g}" for length, _, _, _, high in table if high < PAPER_FILM_LOAD]
     means = ", ".join(f"{mean:.3f} ± {sd:.3f} N at {length * 1e6:g} µm" for length, mean, sd, _, _ in table)
@@ -121,23 +187,40 @@ def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
     bracket += f" and above all of {', '.join(below)} µm" if below else ""
     agrees = (
         "All models meet in full film and at low speed. Plastic deformation lowers the friction slightly "
-        f"(at most {100 * most:.1f} %), as the paper finds. F_H at 0.001 m/s on generated surfaces of 100 nm: {means}; {bracket}. "
-        + (f"On the real ground surface, scaled to 100 nm: {_real_words(speeds, real)}" if real else
-           "The real ground surface was not found (LUBFRIC_SURFACES, ../shared/surfaces) or left out of a quick run, and is skipped."))
+        f"(at most {100 * most:.1f} %), as the paper finds. F_H at 0.001 m/s on generated surfaces of 100 "
+        f"nm: {means}; {bracket}. "
+        + (
+            f"On the real ground surface, scaled to 100 nm: {_real_words(speeds, real)}"
+            if real
+            else "The real ground surface was not found (LUBFRIC_SURFACES, ../shared/surfaces) or left out of a "
+            "quick run, and is skipped."
+        )
+    )
     differs = (
-        f"The paper's asperity curve lies clearly above the other two. On generated surfaces its largest deviation from the elastic half-space is {lines}. "
-        "Which way it goes depends on the roughness: fine ripples (exponential) put the asperity model above on the flat strip, "
-        "broad summits below. Under the cylinder independent asperities also miss the flattening by the whole contact "
-        "load: they carry it on a shorter strip. The paper's surface and its asperity definition are not published, nor are the measured "
-        "friction values in numbers, so neither is drawn.")
+        "The paper's asperity curve lies clearly above the other two. On generated surfaces its largest "
+        f"deviation from the elastic half-space is {lines}. "
+        "Which way it goes depends on the roughness: fine ripples (exponential) put the asperity model "
+        "above on the flat strip, "
+        "broad summits below. Under the cylinder independent asperities also miss the flattening by the "
+        "whole contact "
+        "load: they carry it on a shorter strip. The paper's surface and its asperity definition are not "
+        "published, nor are the measured "
+        "friction values in numbers, so neither is drawn."
+    )
     return agrees, differs
 
 
 def _real_words(speeds, real) -> str:
     i = int(np.argmin(np.abs(speeds - 0.01)))
-    return ", ".join(f"f = {c[1][i]:.4f} (elastic {c[0][i]:.4f}, asperities {c[2][i]:.4f}) with the motion along its {axis}"
-                     for axis, c in real.items()) + f" at {speeds[i]:.2g} m/s; there the asperity model is above the half-space by up to " \
-        + " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values()) + ", as in the paper."
+    return (
+        ", ".join(
+            f"f = {c[1][i]:.4f} (elastic {c[0][i]:.4f}, asperities {c[2][i]:.4f}) with the motion along its {axis}"
+            for axis, c in real.items()
+        )
+        + f" at {speeds[i]:.2g} m/s; there the asperity model is above the half-space by up to "
+        + " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values())
+        + ", as in the paper."
+    )
 
 
 def pressure_map(quick: bool) -> PaperFigure:
@@ -149,32 +232,76 @@ def pressure_map(quick: bool) -> PaperFigure:
         point = lubfric.friction(scene, 0.001, fields=True)
         pressure = point.balance.closure.contact.pressure
         x = point.balance.closure.x * 1e6
-        image(canvas, ax, pressure / 1e9, (x[0], x[-1], 0, 90), "contact pressure (GPa)", cmap="magma_r", vmin=0, vmax=6,
-              aspect="auto")
-        ax.set(xlim=(-15, 15), xlabel="x, direction of motion (µm)", ylabel="y (µm)",
-               title=f"{acf} ACF: $F_C$ = {point.contact_load:.3f} N, $F_H$ = {point.film_load:.3f} N")
+        image(
+            canvas,
+            ax,
+            pressure / 1e9,
+            (x[0], x[-1], 0, 90),
+            "contact pressure (GPa)",
+            cmap="magma_r",
+            vmin=0,
+            vmax=6,
+            aspect="auto",
+        )
+        ax.set(
+            xlim=(-15, 15),
+            xlabel="x, direction of motion (µm)",
+            ylabel="y (µm)",
+            title=f"{acf} ACF: $F_C$ = {point.contact_load:.3f} N, $F_H$ = {point.film_load:.3f} N",
+        )
         for edge in (-1, 1):
             ax.axvline(edge * scene.bodies.half_width * 1e6, color="grey", lw=0.7, ls="--")
         spots = _spots(pressure)
-        rows.append((acf, point.contact_load, point.film_load, point.real_contact_area_fraction, point.plastic_area_fraction,
-                     float(pressure.max()), spots))
+        rows.append(
+            (
+                acf,
+                point.contact_load,
+                point.film_load,
+                point.real_contact_area_fraction,
+                point.plastic_area_fraction,
+                float(pressure.max()),
+                spots,
+            )
+        )
         found.append(point)
     return PaperFigure(
-        "fig9", "Fig. 9: contact pressure at 0.001 m/s",
+        "fig9",
+        "Fig. 9: contact pressure at 0.001 m/s",
         "Almost all of the load is carried by few, small contact spots: F_C = "
         f"{found[0].contact_load:.3f} and {found[1].contact_load:.3f} N, F_H = {found[0].film_load:.3f} and "
         f"{found[1].film_load:.3f} N (paper: 5.275 and 0.225 N), {rows[0][6]} and {rows[1][6]} spots. "
-        + ("The pressure reaches the hardness of 6 GPa at some spots, as in the paper"
-           + (f" ({100 * rows[1][4]:.2f} % of the strip)." if rows[1][4] else ".") if rows[1][5] >= 6e9 else ""),
+        + (
+            "The pressure reaches the hardness of 6 GPa at some spots, as in the paper"
+            + (f" ({100 * rows[1][4]:.2f} % of the strip)." if rows[1][4] else ".")
+            if rows[1][5] >= 6e9
+            else ""
+        ),
         "The paper's surface is not published. On the smooth (Gaussian) surrogate the highest pressure is "
-        f"{rows[0][5] / 1e9:.1f} GPa; it needs the sharper summits of the exponential one to yield. Dashed: the Hertz strip, "
-        "over which Eq. (8) is balanced; contact reaches beyond it because summits stand up to three Sq above the mean plane.",
-        png(canvas), {"fig9": (("acf", "F_C [N]", "F_H [N]", "contact area fraction of the strip", "plastic area fraction",
-                                "highest pressure [Pa]", "contact spots in 90 um"), rows)})
+        f"{rows[0][5] / 1e9:.1f} GPa; it needs the sharper summits of the exponential one to yield. Dashed: "
+        "the Hertz strip, "
+        "over which Eq. (8) is balanced; contact reaches beyond it because summits stand up to three Sq "
+        "above the mean plane.",
+        png(canvas),
+        {
+            "fig9": (
+                (
+                    "acf",
+                    "F_C [N]",
+                    "F_H [N]",
+                    "contact area fraction of the strip",
+                    "plastic area fraction",
+                    "highest pressure [Pa]",
+                    "contact spots in 90 um",
+                ),
+                rows,
+            )
+        },
+    )
 
 
 def _spots(pressure) -> int:
     from scipy.ndimage import label
+
     return int(label(pressure > 0, np.ones((3, 3)))[1])
 
 
@@ -183,7 +310,7 @@ def sections(quick: bool) -> PaperFigure:
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model, rows, words = prepare(PAPER), [], []
     pressure = lubfric.friction(model, 0.001, fields=True).balance.closure.contact.pressure
-    line = int(np.argmax(pressure.max(axis=0)))                    # through the highest contact pressure
+    line = int(np.argmax(pressure.max(axis=0)))  # through the highest contact pressure
     z = model.patch.heights
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
@@ -193,24 +320,42 @@ def sections(quick: bool) -> PaperFigure:
         if closure.contact is not None:
             offset, gap = closure.contact.approach, closure.contact.gap[:, line]
         else:
-            offset = -float(weight @ z.mean(axis=1))               # Eq. (8) without contact: volume of h over z
+            offset = -float(weight @ z.mean(axis=1))  # Eq. (8) without contact: volume of h over z
             gap = h - offset - z[:, line]
         for values, label in ((h, "film h"), (h - offset, "separation $h_s$"), (z[:, line], "surface z")):
             ax.plot(x * 1e6, values * 1e6, label=label, lw=1.2)
-        ax.set(title=f"U = {speed:g} m/s", xlabel="x (µm)", ylabel="height (µm)", xlim=(-20, 20),
-               ylim=(-0.35, 0.6 if speed < 0.01 else 2.5))
+        ax.set(
+            title=f"U = {speed:g} m/s",
+            xlabel="x (µm)",
+            ylabel="height (µm)",
+            xlim=(-20, 20),
+            ylim=(-0.35, 0.6 if speed < 0.01 else 2.5),
+        )
         ax.legend()
-        rows += [(speed, float(a), float(b), float(b - offset), float(c), float(g)) for a, b, c, g in zip(x, h, z[:, line], gap)]
-        words.append(f"at {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
-                     f"contact on {100 * point.real_contact_area_fraction:.1f} % of it")
+        rows += [
+            (speed, float(a), float(b), float(b - offset), float(c), float(g))
+            for a, b, c, g in zip(x, h, z[:, line], gap)
+        ]
+        words.append(
+            f"at {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
+            f"contact on {100 * point.real_contact_area_fraction:.1f} % of it"
+        )
     return PaperFigure(
-        "fig10", "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s",
-        "In boundary lubrication the separation cuts through the summits, in full film it clears them: " + "; ".join(words) + ".",
-        "h_s has the form of h, as in the paper, and is offset by epsilon. Where the surface is drawn above h_s it is deflected by the "
-        "contact: the gap h_s - z + u is zero there (last column of the table). In this line-contact kernel u is "
-        "known up to a constant, so the distance between h_s and z depends on that gauge and the gap does not. Section of the "
+        "fig10",
+        "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s",
+        "In boundary lubrication the separation cuts through the summits, in full film it clears them: "
+        + "; ".join(words)
+        + ".",
+        "h_s has the form of h, as in the paper, and is offset by epsilon. Where the surface is drawn above "
+        "h_s it is deflected by the "
+        "contact: the gap h_s - z + u is zero there (last column of the table). In this line-contact kernel "
+        "u is "
+        "known up to a constant, so the distance between h_s and z depends on that gauge and the gap does "
+        "not. Section of the "
         "generated surface of the built-in scene (the paper's is not published).",
-        png(canvas), {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)})
+        png(canvas),
+        {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
+    )
 
 
 def mean_pressure_check() -> float:

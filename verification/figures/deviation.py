@@ -1,4 +1,5 @@
-"""Figs. 5 and 6: friction of independent asperities against the half-space, and their largest difference d, Eq. (13)."""
+"""Figs. 5 and 6: friction of independent asperities against the half-space, and their largest difference d,
+Eq. (13)."""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ from .spread import spread
 from .surfaces import LENGTHS, SPACING, rough
 
 INVERSE_E = math.exp(-1)
-LOADS = (20e6, 50e6, 100e6, 200e6, 500e6, 1000e6)        # mean Hertz pressure, Pa
+LOADS = (20e6, 50e6, 100e6, 200e6, 500e6, 1000e6)  # mean Hertz pressure, Pa
 SPEEDS = np.geomspace(1e-3, 10.0, 17)
 LAWS = {"Newtonian": {}, "limited": {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}}
 BASE = {"acf": "exponential", "level": 0.3679, "model": ("summits", "volume"), "law": "Johnson"}
@@ -30,8 +31,8 @@ BOUNDARY = SCENE.bodies.boundary_friction_coefficient
 
 @dataclass(frozen=True)
 class Curves:
-    """Contact curves of one surface (`GapTable`): of the half-space, and of every (definition, separation) of an
-    asperity."""
+    """Contact curves of one surface (`GapTable`): of the half-space, and of every (definition, separation) of
+    an asperity."""
 
     half_space: object
     asperity: dict
@@ -42,8 +43,14 @@ def curves_of(acf, length, decay_level=INVERSE_E, seed=1, quick=False, models=AS
     heights = rough(length, acf, seed, 400 if quick else 816, decay_level).heights
     e_prime, heaviest = SCENE.bodies.e_prime, max(LOADS)
     half_space = tabulated(contact_curve(heights, SPACING, e_prime, heaviest=heaviest, tolerance=1e-4))
-    asperity = {model: tabulated(asperity_curve(heights, SPACING, e_prime, heaviest=heaviest, definition=model[0],
-                                                reading=model[1])) for model in models}
+    asperity = {
+        model: tabulated(
+            asperity_curve(
+                heights, SPACING, e_prime, heaviest=heaviest, definition=model[0], reading=model[1]
+            )
+        )
+        for model in models
+    }
     return Curves(half_space, asperity)
 
 
@@ -91,19 +98,26 @@ def friction_curves(quick: bool) -> PaperFigure:
     check = lubfric.friction(_direct_scene(load, LENGTHS[0], quick), float(at[0])).coefficient
     table = next(r for r in rows if r[0] == LENGTHS[0] and r[1] == at[0])[3]
     return PaperFigure(
-        "fig5", "Fig. 5: friction curves at 200 MPa mean Hertz pressure",
-        "The curves meet in boundary and in full-film lubrication and differ between; the asperity model lies above. The largest "
+        "fig5",
+        "Fig. 5: friction curves at 200 MPa mean Hertz pressure",
+        "The curves meet in boundary and in full-film lubrication and differ between; the asperity model "
+        "lies above. The largest "
         f"difference is at {at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (the paper: about 0.1 m/s).",
-        f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of the half-space value), the "
-        "paper has it the other way round: see Fig. 6. The load of Fig. 5 is not stated; 200 MPa is a choice. The tables of this "
+        f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of "
+        "the half-space value), the "
+        "paper has it the other way round: see Fig. 6. The load of Fig. 5 is not stated; 200 MPa is a "
+        "choice. The tables of this "
         f"figure against `lubfric.friction`: {table:.5f} and {check:.5f} at {at[0]:.2g} m/s.",
-        png(canvas), {"fig5": (("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)})
+        png(canvas),
+        {"fig5": (("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)},
+    )
 
 
 def _direct_scene(load, length, quick):
     count = 400 if quick else 816
-    return at_mean_pressure(SCENE, load).with_(surface={"correlation_length": length, "seed": 1},
-                                               contact={"shape": (count, count)})
+    return at_mean_pressure(SCENE, load).with_(
+        surface={"correlation_length": length, "seed": 1}, contact={"shape": (count, count)}
+    )
 
 
 def deviation_map(quick: bool) -> PaperFigure:
@@ -112,11 +126,21 @@ def deviation_map(quick: bool) -> PaperFigure:
     by_load = spread(films, [((load,), speeds, scaled) for load in loads for scaled in (False, True)], quick)
     tables = {}
     for load, (plain, johnson) in zip(loads, zip(by_load[::2], by_load[1::2])):
-        tables |= {(load, "Newtonian"): plain[load, "Newtonian"], (load, "limited"): plain[load, "limited"],
-                   (load, "Johnson"): johnson[load, "limited"]}
-    kinds = [(acf, length, level, 1) for acf, level in (("exponential", math.exp(-1)), ("exponential", 0.1),
-                                                        ("gaussian", math.exp(-1))) for length in LENGTHS]
-    others = [("exponential", length, math.exp(-1), seed) for seed in ((2,) if quick else (2, 3, 4)) for length in LENGTHS]
+        tables |= {
+            (load, "Newtonian"): plain[load, "Newtonian"],
+            (load, "limited"): plain[load, "limited"],
+            (load, "Johnson"): johnson[load, "limited"],
+        }
+    kinds = [
+        (acf, length, level, 1)
+        for acf, level in (("exponential", math.exp(-1)), ("exponential", 0.1), ("gaussian", math.exp(-1)))
+        for length in LENGTHS
+    ]
+    others = [
+        ("exponential", length, math.exp(-1), seed)
+        for seed in ((2,) if quick else (2, 3, 4))
+        for length in LENGTHS
+    ]
     curves = spread(curves_of, [(*kind, quick) for kind in kinds + others], quick)
     rows, scatter = [], []
     for (acf, length, level, _), surface in zip(kinds, curves):
@@ -124,21 +148,52 @@ def deviation_map(quick: bool) -> PaperFigure:
             half = stribeck(table, surface.half_space, load)
             for model in ASPERITIES:
                 d, worst = signed_deviation(stribeck(table, surface.asperity[model], load), half)
-                rows.append((acf, round(level, 4), *model, law, length, load, load * 4 / math.pi, 100 * d,
-                             float(speeds[worst]) if worst >= 0 else math.nan))
-    for (_, length, _, seed), surface in zip(others, curves[len(kinds):]):
+                rows.append(
+                    (
+                        acf,
+                        round(level, 4),
+                        *model,
+                        law,
+                        length,
+                        load,
+                        load * 4 / math.pi,
+                        100 * d,
+                        float(speeds[worst]) if worst >= 0 else math.nan,
+                    )
+                )
+    for (_, length, _, seed), surface in zip(others, curves[len(kinds) :]):
         for load in loads:
             table = tables[load, BASE["law"]]
-            d, _ = signed_deviation(stribeck(table, surface.asperity[BASE["model"]], load),
-                                    stribeck(table, surface.half_space, load))
+            d, _ = signed_deviation(
+                stribeck(table, surface.asperity[BASE["model"]], load),
+                stribeck(table, surface.half_space, load),
+            )
             scatter.append((seed, length, load, 100 * d))
     picture = _draw(rows, loads, scatter)
-    headings = ("acf", "level at which L is read", "asperity", "separation", "film and shear", "L [m]",
-                "mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]", "d [%], + asperity model higher", "at speed [m/s]")
+    headings = (
+        "acf",
+        "level at which L is read",
+        "asperity",
+        "separation",
+        "film and shear",
+        "L [m]",
+        "mean Hertz pressure [Pa]",
+        "peak Hertz pressure [Pa]",
+        "d [%], + asperity model higher",
+        "at speed [m/s]",
+    )
     agrees, differs = _verdict(rows, loads, scatter)
-    return PaperFigure("fig6", "Fig. 6: d over load and L", agrees, differs, picture,
-                       {"fig6": (headings, rows), "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"),
-                                                                scatter)})
+    return PaperFigure(
+        "fig6",
+        "Fig. 6: d over load and L",
+        agrees,
+        differs,
+        picture,
+        {
+            "fig6": (headings, rows),
+            "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter),
+        },
+    )
 
 
 def pick(rows, length, **reading) -> list[float]:
@@ -147,7 +202,7 @@ def pick(rows, length, **reading) -> list[float]:
     return [row[8] for row in rows if row[:6] == (r["acf"], r["level"], *r["model"], r["law"], length)]
 
 
-READINGS = {                                        # label: what differs from the base reading
+READINGS = {  # label: what differs from the base reading
     "base: summits, exponential ACF": {},
     "Newtonian, film pressure only": {"law": "Newtonian"},
     "limited, film pressure only": {"law": "limited"},
@@ -165,16 +220,27 @@ def _draw(rows, loads, scatter) -> bytes:
     for length, colour in zip(LENGTHS, ("C0", "C1")):
         panels[0].semilogx(mega, pick(rows, length), "o-", color=colour, label=f"L = {length * 1e6:g} µm")
         for seed in sorted({s[0] for s in scatter}):
-            panels[0].semilogx(mega, [s[3] for s in scatter if s[:2] == (seed, length)], "-", color=colour, lw=0.7)
+            panels[0].semilogx(
+                mega, [s[3] for s in scatter if s[:2] == (seed, length)], "-", color=colour, lw=0.7
+            )
     panels[0].axhline(32, color="grey", lw=0.8, ls="--")
     panels[0].annotate("paper: up to 32 %", (mega[0], 34), color="grey", fontsize=8)
-    panels[0].set(title="base reading (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62))
+    panels[0].set(
+        title="base reading (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62)
+    )
     panels[0].legend()
     for ax, length in zip(panels[1:], LENGTHS):
         for i, (label, reading) in enumerate(READINGS.items()):
             d = np.array(pick(rows, length, **reading))
-            ax.semilogx(mega, np.where(np.abs(d) <= 60, d, np.nan), "os^vDP*X"[i] + "-", ms=4, lw=1.1,
-                        color=f"C{i}" if i < 7 else "0.6", label=label)
+            ax.semilogx(
+                mega,
+                np.where(np.abs(d) <= 60, d, np.nan),
+                "os^vDP*X"[i] + "-",
+                ms=4,
+                lw=1.1,
+                color=f"C{i}" if i < 7 else "0.6",
+                label=label,
+            )
         ax.axhline(0, color="grey", lw=0.8)
         ax.set(title=f"readings, L = {length * 1e6:g} µm")
     handles, labels = panels[2].get_legend_handles_labels()
@@ -189,24 +255,44 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
     rising = all(d[-1] == max(d) and sum(np.diff(d) < 0) <= 1 for d in base)
     most, where = max((d, p) for d_of in base for d, p in zip(d_of, loads))
     ratio = [b / a for a, b in zip(*base)]
-    shrinking = [label for label, reading in READINGS.items() if all(
-        0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading)))]
+    shrinking = [
+        label
+        for label, reading in READINGS.items()
+        if all(
+            0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading))
+        )
+    ]
     seeds = [s[3] for s in scatter]
     agrees = (
-        "With summits on a surface of exponential autocorrelation the asperity model gives the higher friction"
-        f"{' and d grows with load' if rising else ''}: {', '.join(f'{d:.0f}' for d in base[0])} % (L = 34 µm) and "
-        f"{', '.join(f'{d:.0f}' for d in base[1])} % (57 µm) at {', '.join(f'{p / 1e6:g}' for p in loads)} MPa mean Hertz pressure, "
-        f"at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} %). The paper has up to 32 % at "
-        "1 GPa: the same order, and the same growth with load.")
+        "With summits on a surface of exponential autocorrelation the asperity model gives the higher "
+        "friction"
+        f"{' and d grows with load' if rising else ''}: {', '.join(f'{d:.0f}' for d in base[0])} % (L = 34 "
+        "µm) and "
+        f"{', '.join(f'{d:.0f}' for d in base[1])} % (57 µm) at {', '.join(f'{p / 1e6:g}' for p in loads)} "
+        "MPa mean Hertz pressure, "
+        f"at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} "
+        "%). The paper has up to 32 % at "
+        "1 GPa: the same order, and the same growth with load."
+    )
     differs = (
-        f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
+        f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 "
+        "µm, and "
         f"{'in no reading tried is it smaller at all loads' if not shrinking else 'smaller only for: ' + ', '.join(shrinking)}. "
-        "Our reading of why: a longer wave of the same height is flattened by less pressure (E' Sq/L), so the summits on one hill "
-        "share the load over a wider area and independent asperities err more. Fig. 4 varies the spacing of *equal* asperities, which L "
-        "does not. On smooth (Gaussian) surfaces broad summits merge, the asperity model carries too *little* at a given gap and d is "
-        "negative. Contact patches grow together and cannot carry more than some 50 to 120 MPa. Reading L at 0.1 of the "
-        "autocorrelation roughens the surface and lowers d. Above some 300 MPa Newtonian shear at this sliding speed exceeds any "
-        "measured friction by orders of magnitude and d of it means nothing; the base therefore takes a Ree-Eyring film (5 MPa) limited "
-        "at 0.05 p, which is an assumption, and Johnson's modulus, which keeps the film of a heavily loaded strip flat (Sec. 3.1 has it "
-        "constant). Mean or peak Hertz pressure only shifts the axis by 4/pi. Values beyond 60 % are in the table, not in the picture.")
+        "Our reading of why: a longer wave of the same height is flattened by less pressure (E' Sq/L), so "
+        "the summits on one hill "
+        "share the load over a wider area and independent asperities err more. Fig. 4 varies the spacing of "
+        "*equal* asperities, which L "
+        "does not. On smooth (Gaussian) surfaces broad summits merge, the asperity model carries too "
+        "*little* at a given gap and d is "
+        "negative. Contact patches grow together and cannot carry more than some 50 to 120 MPa. Reading L "
+        "at 0.1 of the "
+        "autocorrelation roughens the surface and lowers d. Above some 300 MPa Newtonian shear at this "
+        "sliding speed exceeds any "
+        "measured friction by orders of magnitude and d of it means nothing; the base therefore takes a "
+        "Ree-Eyring film (5 MPa) limited "
+        "at 0.05 p, which is an assumption, and Johnson's modulus, which keeps the film of a heavily loaded "
+        "strip flat (Sec. 3.1 has it "
+        "constant). Mean or peak Hertz pressure only shifts the axis by 4/pi. Values beyond 60 % are in the "
+        "table, not in the picture."
+    )
     return agrees, differs

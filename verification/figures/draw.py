@@ -7,7 +7,7 @@ import io
 from ..plotting import STYLE, axes
 
 DPI = 90
-COLOURS = 144            # of the picture: enough for lines and one colour map, and a third of the bytes
+COLOURS = 144  # of the picture: enough for lines and one colour map, and a third of the bytes
 
 __all__ = ["axes", "image", "png"]
 
@@ -16,6 +16,7 @@ def png(canvas) -> bytes:
     """The picture of a drawn figure, small enough for the documents."""
     import matplotlib
     from PIL import Image
+
     stream, small = io.BytesIO(), io.BytesIO()
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)

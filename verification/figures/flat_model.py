@@ -1,7 +1,8 @@
 """Load sharing of nominally flat surfaces from tables: films once per load, contact curves once per surface.
 
-Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films, so a map of d costs no more
-than its films and its contact curves. `lubfric.friction` does the same without tables; the figure compares some points.
+Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films, so a map of d costs no
+more than its films and its contact curves. `lubfric.friction` does the same without tables; the figure
+compares some points.
 """
 
 from __future__ import annotations
@@ -17,15 +18,15 @@ from lubfric.ehl import solve_ehl
 from lubfric.scene import Scene
 from lubfric.shear import shear_force
 
-SHARES = np.geomspace(1e-4, 1.0, 13)      # F_H/F_T of the table
+SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128
 FINE = 600
 
 
 @dataclass(frozen=True)
 class FilmTable:
-    """One load and one speed: mean film over the Hertz strip [m], shear force F_sh/F_T without contact, and the
-    part of it inside the strip, at the film shares ``SHARES``; read off a fine table."""
+    """One load and one speed: mean film over the Hertz strip [m], shear force F_sh/F_T without contact, and
+    the part of it inside the strip, at the film shares ``SHARES``; read off a fine table."""
 
     film: np.ndarray
     shear: np.ndarray
@@ -35,6 +36,7 @@ class FilmTable:
     def fine(self) -> tuple[np.ndarray, np.ndarray]:
         """ln(F_H/F_T), and ln film, ln shear, strip part of the shear there: cubic between the nodes."""
         from scipy.interpolate import PchipInterpolator
+
         x = np.linspace(np.log(SHARES[0]), 0.0, FINE)
         nodes = np.stack([np.log(self.film), np.log(self.shear), self.strip_shear / self.shear])
         return x, PchipInterpolator(np.log(SHARES), nodes, axis=1)(x)
@@ -65,7 +67,9 @@ class GapTable:
         """Mean gap [m] and contact area fraction; linear in the pressure below the table."""
         x = math.log(max(pressure, 1e-300))
         if x >= self.log_pressure[0]:
-            return float(np.interp(x, self.log_pressure, self.gap)), float(np.interp(x, self.log_pressure, self.area))
+            return float(np.interp(x, self.log_pressure, self.gap)), float(
+                np.interp(x, self.log_pressure, self.area)
+            )
         share = pressure / math.exp(self.log_pressure[0])
         return self.touching_gap - share * (self.touching_gap - self.gap[0]), share * self.area[0]
 
@@ -81,8 +85,9 @@ def tabulated(curve: ContactCurve) -> GapTable:
 def at_mean_pressure(scene: Scene, mean_pressure: float) -> Scene:
     """The scene with the load whose mean Hertz pressure [Pa] is given: w = 32 p^2 R/(pi E')."""
     b = scene.bodies
-    return scene.with_(bodies={"load": 32 * mean_pressure**2 * b.radius / (math.pi * b.e_prime) * b.width,
-                               "hardness": None})
+    return scene.with_(
+        bodies={"load": 32 * mean_pressure**2 * b.radius / (math.pi * b.e_prime) * b.width, "hardness": None}
+    )
 
 
 def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmTable]:
@@ -95,21 +100,40 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
     x = (np.arange(POINTS) + 0.5 - POINTS / 2) * 2 * half / POINTS
     films, start = [], None
     for share in SHARES[::-1]:
-        start = solve_ehl(load_per_width=b.load * share / b.width, radius=b.radius,
-                          e_prime=b.e_prime * (share if scaled else 1.0), entrainment_speed=speed,
-                          viscosity=lubricant.viscosity,
-                          pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-                          viscosity_law=lubricant.viscosity_law, density=lubricant.density_law, tolerance=3e-3,
-                          start=start)
+        start = solve_ehl(
+            load_per_width=b.load * share / b.width,
+            radius=b.radius,
+            e_prime=b.e_prime * (share if scaled else 1.0),
+            entrainment_speed=speed,
+            viscosity=lubricant.viscosity,
+            pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+            viscosity_law=lubricant.viscosity_law,
+            density=lubricant.density_law,
+            tolerance=3e-3,
+            start=start,
+        )
         films.append(start)
     films = films[::-1]
     thickness = np.array([film.film_at(x).mean() for film in films])
     tables = []
     for law in laws:
         oil = replace(lubricant, **law)
-        forces = [[shear_force(film, oil, entrainment_speed=speed, slide_roll_ratio=scene.motion.slide_roll_ratio,
-                               radius=b.radius, width=b.width, contact_fraction=fraction).total / b.load
-                   for fraction in (np.zeros_like, lambda x: (np.abs(x) <= half).astype(float))] for film in films]
+        forces = [
+            [
+                shear_force(
+                    film,
+                    oil,
+                    entrainment_speed=speed,
+                    slide_roll_ratio=scene.motion.slide_roll_ratio,
+                    radius=b.radius,
+                    width=b.width,
+                    contact_fraction=fraction,
+                ).total
+                / b.load
+                for fraction in (np.zeros_like, lambda x: (np.abs(x) <= half).astype(float))
+            ]
+            for film in films
+        ]
         whole, outside = np.array(forces).T
         tables.append(FilmTable(thickness, whole, whole - outside))
     return tables
@@ -117,7 +141,8 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
 
 @dataclass(frozen=True)
 class Shared:
-    """One balanced point: friction coefficient, film share F_H/F_T, contact area fraction; NaN: cannot be carried."""
+    """One balanced point: friction coefficient, film share F_H/F_T, contact area fraction; NaN: cannot be
+    carried."""
 
     coefficient: float
     film_share: float
@@ -125,8 +150,10 @@ class Shared:
 
 
 def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_friction: float) -> Shared:
-    """Balance of load and volume: mean gap of the contact curve = mean film, contact pressure = total - film share."""
+    """Balance of load and volume: mean gap of the contact curve = mean film, contact pressure = total - film
+    share."""
     from scipy.optimize import brentq
+
     if table.film_at(1.0) >= curve.touching_gap:
         return Shared(table.shear_at(1.0, 0.0), 1.0, 0.0)
     most = curve.most
@@ -137,16 +164,19 @@ def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_fric
         return curve.at(min((1 - film_share) * mean_pressure, most))[0] - table.film_at(film_share)
 
     low, high = math.log(least_share / (1 - least_share)), 25.0
-    if surplus(low) > 0:                       # the model carries too little even with the thickest film it allows
+    if surplus(low) > 0:  # the model carries too little even with the thickest film it allows
         return Shared(math.nan, math.nan, math.nan)
     split = brentq(surplus, low, high, xtol=1e-7)
     film_share = 1 / (1 + math.exp(-split))
     touching = curve.at(min((1 - film_share) * mean_pressure, most))[1]
-    return Shared(boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching)
+    return Shared(
+        boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching
+    )
 
 
 def deviation(asperity, half_space) -> tuple[float, int]:
-    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed; (NaN, -1) without points."""
+    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed; (NaN, -1) without
+    points."""
     difference = np.abs(np.asarray(asperity) - np.asarray(half_space))
     if not np.isfinite(difference).any():
         return math.nan, -1

@@ -14,12 +14,15 @@ from .page import PaperFigure
 
 RADIUS, HEIGHT, E_PRIME = 30e-6, 500e-9, 231e9
 SPACINGS = (14e-6, 20e-6, 30e-6, 40e-6)
-CELL, BOX = 115e-9, 230e-6                      # the paper's grid: 2000 points of 115 nm
-MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)     # u E'/(p a) at the centre of a square of side a under the pressure p
+CELL, BOX = 115e-9, 230e-6  # the paper's grid: 2000 points of 115 nm
+MEAN_OF_BOX = (
+    8 / math.pi * math.asinh(1.0)
+)  # u E'/(p a) at the centre of a square of side a under the pressure p
 
 
 def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
-    """Heights [m] of one period around one sphere, on an even number of cells of about ``cell``; their length [m]."""
+    """Heights [m] of one period around one sphere, on an even number of cells of about ``cell``; their length
+    [m]."""
     count = 2 * round(distance / cell / 2)
     step = distance / count
     x = (np.arange(count) - count // 2) * step
@@ -29,13 +32,14 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
 
 
 def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
-    """Approach [m] below first touch at each load per asperity [N], between planes whose mean deflection is left
-    out, and kept (that of the paper's box)."""
+    """Approach [m] below first touch at each load per asperity [N], between planes whose mean deflection is
+    left out, and kept (that of the paper's box)."""
     heights, step = unit_cell(distance, cell)
     free, start = [], None
     for load in loads:
-        start = solve_contact(HEIGHT - heights, step, E_PRIME, mean_pressure=load / distance**2, tolerance=1e-6,
-                              start=start)
+        start = solve_contact(
+            HEIGHT - heights, step, E_PRIME, mean_pressure=load / distance**2, tolerance=1e-6, start=start
+        )
         free.append(start.approach)
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME
 
@@ -65,30 +69,61 @@ def sphere_array(quick: bool) -> PaperFigure:
         asperities.plot(free * 1e9, alone * 1e3, "o-", label=label)
         left_out.plot(free * 1e9, loads * 1e3, "o-", label=label)
         kept.plot(held * 1e9, loads * 1e3, "o-", label=label)
-        rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]
-        ratio[distance] = (float(np.median(loads / hertz_load(free))), float(np.median(loads / hertz_load(held))),
-                           float(np.max(np.abs(alone / hertz_load(free) - 1))))
-    for ax, title in ((asperities, "asperity model (any spacing)"), (left_out, "half-space, mean deflection left out"),
-                      (kept, "half-space, mean of the 230 µm box kept")):
+        rows += [
+            (distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())
+        ]
+        ratio[distance] = (
+            float(np.median(loads / hertz_load(free))),
+            float(np.median(loads / hertz_load(held))),
+            float(np.max(np.abs(alone / hertz_load(free) - 1))),
+        )
+    for ax, title in (
+        (asperities, "asperity model (any spacing)"),
+        (left_out, "half-space, mean deflection left out"),
+        (kept, "half-space, mean of the 230 µm box kept"),
+    ):
         a = np.linspace(0, ax.get_xlim()[1] * 1e-9, 60)
         ax.plot(a * 1e9, hertz_load(a) * 1e3, "k:", lw=1, label="one sphere (Hertz)")
-        ax.set(title=title, xlabel="approach below first touch, 500 nm - $h_s$ (nm)", ylabel="load per asperity (mN)",
-               ylim=(0, 21))
+        ax.set(
+            title=title,
+            xlabel="approach below first touch, 500 nm - $h_s$ (nm)",
+            ylabel="load per asperity (mN)",
+            ylim=(0, 21),
+        )
         ax.legend(title="spacing")
     grows = [ratio[d][0] for d in SPACINGS]
     falls = [ratio[d][1] for d in SPACINGS]
     worst = max(r[2] for r in ratio.values())
     return PaperFigure(
-        "fig4", "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
-        f"The asperity model does not depend on the spacing and is Hertz to {100 * worst:.1f} %. In the half-space model the load "
-        "at a given separation falls as the spheres come closer, and tends to the asperity model as they move apart, *when the "
+        "fig4",
+        "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
+        f"The asperity model does not depend on the spacing and is Hertz to {100 * worst:.1f} %. In the "
+        "half-space model the load "
+        "at a given separation falls as the spheres come closer, and tends to the asperity model as they "
+        "move apart, *when the "
         "mean deflection of the box is kept*: load over Hertz "
         f"{', '.join(f'{r:.2f}' for r in falls)} at 14, 20, 30, 40 µm. That is the trend of Fig. 4.",
-        "The trend belongs to the gauge. In a periodic cell the mean deflection is a convention; left out, the same solutions "
-        f"give {', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. Kept, it grows with the box (here "
-        "2.24 p a/E', Love's kernel summed over 230 µm), so the spread of the curves in Fig. 4 measures the size of the box "
-        "as much as the interaction. In the friction model Eq. (8) removes the mean and the gauge cancels. One period is "
-        "solved instead of 2000 x 2000 points: none of the four spacings divides 230 µm, so the paper's array is not periodic.",
-        png(canvas), {"fig4": (("spacing [m]", "load per asperity [N]", "approach, mean left out [m]",
-                                "approach, mean kept [m]", "asperity model at the approach with the mean left out [N]"),
-                               rows)})
+        "The trend belongs to the gauge. In a periodic cell the mean deflection is a convention; left out, "
+        "the same solutions "
+        f"give {', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. Kept, it grows "
+        "with the box (here "
+        "2.24 p a/E', Love's kernel summed over 230 µm), so the spread of the curves in Fig. 4 measures the "
+        "size of the box "
+        "as much as the interaction. In the friction model Eq. (8) removes the mean and the gauge cancels. "
+        "One period is "
+        "solved instead of 2000 x 2000 points: none of the four spacings divides 230 µm, so the paper's "
+        "array is not periodic.",
+        png(canvas),
+        {
+            "fig4": (
+                (
+                    "spacing [m]",
+                    "load per asperity [N]",
+                    "approach, mean left out [m]",
+                    "approach, mean kept [m]",
+                    "asperity model at the approach with the mean left out [N]",
+                ),
+                rows,
+            )
+        },
+    )
