@@ -72,7 +72,7 @@ def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lub
     given = dict(load_per_width=load_per_width, radius=radius, entrainment_speed=abs(entrainment_speed))
     thinnest = rigid.isoviscous_min_film(viscosity=lubricant.viscosity, **given)
     if lubricant.viscosity_law == "constant":
-        law = lambda q: q                                                   # noqa: E731
+        law = lambda q: q
         h0 = thinnest
     else:
         law = true_pressure(lubricant)

@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 from .report import CONVERGED, ITERATION_LIMIT
 
-OVERSHOOT = 1.4        # of the step that a known slope asks for
-
 
 @dataclass(frozen=True)
 class Root:
@@ -26,7 +24,7 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
 
     ``f(x)`` returns (value, payload); stops when |value| <= tolerance. The bracket grows by
     doubled steps inside ``bounds``; a function of one sign there ends with "iteration_limit". Where ``slope`` is
-    roughly known, the first step is the one that should pass the root a little, at most ``step``.
+    roughly known, the first step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145, doi:10.1016/S0965-9978(96)00051-8.
     """
     history, best = [], None
@@ -53,7 +51,7 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
         else:
             upper = (x, value)
         if slope and len(history) == 1:
-            step = min(step, OVERSHOOT * abs(value) / slope)
+            step = min(step, abs(value) / slope)
         if not done_bracketing(lower, upper):
             edge = bounds[1] if upper is None else bounds[0]
             if x == edge:

@@ -105,6 +105,12 @@ def carried_over(start: Balance, patch) -> Balance:
     return replace(start, closure=replace(closure, contact=moved if moved.any() else None))
 
 
+def moved_split(balance: Balance, step: float) -> Balance:
+    """``balance`` with its loads divided as if ln(F_H/F_C) were larger by ``step``; film and closure as they were."""
+    total, split = balance.film_load + balance.contact_load, balance.split + step
+    return replace(balance, film_load=total / (1 + math.exp(-split)), contact_load=total / (1 + math.exp(split)))
+
+
 def _shift(start: Balance, speed: float) -> float:
     """At the same gap a film carries about in proportion to its speed."""
     if start.film is None or start.film.entrainment_speed == 0:
@@ -119,15 +125,15 @@ def _parts(model, patch, speed, settings):
         return film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance, start=start)
 
     def close(film, contact_load, start):
-        return patch.close(film.film_at(patch.x), contact_load, start, _shape(scene, patch, film))
+        return patch.close(film.film_at(patch.x), contact_load, start, film_shape(scene, patch, film))
 
     def carry(film, start):
-        return patch.carry(film.film_at(patch.x), start, _shape(scene, patch, film))
+        return patch.carry(film.film_at(patch.x), start, film_shape(scene, patch, film))
 
     return solve_film, close, carry
 
 
-def _shape(scene, patch, film) -> np.ndarray | None:
+def film_shape(scene, patch, film) -> np.ndarray | None:
     """What the surface is pressed under, up to a constant, where it is not the film itself (None).
 
     With Johnson's modulus the film holds the deflection of the whole load; the contact adds its own share itself.

@@ -14,7 +14,17 @@ from ..analytic.film import moes_flow_film
 from ..balance import Balance
 from ..flat_patch import FlatPatch
 from ..patch import CylinderPatch
-from .balance_at import Forces, Settings, balance_at, dry, forces, separated_at
+from .balance_at import (
+    Forces,
+    Settings,
+    balance_at,
+    carried_over,
+    dry,
+    film_shape,
+    forces,
+    moved_split,
+    separated_at,
+)
 from .contact_grid import cut, grids, in_contact
 from .decision import FILM_SHARE, GRID_SHARE, Decision
 from .film_error import FilmError
@@ -77,18 +87,23 @@ def _certainly_touching(model, patch, speed) -> bool:
 
 def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Decision]:
     ladder = [model.patch] if given_grid else grids(model)
-    stages: list[Stage] = []
-    limit = GRID_SHARE * decision.tolerance
-    for patch in ladder:
-        stages.append(_stage(model, patch, speed, stages[-1] if stages else None, start))
-        error = _grid_error(stages, limit)
-        if error <= limit:
-            break
-    stage, note = stages[-1], ""
-    if patch is model.patch:
-        if len(stages) > 1 and error > decision.tolerance:
-            change = abs(stages[-2].forces.coefficient / stage.forces.coefficient - 1)
-            note = f"the map is too coarse for its roughness: f changed by {100 * change:.2g} % when its cells were halved"
+    limit, last = GRID_SHARE * decision.tolerance, len(ladder) - 1
+    index, changes, error = 0, [], math.inf
+    stage = _stage(model, ladder[0], speed, *_begin(model, speed, start))
+    while index < last and error > limit:
+        if stage.balance.contact_load == 0:                      # so coarse that the summits are gone
+            index += 1
+            stage = _stage(model, ladder[index], speed, None, stage.settings)
+            continue
+        index, changes, moved = _finer(model, ladder, index, changes, stage, limit)
+        if index > 0:
+            stage = _stage(model, moved.patch, speed, moved.balance, moved.settings, ladder[index])
+        error = _grid_error(changes, stage, limit)
+    note = ""
+    if index == last:
+        if error > decision.tolerance and last > 0:
+            note = (f"the map is too coarse for its roughness: cells half as long would change f by an estimated "
+                    f"{100 * error:.2g} %")
         error = None
     return stage.balance, replace(
         decision, film=stage.settings.level, contact=_contact_name(model), film_error=stage.film_error,
@@ -97,18 +112,23 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
         film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0)
 
 
-def _stage(model, patch, speed, last: Stage | None, start: Balance | None) -> Stage:
-    """The balance on ``patch``, with the film level and the tolerances that its own sensitivity asks for.
+def _begin(model, speed, start: Balance | None) -> tuple[Balance | None, Settings]:
+    """What to start from: a neighbouring balance and the level that its load needs; or nothing, and the rigid
+    isoviscous film, which costs next to nothing and tells what is needed."""
+    numerics, level = model.scene.numerics, model.scene.numerics.forced_film_level
+    tolerance = LOOSEST_FILM if numerics.ehl_tolerance is None else numerics.ehl_tolerance
+    settings = Settings(ISOVISCOUS if level == "auto" else level, tolerance, numerics.volume_tolerance, touching=True)
+    if start is None or start.film is None or start.contact_load == 0:
+        return start, settings
+    if level == "auto":
+        share = forces(model.scene, start.film.entrainment_speed, start).sensitivity
+        level = lowest_level(model.scene, speed, start.film_load, _allowed_error(numerics, share))[0]
+    return start, replace(settings, level=level)
 
-    Without a stage before it, begins with the rigid isoviscous film, which costs next to nothing.
-    """
-    whole = patch
-    if last and isinstance(patch, CylinderPatch) and model.scene.contact.region == "hertz":
-        contact = last.balance.closure.contact
-        patch = patch if contact is None else cut(patch, in_contact(last.patch, contact.pressure))
-    touching = _certainly_touching(model, whole, speed)
-    settings = replace(last.settings if last else _probe(model), touching=touching)
-    begun = last.balance if last else start
+
+def _stage(model, patch, speed, begun: Balance | None, settings: Settings, whole=None) -> Stage:
+    """The balance on ``patch`` (cut from ``whole``), with the film level and tolerances that its sensitivity asks for."""
+    whole = whole or patch
     while True:
         balance = balance_at(model, patch, speed, settings, begun)
         if patch is not whole and not _inside(patch, balance):
@@ -123,11 +143,45 @@ def _stage(model, patch, speed, last: Stage | None, start: Balance | None) -> St
         settings, begun = better, balance
 
 
-def _probe(model) -> Settings:
-    numerics = model.scene.numerics
-    level = numerics.forced_film_level
-    return Settings(ISOVISCOUS if level == "auto" else level, LOOSEST_FILM if numerics.ehl_tolerance is None else
-                    numerics.ehl_tolerance, numerics.volume_tolerance)
+@dataclass(frozen=True)
+class Moved:
+    """A patch, the balance of a coarser one moved to where this one should have its own, and the settings."""
+
+    patch: object
+    balance: Balance
+    settings: Settings
+
+
+def _finer(model, ladder, index, changes, stage: Stage, limit) -> tuple[int, list, Moved]:
+    """Contact on finer and finer grids under the film and load of ``stage``, until the rest is within ``limit``.
+
+    What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
+    load would: no film is solved. Returns the grid, all changes, and where its balance is to be expected.
+    """
+    closure, balance, total = stage.balance.closure, stage.balance, 0.0
+    changes, patch = list(changes), stage.patch
+    while index < len(ladder) - 1:
+        index += 1
+        whole = ladder[index]
+        finer = cut(whole, in_contact(patch, closure.contact.pressure)) if _cut_allowed(model) else whole
+        start = carried_over(replace(balance, closure=closure), finer).closure.contact
+        found = finer.close(balance.film.film_at(finer.x), balance.contact_load, start,
+                            film_shape(model.scene, finer, balance.film))
+        change = found.volume_residual - closure.volume_residual
+        changes, total, closure, patch = [*changes, change], total + change, found, finer
+        if _grid_error(changes, stage, limit) <= limit:
+            break
+    step = 0.0 if not balance.slope else min(max(-total / balance.slope, -1.0), 1.0)
+    return index, changes, Moved(patch, moved_split(replace(balance, closure=closure), step), stage.settings)
+
+
+def _cut_allowed(model) -> bool:
+    return isinstance(model.patch, CylinderPatch) and model.scene.contact.region == "hertz"
+
+
+def _allowed_error(numerics, sensitivity: float) -> float:
+    """Of the film level, relative to the film."""
+    return min(FILM_SHARE * numerics.tolerance / max(sensitivity, 1e-12), LARGEST_ERROR)
 
 
 def _needed(model, speed, settings, balance, found: Forces, error: FilmError) -> Settings | None:
@@ -139,7 +193,7 @@ def _needed(model, speed, settings, balance, found: Forces, error: FilmError) ->
         film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
     if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
         volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
-    level, allowed = settings.level, min(FILM_SHARE * numerics.tolerance / sensitivity, LARGEST_ERROR)
+    level, allowed = settings.level, _allowed_error(numerics, sensitivity)
     if numerics.forced_film_level == "auto" and error.total > allowed:
         level = lowest_level(model.scene, speed, balance.film_load, allowed)[0]
     enough = film >= settings.film_tolerance / SLACK or level != EHL
@@ -154,25 +208,24 @@ def _inside(patch, balance: Balance) -> bool:
     return contact is None or not (contact.pressure[0].any() or contact.pressure[-1].any())
 
 
-def _grid_error(stages: list[Stage], limit: float) -> float:
-    """Estimated relative error of the last f from the contact grid; infinite where nothing can be said.
+def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:
+    """Estimated relative error of f from the contact grid; infinite where nothing can be said.
 
-    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else the changes
-    d1, d2 of f over the last three grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly converging):
-    the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance.
+    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
+    last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
+    converging): the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance;
+    times 2 ``sensitivity``, the effect of a residual on f.
     """
-    now = stages[-1]
-    if now.balance.contact_load == 0:
+    if stage.balance.contact_load == 0:
         return math.inf
-    bound = WORST_GRID * now.forces.sensitivity
+    bound = WORST_GRID * stage.forces.sensitivity
     if bound <= limit:
         return bound
-    if len(stages) < 3:
+    if len(changes) < 2:
         return math.inf
-    f = [stage.forces.coefficient for stage in stages[-3:]]
-    d2, d1 = abs(f[1] - f[0]) / abs(f[2]), abs(f[2] - f[1]) / abs(f[2])
+    d2, d1 = (abs(change) for change in changes[-2:])
     ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.75
-    return max(d1 * ratio / (1 - ratio), d2 / 12)
+    return 2 * stage.forces.sensitivity * max(d1 * ratio / (1 - ratio), d2 / 12)
 
 
 def _forced(numerics) -> tuple[str, ...]:
