@@ -16,7 +16,7 @@ _HOME = {
     "solve_ehl": "ehl", "EHLResult": "ehl",
     "solve_differential_deflection": "ehl.differential_deflection",
     "Scene": "scene", "load_scene": "scene_file",
-    "friction": "mixed", "FrictionResult": "mixed",
+    "friction": "mixed", "prepare": "mixed", "Model": "mixed", "FrictionResult": "mixed",
     "transient": "unsteady", "TransientResult": "unsteady", "Transient": "history",
     "stribeck": "sweep", "StribeckResult": "sweep",
 }

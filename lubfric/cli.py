@@ -11,6 +11,9 @@ from pathlib import Path
 from .errors import ConvergenceError, LubfricError
 
 
+OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
+
+
 def main(argv=None) -> int:
     """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input."""
     arguments = _parser().parse_args(argv)
@@ -48,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments) -> int:
-    from .mixed import friction, prepare
+    from .mixed import prepare
     from .output import read_csv, write_csv, write_fields, write_json
     from .plot import plot_contact, plot_stribeck
     from .scene_file import load_scene
@@ -60,21 +63,28 @@ def _run(arguments) -> int:
         return run_history(scene, arguments.out, arguments.animation, _say)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
-    out = arguments.out
-    out.mkdir(parents=True, exist_ok=True)
+    speeds, chosen = _with_chosen(speeds, chosen)
+    out = _folder(arguments.out)
     begun = time.perf_counter()
     _say(f"{scene.name}: preparing the height map and the contact")
     model = prepare(scene)
     _say(model.surface.describe())
-    curve = stribeck(model, speeds, on_point=_progress, raise_on_failure=False)
+    curve = stribeck(model, speeds, fields=chosen, on_point=_progress, raise_on_failure=False)
     write_csv(out / "stribeck.csv", curve)
     write_json(out / "result.json", model, curve, time.perf_counter() - begun)
-    if not len(curve.errors) == curve.speed.size:
+    written = ["result.json", "stribeck.csv"]
+    if len(curve.errors) < curve.speed.size:
         plot_stribeck(out / "stribeck.png", read_csv(out / "stribeck.csv"), scene.name)
-    points = [friction(model, speed, fields=True) for speed in chosen]
-    write_fields(out / "fields.npz", model, points)
-    plot_contact(out / "contact.png", model, points[0])
-    _say(f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} in {time.perf_counter() - begun:.1f} s")
+        written.append("stribeck.png")
+    points = [p for p in curve.points if p is not None and p.balance is not None]
+    if points:
+        points.sort(key=lambda p: chosen.index(p.speed))
+        write_fields(out / "fields.npz", model, points)
+        plot_contact(out / "contact.png", model, points[0])
+        written += ["fields.npz", "contact.png"]
+    for note in sorted({n for p in curve.points if p is not None for n in p.report.notes if n.startswith("caution")}):
+        _say(note)
+    _say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
         raise ConvergenceError(f"{len(curve.errors)} of {curve.speed.size} speeds failed; "
                                f"first: {curve.errors[min(curve.errors)]}", curve.report)
@@ -120,12 +130,34 @@ def _speeds(text: str | None) -> list[float]:
         raise InputError(f"speeds = {text!r}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low, in m/s") from None
 
 
-def _progress(done, total, point) -> None:
-    if point is None:
-        _say(f"[{done}/{total}] failed")
+def _with_chosen(speeds, chosen):
+    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
+    import math
+    own = []
+    for speed in chosen:
+        near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
+        own.append(near[0] if near else speed)
+        speeds = speeds if near else [*speeds, speed]
+    return speeds, own
+
+
+def _folder(path: Path) -> Path:
+    """An existing folder without results of an earlier run."""
+    from .errors import InputError
+    if path.exists() and not path.is_dir():
+        raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
+    path.mkdir(parents=True, exist_ok=True)
+    for name in OUTPUTS:
+        (path / name).unlink(missing_ok=True)
+    return path
+
+
+def _progress(done, total, speed, outcome) -> None:
+    if isinstance(outcome, Exception):
+        _say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
     else:
-        _say(f"[{done}/{total}] U = {point.speed:.4g} m/s: f = {point.coefficient:.5f}, "
-             f"F_C = {point.contact_load:.4g} N, F_H = {point.film_load:.4g} N ({point.seconds:.2f} s)")
+        _say(f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
+             f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)")
 
 
 def _say(text: str) -> None:

@@ -11,7 +11,9 @@ import numpy as np
 from . import validate
 from .asperity_patch import AsperityPatch, asperity_curve
 from .balance import Balance
+from .cautions import cautions
 from .contact_curve import contact_curve
+from .errors import InputError
 from .flat_patch import FlatPatch
 from .halfspace import half_space
 from .levels.balance_at import forces
@@ -19,7 +21,7 @@ from .levels.decision import Decision
 from .levels.settle import settle
 from .patch import CylinderPatch, centred_axis, strip_weight
 from .report import Report
-from .rough_map import contact_map
+from .rough_map import check_grid, contact_map
 from .scene import Scene
 from .surface import Surface
 
@@ -44,8 +46,8 @@ class FrictionResult:
     """One operating point. Forces in N, lengths in m, speed in m/s, fractions of the area A.
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
-    carries F_H (NaN without entrainment); film_to_roughness_ratio: central_film/Sq. The residuals are
-    relative: load (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
+    carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
+    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. The residuals are relative: load (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (`EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact (`ContactResult`). ``decision``: how much
     was modelled, and the numbers it was judged by (``decision.text`` in words).
     """
@@ -59,6 +61,7 @@ class FrictionResult:
     rolling_force: float
     boundary_force: float
     real_contact_area_fraction: float
+    real_contact_area: float
     plastic_area_fraction: float
     min_film: float
     central_film: float
@@ -72,9 +75,16 @@ class FrictionResult:
     decision: Decision | None = None
 
 
-def prepare(scene: Scene) -> Model:
-    """Build what does not depend on the speed: the height map and the contact operator or curve."""
-    surface = contact_map(scene)
+def prepare(scene: Scene, surface: Surface | None = None) -> Model:
+    """Build what does not depend on the speed: the height map and the contact operator or curve.
+
+    ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
+    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so).
+    """
+    if surface is None:
+        surface = contact_map(scene)
+    else:
+        check_grid(scene, surface)
     heights = surface.heights - surface.heights.mean()
     build = _flat_patch if scene.contact.geometry == "flat" else _cylinder_patch
     return Model(scene, surface, build(scene, heights, surface.spacing))
@@ -87,7 +97,7 @@ def _flat_patch(scene: Scene, heights, spacing) -> FlatPatch:
     if contact.model == "half-space":
         operator = half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers)
         curve = contact_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, hardness=bodies.hardness,
-                              tolerance=numerics.pressure_tolerance, operator=operator)
+                              tolerance=numerics.pressure_tolerance, accuracy=0.3 * numerics.tolerance, operator=operator)
     else:
         curve = asperity_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, definition=contact.model,
                                reading=contact.asperity_separation, hardness=bodies.hardness)
@@ -134,12 +144,21 @@ def friction(scene: Scene | Model, speed: float | None = None, *, start: Frictio
     return result
 
 
+def scene_of(scene: Scene | Model) -> Scene:
+    """The scene of a model, or the scene itself; anything else is an `InputError`."""
+    if isinstance(scene, Model):
+        return scene.scene
+    if not isinstance(scene, Scene):
+        raise InputError(f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
+                         "lubfric.prepare returned")
+    return scene
+
+
 def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
     """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    ready = isinstance(scene, Model)
-    asked = (scene.scene if ready else scene).with_(numerics=changed)
-    if not ready:
+    asked = scene_of(scene).with_(numerics=changed)
+    if not isinstance(scene, Model):
         return prepare(asked)
     return replace(scene, scene=asked) if changed else scene
 
@@ -148,15 +167,19 @@ def _result(model: Model, speed: float, balance: Balance, decision: Decision, be
     scene, closure, film = model.scene, balance.closure, balance.film
     found = forces(scene, speed, balance)
     central = film.central_film if film is not None else math.nan
+    separated = balance.contact_load == 0
+    notes = (*balance.report.notes, decision.text, *cautions(scene, balance, found.shear))
     sq = model.surface.sq
     return FrictionResult(
         speed=speed, coefficient=found.coefficient, contact_load=balance.contact_load,
         film_load=balance.film_load, shear_force=found.shear.total, couette_force=found.shear.couette,
         rolling_force=found.shear.rolling, boundary_force=found.boundary,
         real_contact_area_fraction=closure.real_contact_area_fraction,
+        real_contact_area=float(closure.contact_fraction.sum() * (closure.x[1] - closure.x[0]) * scene.bodies.width),
         plastic_area_fraction=closure.plastic_area_fraction,
-        min_film=film.min_film if film is not None else math.nan, central_film=central, mean_gap=closure.mean_gap,
+        min_film=film.min_film if film is not None else math.nan, central_film=central,
+        mean_gap=closure.mean_film if separated else closure.mean_gap,
         film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
         load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
-        volume_residual=0.0 if film is None else closure.volume_residual, seconds=time.perf_counter() - begun,
-        report=replace(balance.report, notes=(*balance.report.notes, decision.text)), balance=balance, decision=decision)
+        volume_residual=0.0 if film is None or separated else closure.volume_residual, seconds=time.perf_counter() - begun,
+        report=replace(balance.report, notes=notes), balance=balance, decision=decision)

@@ -16,7 +16,7 @@ from .scene_file import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
-UNITS = {"speed": "m/s", "contact_load": "N", "film_load": "N", "shear_force": "N", "couette_force": "N",
+UNITS = {"speed": "m/s", "real_contact_area": "m2", "contact_load": "N", "film_load": "N", "shear_force": "N", "couette_force": "N",
          "rolling_force": "N", "boundary_force": "N", "min_film": "m", "central_film": "m", "mean_gap": "m",
          "seconds": "s"}
 

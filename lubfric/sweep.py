@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import validate
-from .errors import ConvergenceError
-from .mixed import FrictionResult, Model, at_tolerance, friction
+from .errors import ConvergenceError, InputError
+from .mixed import FrictionResult, Model, at_tolerance, friction, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
 
@@ -32,6 +32,7 @@ class StribeckResult:
     rolling_force: np.ndarray
     boundary_force: np.ndarray
     real_contact_area_fraction: np.ndarray
+    real_contact_area: np.ndarray
     plastic_area_fraction: np.ndarray
     min_film: np.ndarray
     central_film: np.ndarray
@@ -46,35 +47,39 @@ class StribeckResult:
 
 
 def stribeck(scene: Scene | Model, speeds=None, executor=None, *, tolerance: float | None = None, model: str | None = None,
-             fields: bool = False, on_point=None, raise_on_failure: bool = True) -> StribeckResult:
+             fields=False, on_point=None, raise_on_failure: bool = True) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
     `concurrent.futures.Executor`; the speeds are then split into neighbouring runs. ``on_point(done, total,
-    result_or_None)`` is called as points end. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``:
-    keep film and contact of every point, on the scene's own contact grid.
+    speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an exception. ``tolerance``, ``model``: as
+    in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own contact grid, of every point (True) or of
+    the speeds listed.
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
     `ConvergenceError` is raised with the whole curve as its ``result`` (``raise_on_failure=False`` returns it).
     """
-    base = scene.scene if isinstance(scene, Model) else scene
-    speeds = base.motion.speeds if speeds is None else speeds
-    speeds = validate.array("speeds", np.atleast_1d(np.asarray(speeds, float)), "m/s", ndim=1)
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+    motion = scene_of(scene).motion
+    if speeds is None:
+        speeds = motion.speeds or (motion.entrainment_speed,)
+    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
     model = at_tolerance(scene, tolerance, model)
+    kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     order = np.argsort(-np.abs(speeds), kind="stable")
     runs = [order] if executor is None else np.array_split(order, min(order.size, 8))
     points, errors = [None] * speeds.size, {}
 
     def keep(outcomes):
         for index, outcome in outcomes:
-            failed = isinstance(outcome, Exception)
-            (errors if failed else points)[index] = outcome
+            (errors if isinstance(outcome, Exception) else points)[index] = outcome
             if on_point:
-                on_point(len(errors) + sum(p is not None for p in points), speeds.size, None if failed else outcome)
+                on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
     if executor is None:
-        keep(_run(model, [(int(i), float(speeds[i])) for i in order], fields))
+        keep(_run(model, [(int(i), float(speeds[i])) for i in order], kept))
     else:
-        _spread(executor, model, speeds, runs, fields, keep)
+        _spread(executor, model, speeds, runs, kept, keep)
     result = _collect(speeds, points, errors)
     if raise_on_failure and errors:
         raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
@@ -86,12 +91,12 @@ def _run(model, cases, fields):
     start = None
     for index, speed in cases:
         try:
-            start = friction(model, speed, start=start, fields=fields)
+            start = friction(model, speed, start=start, fields=speed in fields)
         except Exception as error:              # kept in ``errors``; raised once every point is done
             start = None
             yield index, error
         else:
-            yield index, start if fields else replace(start, balance=None)
+            yield index, start if speed in fields else replace(start, balance=None)
             start = start if start.balance.film is not None else None
 
 
@@ -113,8 +118,7 @@ def _spread(executor, model, speeds, runs, fields, keep) -> None:
 def _collect(speeds, points, errors) -> StribeckResult:
     columns = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
     columns["speed"] = speeds
-    residuals = [abs(p.volume_residual) for p in points if p is not None]
-    worst = max(residuals, default=np.inf)
+    worst = max((p.report.residual for p in points if p is not None), default=np.inf)
     tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))

@@ -57,7 +57,7 @@ def test_csv_equals_json_and_the_library(run):
     with (run / "stribeck.csv").open() as file:
         rows = list(csv.DictReader(file))
     record = json.loads((run / "result.json").read_text())
-    curve = lubfric.stribeck(lubfric.load_scene(run.parent / "small.toml"))
+    curve = lubfric.stribeck(lubfric.load_scene(run.parent / "small.toml"), fields=[0.001])
     for row, point, f in zip(rows, record["points"], curve.coefficient):
         assert float(row["coefficient [-]"]) == point["coefficient"] == pytest.approx(f, rel=1e-12)
 
@@ -119,3 +119,23 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
     record = json.loads((tmp_path / "o" / "result.json").read_text())
     assert "injected" in record["points"][1]["error"] and record["points"][2]["coefficient"] > 0
     assert (tmp_path / "o" / "stribeck.png").stat().st_size > 10_000
+
+
+def test_cautions_and_failures_are_said(tmp_path, capsys):
+    (tmp_path / "heavy.toml").write_text(SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6")
+                                         .replace("4e-6", "8e-6"))
+    assert main(["run", str(tmp_path / "heavy.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.01"]) == 0
+    said = capsys.readouterr().err
+    assert "caution: Newtonian" in said and "scaled" in said
+
+
+def test_nothing_of_an_earlier_run_stays(tmp_path, capsys):
+    (tmp_path / "small.toml").write_text(SCENE)
+    out = tmp_path / "o"
+    out.mkdir()
+    for name in ("contact.png", "notes.txt"):
+        (out / name).write_text("old")
+    assert main(["run", str(tmp_path / "small.toml"), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
+    assert (out / "notes.txt").read_text() == "old" and (out / "contact.png").stat().st_size > 10_000
+    assert "notes.txt" not in capsys.readouterr().err
+    assert main(["run", str(tmp_path / "small.toml"), "--out", str(out / "notes.txt")]) == 2

@@ -156,3 +156,9 @@ def test_flat_contact_ends(flat):
 def test_a_bad_speed_is_an_error(speed):
     with pytest.raises(lubfric.InputError, match="speed"):
         lubfric.friction(MODEL, speed)
+
+
+def test_a_height_map_in_memory_is_used_as_it_is():
+    surface = MODEL.surface
+    same = lubfric.prepare(SCENE.with_(surface={"sq": 1e-6}), surface)
+    assert lubfric.friction(same, 0.01).coefficient == pytest.approx(lubfric.friction(MODEL, 0.01).coefficient, rel=1e-6)

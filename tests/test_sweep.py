@@ -85,8 +85,8 @@ def test_a_lost_worker_loses_only_its_own_speeds():
 
 def test_progress_counts_every_point():
     seen = []
-    lubfric.stribeck(prepare(SCENE), SPEEDS[:3], on_point=lambda done, total, point: seen.append((done, total)))
-    assert seen == [(1, 3), (2, 3), (3, 3)]
+    lubfric.stribeck(prepare(SCENE), SPEEDS[:3], on_point=lambda done, total, speed, point: seen.append((done, total, speed)))
+    assert seen == [(1, 3, SPEEDS[2]), (2, 3, SPEEDS[1]), (3, 3, SPEEDS[0])]
 
 
 def test_zero_speed_belongs_to_a_sweep():
@@ -94,7 +94,23 @@ def test_zero_speed_belongs_to_a_sweep():
     assert curve.coefficient[0] == pytest.approx(0.09) and curve.coefficient[2] < 0.09
 
 
-@pytest.mark.parametrize("speeds", [[], [[0.1]], [np.nan]])
+@pytest.mark.parametrize("speeds", [[], [[0.1]], [np.nan], "abc", [0.1, "x"]])
 def test_bad_speeds_are_errors_before_any_work(speeds):
     with pytest.raises(lubfric.InputError, match="speeds"):
         lubfric.stribeck(SCENE, speeds)
+
+
+def test_a_bad_executor_or_scene_is_an_error():
+    with pytest.raises(lubfric.InputError, match="Executor"):
+        lubfric.stribeck(SCENE, SPEEDS, "process")
+    with pytest.raises(lubfric.InputError, match="load_scene"):
+        lubfric.stribeck("paper")
+    with pytest.raises(lubfric.InputError, match="load_scene"):
+        lubfric.friction("paper")
+
+
+def test_separated_points_are_in_balance(curve):
+    separated = curve.contact_load == 0
+    assert separated.any() and np.all(curve.volume_residual[separated] == 0)
+    np.testing.assert_allclose(curve.mean_gap[separated], curve.central_film[separated], rtol=0.02)
+    assert curve.report.residual <= curve.report.tolerance
