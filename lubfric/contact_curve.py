@@ -10,7 +10,9 @@ from . import validate
 from .contact import solve_contact
 
 LIGHTEST = 1e-6        # of the heaviest pressure: below it the light-load law of one asperity is used
-SPACING = 4.0          # pressure ratio between neighbouring nodes
+SPACING = 4.0          # pressure ratio between neighbouring nodes at first
+ROUNDS, FINEST = 5, 0.05        # of adding nodes; least ln(pressure ratio) that is halved
+NOTHING = 1e-9         # of the lightest gap: below it the contact is full
 
 
 @dataclass(frozen=True)
@@ -61,20 +63,55 @@ class ContactCurve:
                                    xtol=1e-12, rtol=1e-14)))
 
 
-def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, operator=None) -> ContactCurve:
+def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3,
+                  operator=None) -> ContactCurve:
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
-    Each node starts from its heavier neighbour. Raises what `lubfric.solve_contact` raises.
+    Each node starts from its heavier neighbour. Nodes are added between the first ones until the mean gap
+    interpolated is within about ``accuracy`` (relative): the error at a node left out of the interpolation, by
+    four for the halved distance, is the estimate for the intervals beside it. It needs most of them where the
+    contact is nearly full and the gap falls by orders of magnitude. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
+    validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
     count = 1 + int(np.ceil(np.log(1 / LIGHTEST) / np.log(SPACING)))
-    pressures = heaviest * np.geomspace(1.0, LIGHTEST, count)
-    nodes, start = [], None
-    for pressure in pressures:
-        start = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, hardness=hardness,
-                              tolerance=tolerance, operator=operator, start=start)
-        nodes.append((start.mean_gap, start.contact_area_fraction, start.plastic_area_fraction,
-                      start.report.evaluations))
-    gap, area, plastic, work = np.array(nodes).T
-    return ContactCurve(pressures, gap, area, plastic, float(gap0.mean()), int(work.sum()))
+    solved = {}
+
+    def add(pressure, start):
+        solved[pressure] = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, hardness=hardness,
+                                         tolerance=tolerance, operator=operator, start=start)
+        return solved[pressure]
+
+    start = None
+    for pressure in heaviest * np.geomspace(1.0, LIGHTEST, count):
+        start = add(float(pressure), start)
+    for _ in range(ROUNDS):
+        pressures = sorted(solved, reverse=True)
+        wide = _inaccurate(np.array(pressures), np.array([solved[p].mean_gap for p in pressures]), accuracy)
+        for heavier, lighter in zip(np.array(pressures)[:-1][wide], np.array(pressures)[1:][wide]):
+            add(float(np.sqrt(heavier * lighter)), solved[heavier])
+        if not wide.any():
+            break
+    return _curve(solved, float(gap0.mean()))
+
+
+def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
+    """Intervals in which the interpolated gap may be off by more than ``accuracy``."""
+    from scipy.interpolate import PchipInterpolator
+    wide = np.zeros(pressure.size - 1, bool)
+    log_pressure = np.log(pressure)
+    for i in range(1, pressure.size - 1):
+        others = np.delete(np.arange(pressure.size), i)[::-1]
+        without = PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i])
+        if abs(without - gap[i]) > 4 * accuracy * gap[i] and gap[i] > NOTHING * gap[-1]:
+            wide[i - 1:i + 1] = True
+    return wide & (np.diff(-log_pressure) > FINEST)
+
+
+def _curve(solved: dict, touching_gap: float) -> ContactCurve:
+    pressures = sorted(solved, reverse=True)
+    results = [solved[p] for p in pressures]
+    gap, area, plastic, work = np.array([(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction,
+                                          r.report.evaluations) for r in results]).T
+    return ContactCurve(np.array(pressures), gap, area, plastic, touching_gap, int(work.sum()))

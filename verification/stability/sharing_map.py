@@ -33,10 +33,10 @@ def model_of(name: str, sq: float, shape: int, **sections) -> Model:
     """A built-in scene with another roughness on a small grid."""
     scene = load_scene(name)
     if name == "flat":
-        roughness = {"sq": sq, "correlation_length": 8e-6}
+        roughness = {"sq": sq, "correlation_length": 0.08e-6 * shape}
         grid = {"shape": (shape, shape), "spacing": 1e-6}
     else:
-        roughness = {"sq": sq, "correlation_length": 6e-6}
+        roughness = {"sq": sq, "correlation_length": 9e-6 * 32 / shape if shape < 48 else 4e-6}
         grid = {"shape": (shape, shape // 2), "spacing": 90e-6 / shape}
     return prepare(scene.with_(surface=roughness, contact=grid, **sections))
 

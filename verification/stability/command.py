@@ -1,0 +1,62 @@
+"""``python -m verification stability``: map where methods fail, and prove that the default ones say so."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+from .cell import FAILED, WRONG, Cell
+from .draw import save, table
+
+MAPS = {"film": "verification.stability.film_map", "contact": "verification.stability.contact_map",
+        "sharing": "verification.stability.sharing_map"}
+
+
+def main(argv: list[str]) -> int:
+    """Exit code: 0 no cell of a default method is silently wrong, and none inside the promised range failed; else 1."""
+    options = parser().parse_args(argv)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    begun = time.perf_counter()
+    cells = run_maps(options.only or list(MAPS), options.level, options.workers)
+    seconds = time.perf_counter() - begun
+    print(table(cells))
+    bad = [c for c in cells if c.default and (c.verdict == WRONG or c.verdict == FAILED and c.inside)]
+    for c in bad:
+        print(f"{c.verdict}: {c.map}, {c.panel}, x = {c.x:g}, y = {c.y:g}, {c.method}: {c.note} {c.error:.3g}")
+    for path in save(cells, seconds, options.level, options.out):
+        print(path)
+    print(f"{len(cells)} cells in {seconds:.0f} s")
+    return 1 if bad else 0
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = argparse.ArgumentParser("python -m verification stability", description=__doc__)
+    level = p.add_mutually_exclusive_group()
+    level.add_argument("--quick", dest="level", action="store_const", const="quick", help="within a minute")
+    level.add_argument("--full", dest="level", action="store_const", const="full", help="every cell (default)")
+    p.add_argument("--only", nargs="+", choices=list(MAPS), metavar="MAP", help=f"of {', '.join(MAPS)}")
+    p.add_argument("--workers", type=int, default=1, help="processes (default: 1)")
+    p.add_argument("--out", type=Path, default=Path("out/stability"), metavar="DIR")
+    p.set_defaults(level="full")
+    return p
+
+
+def run_maps(names: list[str], level: str, workers: int = 1) -> list[Cell]:
+    """Cells of the maps named, in their order."""
+    if workers == 1:
+        return [cell for name in names for cell in run_map(name, level)]
+    with ProcessPoolExecutor(workers) as pool:
+        return [cell for part in pool.map(run_map, names, [level] * len(names)) for cell in part]
+
+
+def run_map(name: str, level: str) -> list[Cell]:
+    """Every cell of one map."""
+    cells = list(importlib.import_module(MAPS[name]).cells(level))
+    print(f"{name}: {len(cells)} cells", file=sys.stderr, flush=True)
+    return cells

@@ -1,0 +1,104 @@
+"""Maps and their table."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from .. import plotting
+from .cell import FAILED, RIGHT, VERDICTS, WRONG, Cell
+
+COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
+MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
+AXES = {"film: load and material": ("load number M", "material number L"),
+        "film: speed and load": ("entrainment speed, m/s", "load, N/m"),
+        "film: tolerance": ("case", "tolerance asked for"), "film: poor start": ("start from case", "case"),
+        "film: starved inlet": ("load number M", "oil ahead, inlet lengths"),
+        "contact: load and surface": ("mean pressure / flattening pressure", "surface"),
+        "contact: hardness": ("hardness / E'", "mean pressure / hardness"),
+        "contact: size and aspect ratio": ("cell length / width", "grid"),
+        "contact: mean gap": ("mean gap / gap at first touch", "surface"),
+        "contact: roughness height": ("rms height, m", "mean pressure, Pa"),
+        "contact: tilt and offset": ("tilt, rms heights", "offset, m"),
+        "contact: precision, tolerance, start": ("tolerance", "input"),
+        "sharing: flat": ("film / roughness", "rms height, m"), "sharing: paper": ("film / roughness", "rms height, m"),
+        "sharing: speed, either sign": ("entrainment speed, m/s", "scene"),
+        "sharing: share of the contact": ("F_C / F_T", "")}
+LINEAR = {"film: load and material": "y", "film: tolerance": "x", "film: poor start": "xy", "contact: load and surface": "y",
+          "contact: size and aspect ratio": "y", "contact: mean gap": "y", "contact: tilt and offset": "xy",
+          "contact: precision, tolerance, start": "y", "sharing: speed, either sign": "xy",
+          "sharing: share of the contact": "y"}
+
+
+def counts(cells: list[Cell]) -> dict[tuple[str, str, bool], Counter]:
+    """Verdicts by (map, method, default)."""
+    table = {}
+    for cell in cells:
+        table.setdefault((cell.map, cell.method, cell.default), Counter())[cell.verdict] += 1
+    return table
+
+
+def table(cells: list[Cell]) -> str:
+    """The counts as text."""
+    lines = [f"{'map':<40}{'method':<28}" + "".join(f"{v:>18}" for v in VERDICTS)]
+    for (name, method, default), found in counts(cells).items():
+        label = method + (" *" if default else "")
+        lines.append(f"{name:<40}{label:<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
+    defaults = [c for c in cells if c.default]
+    found = Counter(c.verdict for c in defaults)
+    lines.append(f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
+    promised = sum(c.verdict == FAILED and c.inside for c in defaults)
+    lines.append(f"reported failures of default methods inside the range promised: {promised}")
+    return "\n".join(lines)
+
+
+def save(cells: list[Cell], seconds: float, level: str, out: Path) -> list[Path]:
+    """stability.json and one PNG for each kind of map."""
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "stability.json").write_text(json.dumps(
+        {"level": level, "seconds": seconds, "cells": [c.as_dict() for c in cells]}, indent=0))
+    files = []
+    for kind in ("film", "contact", "sharing"):
+        chosen = [c for c in cells if c.map.startswith(kind)]
+        if chosen:
+            figure = draw(kind, chosen)
+            files.append(out / f"stability-{kind}.png")
+            files[-1].write_bytes(figure.data)
+    return files
+
+
+def draw(kind: str, cells: list[Cell]):
+    """One panel for each map and method; cells that share a place show the worst verdict."""
+    panels = list(dict.fromkeys((c.map, c.method) for c in cells))
+    columns = min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    canvas, axes = plotting.axes(rows, columns, width=11, height=2.9 * rows + 0.4, squeeze=False)
+    for ax in axes.ravel()[len(panels):]:
+        ax.set_axis_off()
+    for ax, (name, method) in zip(axes.ravel(), panels):
+        panel(ax, [c for c in cells if (c.map, c.method) == (name, method)])
+    handles = [axes[0, 0].plot([], [], MARKS[v], color=COLOURS[v], label=v)[0] for v in VERDICTS]
+    canvas.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
+    return plotting.finish(f"stability-{kind}", canvas, f"Stability of the {kind} solvers", format="png")
+
+
+def panel(ax, cells: list[Cell]) -> None:
+    """All cells of one map and method."""
+    name, method = cells[0].map, cells[0].method
+    linear = LINEAR.get(name, "")
+    found = Counter(c.verdict for c in cells)
+    for verdict in VERDICTS:
+        places = np.array([(c.x, c.y) for c in cells if c.verdict == verdict]).reshape(-1, 2)
+        ax.plot(places[:, 0], places[:, 1], MARKS[verdict], color=COLOURS[verdict], markersize=4,
+                zorder=1 + VERDICTS.index(verdict))
+    for axis, values in (("x", [c.x for c in cells]), ("y", [c.y for c in cells])):
+        if axis not in linear and min(values) > 0:
+            getattr(ax, f"set_{axis}scale")("log")
+        elif axis not in linear or name.startswith("sharing: speed") and axis == "x":
+            getattr(ax, f"set_{axis}scale")("symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12)
+    labels = AXES.get(name, ("", ""))
+    ax.set(xlabel=labels[0], ylabel=labels[1])
+    ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)
