@@ -17,6 +17,8 @@ SOLVER = "primal-dual active set"
 FREE_SHARE = 0.2  # of the load off the saturated nodes that one step leaves at least on the others
 INNER = 0.01  # tolerance of the inner conjugate gradients over the tolerance asked
 INNER_LIMIT = 2000
+ROUNDING = 1e-12  # of the load; what saturated nodes may carry beyond it
+PATIENCE = 8  # steps without fewer nodes in the wrong place, before they are moved one at a time
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def solve_contact(
     *,
     limit: float | None = None,
     tolerance: float = 1e-8,
-    max_iterations: int = 60,
+    max_iterations: int = 300,
     raise_on_failure: bool = True,
 ) -> Contact:
     """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
@@ -70,8 +72,11 @@ def solve_contact(
     Each step solves the equations of the touching nodes exactly (conjugate gradients on the forces of the
     given total) and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes
     off that penetrate touch, saturated nodes that gap touch (M. Hintermueller, K. Ito & K. Kunisch, SIAM J.
-    Optim. 13 (2002) 865-888, doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact,
-    and one step saturates no more nodes than leaves a fifth of the unsaturated load on the others.
+    Optim. 13 (2002) 865-888, doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact;
+    one step saturates no more nodes, beyond one, than leaves a fifth of the unsaturated load on the others, and
+    the nearest nodes off join until the touching ones could carry what is left. Where moving all nodes at once
+    goes round in circles, they move one at a time until fewer are in the wrong place (J. J. Judice & F. M.
+    Pires, Comput. Oper. Res. 21 (1994) 587-596).
 
     Parameters
     ----------
@@ -100,7 +105,9 @@ def solve_contact(
     force, steps = active_set(elastic, force, everywhere, ~everywhere, max_iterations)
     if limit is not None and np.any(force > problem.limit):
         saturated = limited(problem, force, ~everywhere)
-        force, more = active_set(problem, force, (force > 0) & ~saturated, saturated, max_iterations)
+        gap = problem.gap0 + displacement(force)
+        touching = enough(problem, gap, (force > 0) & ~saturated, saturated)
+        force, more = active_set(problem, force, touching, saturated, max_iterations)
         steps = (steps[0] + more[0], steps[1] + more[1], [*steps[2], *more[2]], more[3])
     found = finish(problem, force, steps)
     if raise_on_failure:
@@ -133,7 +140,7 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
 
 def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
     """(force, (iterations, applications, history, status)); forces may pull or exceed the limit slightly."""
-    history, applications, seen = [], 0, set()
+    history, applications, fewest, patience = [], 0, force.size + 1, PATIENCE
     for iteration in range(1, max_iterations + 1):
         force, gap, used = equilibrium(problem, force, touching, saturated)
         applications += used
@@ -145,17 +152,21 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
         history.append(float(max(pull, above, inside, lifted)))
         if history[-1] <= problem.tolerance:
             return force, (iteration, applications, history, CONVERGED)
+        if not np.all(np.isfinite([*force, *gap])):
+            return force, (iteration, applications, history, DIVERGED)
         small = 0.1 * problem.tolerance * scale
         off = ~touching & ~saturated
         more = limited(problem, force, saturated & (gap <= small))
-        touching = (touching & (force > 0) | off & (gap < -small) | saturated & (gap > small)) & ~more
-        saturated = more
-        state = (touching.tobytes(), saturated.tobytes())
-        if not touching.any():
-            return force, (iteration, applications, history, DIVERGED)
-        if state in seen:
+        wanted = (touching & (force > 0) | off & (gap < -small) | saturated & (gap > small)) & ~more
+        moved = (wanted != touching) | (more != saturated)
+        count = np.count_nonzero(moved)
+        if not count:
             return force, (iteration, applications, history, STAGNATED)
-        seen.add(state)
+        fewest, patience = (count, PATIENCE) if count < fewest else (fewest, patience - 1)
+        if patience < 0:
+            moved &= np.arange(moved.size) == np.flatnonzero(moved)[-1]
+        touching, saturated = np.where(moved, wanted, touching), np.where(moved, more, saturated)
+        touching = enough(problem, gap, touching, saturated)
     return force, (max_iterations, applications, history, ITERATION_LIMIT)
 
 
@@ -164,9 +175,25 @@ def limited(problem: Problem, force, saturated):
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
     spare = problem.load - problem.limit[saturated].sum()
-    taken = np.cumsum(problem.limit[over]) <= (1 - FREE_SHARE) * spare
+    carried = np.cumsum(problem.limit[over])
+    taken = (carried <= (1 - FREE_SHARE) * spare) | (
+        (np.arange(over.size) == 0) & (carried <= spare + ROUNDING * problem.load)
+    )
     out = saturated.copy()
     out[over[taken]] = True
+    return out
+
+
+def enough(problem: Problem, gap, touching, saturated):
+    """``touching`` and, nearest first, nodes off, until all of these can carry what the saturated ones do not."""
+    spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
+    if spare <= 0 and touching.any():
+        return touching
+    near = np.flatnonzero(~touching & ~saturated)
+    near = near[np.argsort(gap[near])]
+    count = 1 + np.searchsorted(np.cumsum(problem.limit[near]), spare)
+    out = touching.copy()
+    out[near[:count]] = True
     return out
 
 
@@ -184,7 +211,7 @@ def equilibrium(problem: Problem, force, touching, saturated):
     residual = shift(root * misfit, root, root2)
     direction, rho, used = -residual, residual @ residual, 1
     goal = INNER * problem.tolerance
-    while used < INNER_LIMIT:
+    while used < INNER_LIMIT and np.isfinite(rho):
         approach = (root**2 @ misfit) / root2
         gap = misfit - approach
         if np.abs(gap[touching]).max() <= goal * np.ptp(misfit - problem.gap0):
@@ -215,7 +242,7 @@ def finish(problem: Problem, force, steps) -> Contact:
     resting = (force > 0) & ~saturated
     misfit = problem.gap0 + displacement
     weight = problem.weights * resting
-    approach = float(weight @ misfit / weight.sum()) if resting.any() else float(misfit.min())
+    approach = float(weight @ misfit / weight.sum() if resting.any() else misfit[saturated].max(initial=-np.inf))
     gap, scale = misfit - approach, np.ptp(displacement)
     off = np.where(saturated, np.maximum(gap, 0), np.abs(gap))
     residuals = {
@@ -223,7 +250,7 @@ def finish(problem: Problem, force, steps) -> Contact:
         "complementarity": float(force @ off / (scale * force.sum())),
         "load": float(abs(force.sum() / problem.load - 1)),
     }
-    worst = max(residuals.values())
+    worst = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf
     status = CONVERGED if worst <= problem.tolerance else STAGNATED if status == CONVERGED else status
     report = SolveReport(
         SOLVER, status, iterations, worst, problem.tolerance, residuals, tuple(history), applications + 1

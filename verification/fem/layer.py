@@ -116,7 +116,12 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
         distance = np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
         large = np.flatnonzero(longest > fine + growth * distance)
         if not large.size:
-            return mesh.mirrored((1.0, 0.0)) + mesh
+            both = (
+                np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0
+            )  # no -0.0, which unique would tell from 0.0
+            points, shared = np.unique(both, axis=1, return_inverse=True)
+            cells = np.hstack([mesh.t, mesh.t + mesh.p.shape[1]])
+            return MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(shared[cells]))
         mesh = mesh.refined(large)
 
 

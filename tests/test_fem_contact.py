@@ -1,0 +1,282 @@
+"""Active-set contact on the finite-element layer: closed forms, another algorithm, relations, injected faults."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import nnls
+from skfem import MeshTri
+
+from verification.fem.compliance import Elastic, curvature_number, layer_compliance
+from verification.fem.contact import solve_contact
+from verification.fem.layer import graded_mesh, make_layer
+from verification.fem.layer3d import Layer3D, graded_levels, multigrid, solve
+from verification.fem.layer_waves import fourier_compliance
+from verification.fem.report import InputError, SolveError
+from verification.rates import fitted_order
+from verification.studies import contact as line_study
+from verification.studies.contact_rough import corrected_area, half_space_patch, layer_of, press_patch
+
+BODY = Elastic.from_e_prime(2.0, 0.3)
+LOAD = np.pi / 4  # makes b = R = 1 and the peak 0.5 with E' = 2
+
+
+def cylinder(fine, degree=2, depth=20.0):
+    return make_layer(graded_mesh(8 * depth, depth, 1.5, fine, 4 * fine), BODY, degree=degree, strip=1.5)
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    return cylinder(0.2)
+
+
+def press(layer, load=LOAD, **options):
+    compliance = layer.compliance
+    return solve_contact(lambda f: compliance @ f, layer.weights, layer.x**2 / 2, load, **options)
+
+
+def hertz(x, curvature=1.0, load=LOAD):
+    """Pressure of a cylinder of that curvature on the half-space with E' = 2."""
+    b = np.sqrt(8 * load / (2 * np.pi * curvature))
+    return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
+
+
+def distance(layer, p, q):
+    return np.sqrt(layer.weights @ (p - q) ** 2 / (layer.weights @ q**2))
+
+
+def test_hertz_line_with_the_curvature_that_the_layer_adds():
+    layer = cylinder(0.1)
+    curvature = 1 + curvature_number(0.3) / (2 * 20**2)
+    found = press(layer)
+    assert found.pressure.max() == pytest.approx(hertz(0.0, curvature), rel=5e-4)
+    assert distance(layer, found.pressure, hertz(layer.x, curvature)) < 8e-3
+    assert line_study.half_width(layer.x, found.pressure) == pytest.approx(1 / np.sqrt(curvature), rel=2e-3)
+    report = found.report
+    assert report.converged and report.residual == max(report.residuals.values()) <= report.tolerance
+    assert set(report.residuals) == {"penetration", "complementarity", "load"}
+
+
+def test_hertz_error_falls_in_proportion_to_the_cell():
+    fines, errors = (0.4, 0.2, 0.1), []
+    for fine in fines:
+        layer, squares = cylinder(fine), []
+        for shift in np.arange(5) / 5:  # the edge of the contact at five places of a cell
+            load = LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2
+            squares.append(distance(layer, press(layer, load).pressure, hertz(layer.x, load=load)) ** 2)
+        errors.append(np.sqrt(np.mean(squares)))
+    assert 0.8 < fitted_order(fines, errors) < 1.6
+
+
+@pytest.fixture(scope="module")
+def period():
+    """One wavelength of a layer two wavelengths thick."""
+    return make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 65), -2 * np.linspace(1, 0, 33) ** 2), BODY)
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3, 0.7, 0.95])
+def test_westergaard_wave(period, share):
+    """Contact of a wave at a share of the pressure that flattens it."""
+    height, layer = 0.01, period
+    flat = np.pi * BODY.e_prime / 2 * height
+    compliance = layer.compliance
+    gap0 = height * (1 - np.cos(2 * np.pi * layer.x))
+    found = solve_contact(lambda f: compliance @ f, layer.weights, gap0, share * flat)
+    a = np.arcsin(np.sqrt(share)) / np.pi
+    s, inside = np.sin(np.pi * layer.x), np.abs(layer.x) < a
+    exact = np.zeros_like(s)
+    exact[inside] = (
+        2
+        * share
+        * flat
+        * np.cos(np.pi * layer.x[inside])
+        / np.sin(np.pi * a) ** 2
+        * np.sqrt(np.sin(np.pi * a) ** 2 - s[inside] ** 2)
+    )
+    assert distance(layer, found.pressure, exact) < 0.02
+    assert layer.weights @ found.touching == pytest.approx(2 * a, abs=1.5 / 64)
+
+
+def test_full_contact_is_the_inverse_of_the_exact_compliance():
+    grid = Layer3D(BODY, (1.0, 1.0), graded_levels(0.5, 16, 3.0), (32, 32), 2)
+    wave, height = np.cos(2 * np.pi * (grid.x[0] + grid.x[1])), 1e-3
+    amplitude = height / layer_compliance(2 * np.pi * np.sqrt(2), 0.5, BODY)
+    found = solve_contact(
+        fourier_compliance(grid).displacement, grid.weights.ravel(), -height * wave.ravel(), 2 * amplitude
+    )
+    assert found.touching.all()
+    weights = grid.weights.ravel()
+    projected = np.sum(weights * (found.pressure - 2 * amplitude) * wave.ravel()) / np.sum(
+        weights * wave.ravel() ** 2
+    )
+    assert projected == pytest.approx(amplitude, rel=2e-3)
+    assert found.gap == pytest.approx(0, abs=1e-9 * height)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10_000), st.floats(0.02, 2.0))
+def test_another_algorithm_finds_the_same_pressure(seed, load):
+    """Non-negative least squares on the same compliance, at the approach that was found."""
+    layer = make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 13), np.linspace(-0.5, 0, 7)), BODY)
+    compliance, gap0 = layer.compliance, 0.3 * np.random.default_rng(seed).standard_normal(layer.x.size)
+    found = solve_contact(lambda f: compliance @ f, layer.weights, gap0, load, tolerance=1e-10)
+    factor = np.linalg.cholesky(compliance)
+    force, _ = nnls(factor.T, -np.linalg.solve(factor, gap0 - found.approach))
+    assert found.pressure * layer.weights == pytest.approx(force, abs=1e-7 * load)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(1e-9, 1e6), st.floats(-1e3, 1e3), st.sampled_from([None, 0.35]))
+def test_heights_and_load_scale_together_and_a_raised_body_changes_nothing(coarse, factor, lift, limit):
+    compliance, gap0 = coarse.compliance, coarse.x**2 / 2
+    base = press(coarse, limit=limit)
+    other = solve_contact(
+        lambda f: compliance @ f,
+        coarse.weights,
+        factor * (gap0 + lift),
+        factor * LOAD,
+        limit=None if limit is None else factor * limit,
+        tolerance=1e-7,
+    )
+    assert other.pressure == pytest.approx(factor * base.pressure, abs=1e-4 * factor * base.pressure.max())
+    assert np.mean(other.touching != base.touching) < 0.05
+
+
+@pytest.mark.parametrize("limit", [0.48, 0.4, 0.33, 0.29, 0.27, 0.263])
+def test_cap_holds_and_the_rest_still_fits(coarse, limit):
+    """At 0.262 the whole strip at the cap could just carry the load."""
+    found = press(coarse, limit=limit)
+    assert found.report.converged and found.saturated.any()
+    assert found.pressure.max() <= limit * (1 + 1e-12)
+    assert np.all(found.gap[found.saturated] <= 1e-7)
+    assert np.all(found.gap[~found.saturated] >= -1e-7)
+    assert coarse.weights @ found.pressure == pytest.approx(LOAD, rel=1e-8)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000), st.floats(0.02, 10.0), st.floats(1.03, 6.0))
+def test_capped_contact_of_random_heights_meets_every_condition(bricks, seed, pressure, over):
+    """From a few touching nodes to full contact, from nearly all saturated to nearly none."""
+    grid, compliance = bricks
+    weights, limit = grid.weights.ravel(), over * pressure
+    gap0 = np.random.default_rng(seed).standard_normal(weights.size)
+    found = solve_contact(compliance.displacement, weights, gap0, pressure, limit=limit)
+    gap = gap0 - found.approach + compliance.displacement(found.pressure * weights)
+    small = 1e-7 * np.ptp(found.displacement)
+    between = found.touching & ~found.saturated
+    assert np.all((found.pressure >= 0) & (found.pressure <= limit * (1 + 1e-12)))
+    assert np.abs(gap[between]).max(initial=0) <= small
+    assert gap[found.pressure == 0].min(initial=0) >= -small
+    assert gap[found.saturated].max(initial=0) <= small
+    assert weights @ found.pressure == pytest.approx(pressure, rel=1e-7)
+
+
+def test_load_that_saturated_nodes_carry_exactly():
+    """One node at its cap carries all: a tie, with the approach free between two values."""
+    found = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 5.0, 9.0]), 2.0, limit=2.0 * (1 + 1e-15))
+    assert found.pressure == pytest.approx([2, 0, 0]) and found.report.converged
+    found = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 0.1, 9.0]), 2.0, limit=1.0)
+    assert found.pressure == pytest.approx([1, 1, 0]) and found.report.converged
+
+
+@pytest.fixture(scope="module")
+def bricks():
+    """A unit period of 16 x 16 nodes of unequal weight, and its compliance."""
+    grid = Layer3D(BODY, (1.0, 1.0), graded_levels(1.0, 5, 4.0), (16, 16), 2)
+    return grid, fourier_compliance(grid)
+
+
+def test_a_cap_above_the_peak_changes_nothing(coarse):
+    elastic = press(coarse)
+    assert np.array_equal(press(coarse, limit=0.6).pressure, elastic.pressure)
+
+
+def test_lower_caps_widen_the_contact(coarse):
+    widths = [coarse.weights @ press(coarse, limit=limit).touching for limit in (0.6, 0.45, 0.38, 0.32)]
+    assert np.all(np.diff(widths) >= 0) and widths[-1] > widths[0]
+
+
+def test_multigrid_can_be_the_compliance_itself():
+    grid = Layer3D(BODY, (1.0, 1.0), graded_levels(1.0, 4, 4.0), (8, 8), 1)
+    hierarchy = multigrid(grid)
+    gap0 = -0.02 * (np.cos(2 * np.pi * grid.x[0]) + np.cos(2 * np.pi * grid.x[1])).ravel()
+    by_waves = solve_contact(fourier_compliance(grid).displacement, grid.weights.ravel(), gap0, 0.02)
+    assembled = solve_contact(
+        lambda f: solve(hierarchy, f.reshape(8, 8), tolerance=1e-11).surface.ravel(),
+        grid.weights.ravel(),
+        gap0,
+        0.02,
+    )
+    assert assembled.pressure == pytest.approx(by_waves.pressure, abs=1e-6 * by_waves.pressure.max())
+
+
+@pytest.mark.parametrize("limit", [None, 1.5e9])
+def test_rough_patch_beside_lubfric(limit):
+    found, other = press_patch(layer_of(64, 2), limit), half_space_patch(256, limit)
+    assert found.mean_gap == pytest.approx(other.mean_gap, rel=1e-3)
+    assert found.area == pytest.approx(other.area, rel=0.02)
+
+
+def test_corrected_area_of_discs():
+    """Counting every cell that a disc touches overestimates it; the correction takes most of that off."""
+    n, rng, raw, better = 64, np.random.default_rng(0), [], []
+    at = np.linspace(0, 1, 8, endpoint=False) + 1 / 16
+    for _ in range(40):
+        x0, y0, r = 0.5 + 0.02 * rng.random(), 0.5 + 0.02 * rng.random(), 0.15 + 0.1 * rng.random()
+        fine = (np.arange(n)[:, None] + at).ravel() / n
+        cells = np.hypot(fine[:, None] - x0, fine[None] - y0).reshape(n, 8, n, 8).min(axis=(1, 3)) < r
+        raw.append(cells.mean() / (np.pi * r**2) - 1)
+        better.append(corrected_area(cells) / (np.pi * r**2) - 1)
+    assert np.mean(raw) > 0.03
+    assert 0 < np.mean(better) < 0.8 * np.mean(raw)
+
+
+# ---- failures ----------------------------------------------------------------------------------------------------
+
+
+def test_too_few_steps_raise_with_report_and_result(coarse):
+    with pytest.raises(SolveError, match="iteration_limit") as caught:
+        press(coarse, max_iterations=1)
+    assert caught.value.report.residual > caught.value.report.tolerance
+    assert caught.value.result.pressure.shape == coarse.x.shape
+    assert not press(coarse, max_iterations=1, raise_on_failure=False).report.converged
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        lambda c: c + 0.3 * np.triu(c, 1),  # not symmetric
+        lambda c: -c,  # pulls the surface up
+        lambda c: c - 2 * np.diag(np.diag(c)),  # not positive
+        lambda c: np.full_like(c, np.nan),
+    ],
+)
+def test_a_broken_compliance_does_not_pass(coarse, fault):
+    broken = fault(coarse.compliance)
+    with np.errstate(all="ignore"), pytest.raises(SolveError):
+        solve_contact(lambda f: broken @ f, coarse.weights, coarse.x**2 / 2, LOAD, max_iterations=8)
+
+
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        ({"load": 0.0}, "load"),
+        ({"load": np.nan}, "load"),
+        ({"limit": 0.2}, "cannot be carried"),
+        ({"limit": -1.0}, "limit"),
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"gap0": np.array([0.0, np.nan])}, "gap0"),
+        ({"gap0": np.zeros((2, 2))}, "gap0"),
+        ({"weights": np.array([1.0, 0.0])}, "weights"),
+    ],
+)
+def test_bad_input_is_refused_before_any_work(change, word):
+    arguments = {"weights": np.ones(2), "gap0": np.zeros(2), "load": 1.0} | change
+
+    def never(force):
+        raise AssertionError("work was done")
+
+    with pytest.raises(InputError, match=word):
+        solve_contact(
+            never, arguments.pop("weights"), arguments.pop("gap0"), arguments.pop("load"), **arguments
+        )

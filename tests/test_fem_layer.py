@@ -1,0 +1,297 @@
+"""Elastic layer by finite elements: exact compliance, orders, relations, two solvers, failures that must show."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import expm
+from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex, MeshTri
+from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+from verification.fem.compliance import (
+    Elastic,
+    curvature_number,
+    half_space_compliance,
+    layer_compliance,
+    line_load_difference,
+    missing,
+)
+from verification.fem.layer import graded_mesh, make_layer
+from verification.fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve, stiffness
+from verification.fem.layer_waves import fourier_compliance
+from verification.fem.report import InputError, SolveError
+from verification.rates import fitted_order
+
+STEEL = Elastic(206e9, 0.3)
+UNIT = Elastic(1.0, 0.3)
+
+
+def integrated_compliance(s: float, body: Elastic) -> float:
+    """k C from the equations of elasticity integrated through the depth, for the wave with k = 1 and d = s."""
+    lame, mu = lame_parameters(body.young, body.poisson)
+    m = lame + 2 * mu
+    # (u, w, sigma_zz, sigma_xz) along z, for u sin x, w cos x, sigma_zz cos x, sigma_xz sin x
+    system = np.zeros((4, 4))
+    system[0, [1, 3]] = 1, 1 / mu
+    system[1, [0, 2]] = -lame / m, 1 / m
+    system[2, 3] = -1
+    system[3, [0, 2]] = m - lame**2 / m, lame / m
+    through = expm(system * s)
+    at_base = np.linalg.solve(through[2:, 2:], [-1.0, 0.0])
+    return -float(through[1, 2:] @ at_base)
+
+
+@pytest.mark.parametrize("poisson", [-0.5, 0.0, 0.3, 0.49])
+@pytest.mark.parametrize("s", [1e-3, 0.1, 0.249, 0.251, 1.0, 4.0, 8.0])
+def test_exact_compliance_solves_the_equations_of_elasticity(poisson, s):
+    body = Elastic(2.0, poisson)
+    assert layer_compliance(1.0, s, body) == pytest.approx(integrated_compliance(s, body), rel=1e-9)
+
+
+def test_limits_of_the_exact_compliance():
+    k = np.array([1e4, 1e8])
+    assert layer_compliance(k, 0.01, STEEL) == pytest.approx(half_space_compliance(k, STEEL), rel=1e-12)
+    assert layer_compliance([0.0, 1e-6], 0.01, STEEL) == pytest.approx(0.01 / STEEL.oedometric, rel=1e-9)
+    assert Elastic.from_e_prime(231e9, 0.25).e_prime == pytest.approx(231e9)
+
+
+@given(st.floats(-0.9, 0.499), st.floats(0.01, 20), st.floats(1.01, 3))
+def test_a_thicker_layer_is_softer_and_a_half_space_softest(poisson, s, factor):
+    body = Elastic(1.0, poisson)
+    thin, thick = layer_compliance(1.0, np.array([s, factor * s]), body)
+    softest = half_space_compliance(1.0, body)
+    assert 0 < thin <= thick * (1 + 1e-14) <= softest * (1 + 1e-13)
+    assert missing(s, poisson) == pytest.approx(1 - thin / softest, abs=1e-13)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.49])
+def test_a_line_load_sees_the_layer_with_the_square_of_distance_over_thickness(poisson):
+    body, x = Elastic(1.0, poisson), np.array([0.1, 0.05, 0.025])
+    leading = 2 * curvature_number(poisson) / (np.pi * body.e_prime) * x**2
+    off = np.abs(line_load_difference(x, 1.0, body) / leading - 1)
+    assert off[-1] < 1e-3
+    assert fitted_order(x, off) == pytest.approx(2, abs=0.05)
+
+
+@pytest.mark.parametrize("young, poisson", [(0.0, 0.3), (np.nan, 0.3), (1.0, 0.5), (1.0, -1.0)])
+def test_impossible_bodies_are_refused(young, poisson):
+    with pytest.raises(InputError, match="allowed"):
+        Elastic(young, poisson)
+
+
+# ---- plane strain ------------------------------------------------------------------------------------------------
+
+
+def box(cells, depth=0.5):
+    return MeshTri.init_tensor(
+        np.linspace(-0.5, 0.5, cells + 1), np.linspace(-depth, 0, round(depth * cells) + 1)
+    )
+
+
+@pytest.mark.parametrize("degree, cells", [(1, (16, 32, 64)), (2, (8, 16, 32))])
+def test_compliance_of_a_wave_converges_at_twice_the_degree(degree, cells):
+    exact, energy, nodal = layer_compliance(2 * np.pi, 0.5, UNIT), [], []
+    for n in cells:
+        layer = make_layer(box(n), UNIT, degree=degree)
+        pressure = np.cos(2 * np.pi * layer.x)
+        force = pressure * layer.weights
+        moved = layer.displacement(force)
+        energy.append(abs(force @ moved / (force @ pressure) / exact - 1))
+        nodal.append(np.abs(moved / exact - pressure).max())
+    assert fitted_order(cells[-2:], energy[-2:]) == pytest.approx(-2 * degree, abs=0.25)
+    assert fitted_order(cells[-2:], nodal[-2:]) < -degree - 0.5
+
+
+def test_uniform_pressure_compresses_without_lateral_strain():
+    layer = make_layer(box(4, 0.25), STEEL)
+    assert layer.weights.sum() == pytest.approx(1)
+    assert layer.displacement(layer.weights * 1e6) == pytest.approx(1e6 * 0.25 / STEEL.oedometric, rel=1e-9)
+    sigma = layer.stress(layer.weights * 1e6)
+    assert sigma[1] == pytest.approx(-1e6, rel=1e-9)
+    assert sigma[0] == pytest.approx(-1e6 * 0.3 / 0.7, rel=1e-9)
+
+
+def test_a_periodic_layer_does_not_know_where_it_begins():
+    compliance = make_layer(box(8), UNIT, degree=1).compliance
+    rolled = np.roll(compliance, (3, 3), axis=(0, 1))
+    assert compliance == pytest.approx(rolled, abs=1e-12 * compliance.max())
+
+
+def test_graded_mesh_is_whole_symmetric_and_fine_where_asked():
+    mesh = graded_mesh(8.0, 1.0, 0.5, 0.1)
+    ends = mesh.p[:, mesh.facets[:, mesh.boundary_facets()]]
+    on_edge = [np.all(np.isclose(ends[i], v), axis=0) for i, v in ((0, -4), (0, 4), (1, -1), (1, 0))]
+    assert np.all(np.any(on_edge, axis=0))  # no crack where the two halves meet
+    assert {tuple(p) for p in np.round(mesh.p.T, 9)} == {
+        tuple(p) for p in np.round(mesh.p.T, 9) * [-1, 1] + 0.0
+    }
+    assert 0.5 * np.sum(
+        np.abs(np.linalg.det(np.diff(mesh.p[:, mesh.t], axis=1).transpose(2, 0, 1)))
+    ) == pytest.approx(8)
+    top = np.sort(mesh.p[0, np.isclose(mesh.p[1], 0)])
+    assert np.diff(top[np.abs(top) <= 0.5]).max() <= 0.1
+
+
+@pytest.mark.parametrize("sides", ["periodic", "free"])
+def test_compliance_is_reciprocal_and_positive(sides):
+    layer = make_layer(graded_mesh(8.0, 1.0, 0.5, 0.1), UNIT, strip=0.5, sides=sides)
+    assert np.all(np.abs(layer.x) <= 0.5 + 1e-9) and np.all(np.diff(layer.x) > 0)
+    assert layer.compliance == pytest.approx(layer.compliance.T, abs=1e-12 * layer.compliance.max())
+    assert np.linalg.eigvalsh(layer.compliance).min() > 0
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(1e3, 1e12), st.floats(1e-6, 1e3))
+def test_compliance_scales_with_stiffness_and_not_with_size(young, size):
+    base = make_layer(box(6), UNIT).compliance
+    other = make_layer(box(6).scaled(size), Elastic(young, 0.3)).compliance
+    assert other * young == pytest.approx(base, rel=1e-8)
+
+
+def test_layer_refuses_what_it_cannot_be():
+    skew = box(4)
+    skew.p[1, (skew.p[0] > 0.49) & (skew.p[1] < -0.1) & (skew.p[1] > -0.4)] += 0.03
+    with pytest.raises(InputError, match="same depths"):
+        make_layer(skew, UNIT)
+    make_layer(skew, UNIT, sides="free")
+    with pytest.raises(InputError, match="degree"):
+        make_layer(box(4), UNIT, degree=3)
+    with pytest.raises(InputError, match="surface"):
+        make_layer(box(4).translated((0.0, 1.0)), UNIT)
+    with pytest.raises(InputError, match="strip"):
+        graded_mesh(1.0, 1.0, 0.7, 0.1)
+
+
+# ---- three dimensions --------------------------------------------------------------------------------------------
+
+
+def brick(nodes, degree, layers=None, depth=1.0, body=UNIT):
+    return Layer3D(
+        body, (1.0, 1.0), graded_levels(depth, layers or nodes // degree, 4.0), (nodes, nodes), degree
+    )
+
+
+@pytest.mark.parametrize("degree, nodes", [(1, (16, 32)), (2, (16, 32))])
+def test_compliance_of_bricks_converges_at_twice_the_degree(degree, nodes):
+    exact, errors = layer_compliance(2 * np.pi * np.sqrt(2), 1.0, UNIT), []
+    for n in nodes:
+        layer = brick(n, degree)
+        pressure = np.cos(2 * np.pi * (layer.x[0] - layer.x[1]))
+        force = pressure * layer.weights
+        moved = fourier_compliance(layer).displacement(force)
+        errors.append(abs(np.sum(force * moved) / np.sum(force * pressure) / exact - 1))
+    assert fitted_order(nodes, errors) == pytest.approx(-2 * degree, abs=0.4)
+
+
+@pytest.mark.parametrize("degree, element", [(1, ElementHex1), (2, ElementHex2)])
+def test_assembled_layer_is_that_of_scikit_fem(degree, element):
+    """The energy of a random periodic displacement, with the mesh of the whole period assembled by scikit-fem."""
+    nx, ny = 3 * degree, 2 * degree
+    layer = Layer3D(UNIT, (1.2, 0.7), graded_levels(0.9, 2, 3.0), (nx, ny), degree)
+    x, y = np.linspace(0, 1.2, 4), np.linspace(0, 0.7, 3)
+    basis = Basis(MeshHex.init_tensor(x, y, layer.levels), ElementVector(element()), intorder=2 * degree)
+    planes = np.unique(np.round(basis.doflocs[2], 9))
+    ix, iy = (np.round(basis.doflocs[i] / w * degree).astype(int) for i, w in enumerate(layer.cell_size))
+    iz = np.searchsorted(planes, np.round(basis.doflocs[2], 9))
+    component = np.zeros(basis.N, dtype=int)
+    for dofs in (basis.nodal_dofs, basis.edge_dofs, basis.facet_dofs, basis.interior_dofs):
+        for row, numbers in enumerate(dofs):
+            component[numbers] = row % 3
+    free = np.random.default_rng(3).standard_normal((layer.planes, nx, ny, 3))
+    values = np.concatenate([np.zeros((1, nx, ny, 3)), free])[iz, ix % nx, iy % ny, component]
+    whole = linear_elasticity(*lame_parameters(1.0, 0.3)).assemble(basis)
+    assert free.ravel() @ (stiffness(layer) @ free.ravel()) == pytest.approx(
+        values @ (whole @ values), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_multigrid_and_waves_solve_the_same_layer(degree):
+    layer = Layer3D(STEEL, (2e-5, 3e-5), graded_levels(2e-5, 4, 3.0), (8, 12), degree)
+    force = np.random.default_rng(1).standard_normal(layer.shape)
+    solved = solve(multigrid(layer), force)
+    waves = fourier_compliance(layer).displacement(force)
+    assert solved.report.converged and solved.report.residual <= solved.report.tolerance
+    assert solved.surface == pytest.approx(waves, abs=1e-7 * np.abs(waves).max())
+    assert waves.ravel() == pytest.approx(fourier_compliance(layer).displacement(force.ravel()))
+
+
+def test_bricks_are_reciprocal_and_the_same_from_every_cell():
+    layer = brick(8, 2)
+    waves, rng = fourier_compliance(layer), np.random.default_rng(2)
+    p, q = rng.standard_normal((2, 8, 8))
+    assert np.sum(q * waves.displacement(p)) == pytest.approx(np.sum(p * waves.displacement(q)), rel=1e-11)
+    moved = np.roll(waves.displacement(p), (2, 4), (0, 1))
+    assert waves.displacement(np.roll(p, (2, 4), (0, 1))) == pytest.approx(
+        moved, abs=1e-12 * np.abs(moved).max()
+    )
+    assert waves.displacement(layer.weights) == pytest.approx(1.0 / UNIT.oedometric, rel=1e-10)
+
+
+def test_pressure_uniform_in_y_is_plane_strain():
+    layer = Layer3D(UNIT, (1.0, 0.25), graded_levels(0.5, 16, 2.0), (32, 4), 2)
+    pressure = np.broadcast_to(np.cos(2 * np.pi * layer.x[0]), layer.shape)
+    force = pressure * layer.weights
+    moved = fourier_compliance(layer).displacement(force)
+    found = np.sum(force * moved) / np.sum(force * pressure)
+    assert found == pytest.approx(layer_compliance(2 * np.pi, 0.5, UNIT), rel=1e-3)
+
+
+def test_rigid_body_modes_speed_the_solve():
+    layer = brick(16, 1, layers=6)
+    force = np.random.default_rng(4).standard_normal(layer.shape)
+    modes = rigid_body_modes(layer)
+    counts = [solve(multigrid(layer, B), force).report.iterations for B in (modes, modes[:, :3])]
+    assert counts[0] <= 20 and counts[0] < 0.9 * counts[1]
+
+
+def test_rigid_body_modes_strain_nothing():
+    """Away from the base and the ends of the period, where a rotation does not fit together."""
+    layer = brick(8, 1, layers=6)
+    left = (stiffness(layer) @ rigid_body_modes(layer)).reshape(layer.planes, 8, 8, 3, 6)[1:, 1:-1, 1:-1]
+    assert np.abs(left).max() < 1e-12
+
+
+def test_a_solve_cut_short_raises_with_what_it_had():
+    layer = brick(8, 1)
+    force = np.random.default_rng(5).standard_normal(layer.shape)
+    grid = multigrid(layer)
+    with pytest.raises(SolveError, match="iteration_limit") as caught:
+        solve(grid, force, max_iterations=1)
+    assert caught.value.report.residual > caught.value.report.tolerance
+    assert caught.value.result.surface.shape == layer.shape
+    kept = solve(grid, force, max_iterations=1, raise_on_failure=False)
+    assert not kept.report.converged and kept.report.iterations == 1
+
+
+def test_the_residual_is_not_taken_from_the_iteration():
+    """A hierarchy of another, stiffer layer: its own residual falls, that of this layer does not."""
+    layer = brick(8, 1)
+    other = multigrid(replace(layer, body=Elastic(2.0, 0.3)))
+    grid = multigrid(layer)
+    with pytest.raises(SolveError):
+        solve(replace(other, layer=layer, matrix=grid.matrix), layer.weights)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"degree": 3},
+        {"shape": (7, 8), "degree": 2},
+        {"levels": np.array([-1.0, -0.5])},
+        {"size": (1.0, 0.0)},
+        {"levels": np.array([-1.0, -1.0, 0.0])},
+    ],
+)
+def test_impossible_bricks_are_refused(change):
+    with pytest.raises(InputError, match="allowed"):
+        replace(brick(8, 1), **change)
+
+
+@pytest.mark.parametrize("force", [np.zeros((8, 8)), np.ones((8, 7)), np.full((8, 8), np.nan)])
+def test_impossible_forces_are_refused(force):
+    grid = multigrid(brick(8, 1, layers=2))
+    with pytest.raises(InputError, match="force"):
+        solve(grid, force)
