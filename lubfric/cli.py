@@ -10,7 +10,6 @@ from pathlib import Path
 
 from .errors import ConvergenceError, LubfricError
 
-
 OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
 
 
@@ -100,8 +99,8 @@ def _info(arguments) -> int:
 
 def _plot(arguments) -> int:
     from .errors import InputError
-    from .output import read_csv
     from .history_run import plot_again
+    from .output import read_csv
     from .plot import plot_stribeck
     if plot_again(arguments.folder):
         return 0
