@@ -73,8 +73,8 @@ def solve_contact(
     given total) and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes
     off that penetrate touch, saturated nodes that gap touch (M. Hintermueller, K. Ito & K. Kunisch, SIAM J.
     Optim. 13 (2002) 865-888, doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact;
-    one step saturates no more nodes, beyond one, than leaves a fifth of the unsaturated load on the others, and
-    the nearest nodes off join until the touching ones could carry what is left. Where moving all nodes at once
+    one step saturates no more nodes, beyond one, than leaves a fifth of the unsaturated load on the others,
+    and the nearest nodes off join until the touching ones could carry what is left. Where moving all at once
     goes round in circles, they move one at a time until fewer are in the wrong place (J. J. Judice & F. M.
     Pires, Comput. Oper. Res. 21 (1994) 587-596).
 
@@ -171,7 +171,7 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
 
 
 def limited(problem: Problem, force, saturated):
-    """``saturated`` and, hardest pressed first, nodes above the limit while enough load is left for others."""
+    """``saturated`` and, hardest pressed first, nodes above the limit while others have load enough left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
     spare = problem.load - problem.limit[saturated].sum()
@@ -185,7 +185,7 @@ def limited(problem: Problem, force, saturated):
 
 
 def enough(problem: Problem, gap, touching, saturated):
-    """``touching`` and, nearest first, nodes off, until all of these can carry what the saturated ones do not."""
+    """``touching`` and, nearest first, nodes off, until these can carry what the saturated ones do not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
         return touching
@@ -242,7 +242,8 @@ def finish(problem: Problem, force, steps) -> Contact:
     resting = (force > 0) & ~saturated
     misfit = problem.gap0 + displacement
     weight = problem.weights * resting
-    approach = float(weight @ misfit / weight.sum() if resting.any() else misfit[saturated].max(initial=-np.inf))
+    lowest = misfit[saturated].max(initial=-np.inf)  # approach at which all saturated nodes touch
+    approach = float(weight @ misfit / weight.sum() if resting.any() else lowest)
     gap, scale = misfit - approach, np.ptp(displacement)
     off = np.where(saturated, np.maximum(gap, 0), np.abs(gap))
     residuals = {
