@@ -28,6 +28,8 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
             break
         halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
         shift = 0.5 * (lower + upper) if halve else newton
+    if not result.any() and load > 0:          # a load below the rounding of the highest pressure: one cell bears it
+        result[np.argmax(pressure)] = min(load, hardness)
     elastic = result < hardness
     carried = result[elastic].sum()
     if carried > 0:

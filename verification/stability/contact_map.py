@@ -95,7 +95,7 @@ def full_contact(heights, spacing: float) -> float:
 def loads(quick: bool) -> Iterator[Cell]:
     """From one touching cell to full contact and beyond, by surface, for each boundary."""
     n = 24 if quick else 48
-    shares = (1e-9, 1e-2, 1.5) if quick else (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 0.6, 0.9, 1.1, 3.0)
+    shares = (1e-9, 1e-2, 1.5) if quick else (1e-24, 1e-18, 1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 0.6, 0.9, 1.1, 3.0)
     for label, boundary in BOUNDARIES.items():
         for row, kind in enumerate(SURFACES):
             z = surface(kind, n, n)

@@ -67,7 +67,7 @@ def checked(case: dict, tolerance: float = TOLERANCE, judge=None):
         smallest, flow, _ = judge or reference(case, tolerance)
         ratios = {name: value / OWN[name] for name, value in film_deviations(film, case).items()}
         if tolerance > TOLERANCE:
-            ratios["flow"] *= TOLERANCE / tolerance
+            ratios["flow"] *= TOLERANCE / tolerance              # judged by the grid that was asked for
         return ratios | {"min_film": abs(film.min_film / smallest - 1) / (FILM * tolerance),
                          "flow_film": abs(film.flow_film / flow - 1) / (FILM * tolerance)}
     return check
@@ -80,8 +80,8 @@ def promised(M: float, L: float) -> bool:
 
 def load_and_material(quick: bool) -> Iterator[Cell]:
     """M by L for each law; all methods and the formula where the law is Roelands' at constant density."""
-    loads = np.geomspace(1e-3, 3e3, 5) if quick else np.append(np.geomspace(1e-3, 1e3, 13), 3e3)
-    materials = (0.0, 5.0, 20.0) if quick else (0.0, 0.5, 1.0, 2.5, 5.0, 7.5, 10.0, 15.0, 20.0, 25.0)
+    loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), 3e3)
+    materials = (0.0, 5.0, 20.0) if quick else (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
     for law, density in LAWS:
         for M in loads:
             for L in materials:
@@ -111,8 +111,8 @@ def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[C
 
 def speeds(quick: bool) -> Iterator[Cell]:
     """The paper's steel cylinder: speeds from 1e-8 m/s, either way, by load."""
-    for speed in np.geomspace(1e-8, 10, 4 if quick else 19):
-        for load in np.geomspace(1e-2, 1e4, 3 if quick else 7):
+    for speed in np.geomspace(1e-8, 10, 3 if quick else 10):
+        for load in np.geomspace(1e-2, 1e4, 2 if quick else 7):
             sign = -1.0 if round(math.log10(load)) % 2 else 1.0
             case = PAPER | {"load_per_width": float(load), "entrainment_speed": sign * float(speed)}
             u1 = 2 * 0.36 * speed / (231e9 * 2e-3)

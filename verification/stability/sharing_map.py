@@ -1,15 +1,15 @@
 """Load sharing: film to roughness ratio, roughness from 1 nm to 2 um, share of the contact, entrainment of any sign.
 
-The judge solves neither for the load split nor with the library's film: at the film load found it takes the film of
-the differential deflection, measures the gap of a fresh dry contact at the contact load found, and adds up loads and
-friction forces again.
+The judge closes load and volume anew, with the film of the differential deflection, dry contacts solved afresh, a
+root finder from elsewhere and its own sum of the friction forces. Allowed: twice the tolerance on friction that the
+scene asks for (1 %), on the coefficient and on F_C/F_T.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from lubfric import LubfricError, friction, load_scene, solve_contact, solve_dif
 from lubfric.mixed import Model, prepare
 
 from .cell import Cell, Condition, judged
+from .film_check import viscosity_ratio
 
-ALLOWED = {"load": 1e-9, "volume": 0.02, "film": 2.0, "friction": 1e-9, "bounds": 1e-9}
+ALLOWED = {"friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 
 
 def cells(level: str) -> Iterator[Cell]:
@@ -61,60 +62,125 @@ def film_case(scene, load: float, speed: float) -> dict:
 
 
 def checked(model: Model, speed: float):
-    """check(result) for `judged`."""
+    """check(result) for `judged`: sums of the result itself, and friction and contact load against `judge`."""
     def check(result) -> dict[str, float]:
         scene = model.scene
         total = scene.bodies.load
-        carried = result.contact_load + result.film_load
         forces = result.boundary_force + result.shear_force
-        found = {"load": abs(carried / total - 1), "friction": abs(result.coefficient * total - forces) / abs(forces)}
-        ratios = {name: value / ALLOWED[name] for name, value in found.items()}
         share = result.contact_load / total
-        ratios["bounds"] = 0.0 if -1e-12 <= share <= 1 + 1e-12 and result.real_contact_area_fraction <= 1 else math.inf
-        if speed != 0:
-            film = judge_film(scene, result.film_load, speed)
-            gap, mean = judge_gap(model, result, film)
-            ratios["film"] = abs(result.min_film / film.min_film - 1) / (ALLOWED["film"] * scene.numerics.film_tolerance)
-            ratios["volume"] = (abs(gap - mean) / (gap + mean) if result.contact_load > 0 else max(0.0, gap - mean) / mean
-                                ) / ALLOWED["volume"]
-        return ratios
+        found = {"load": abs((result.contact_load + result.film_load) / total - 1),
+                 "friction sum": abs(result.coefficient * total - forces) / abs(forces),
+                 "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0}
+        if speed == 0:
+            coefficient, split = scene.bodies.boundary_friction_coefficient, 1.0
+        else:
+            coefficient, split = judge(model, result, speed)
+        found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
+        found["contact share"] = abs(share - split) / scene.numerics.tolerance
+        allowed = ALLOWED | {"load": 2 * scene.numerics.volume_tolerance}       # what one closure balances, the other keeps
+        return {name: value / allowed[name] for name, value in found.items()}
     return check
+
+
+def judge(model: Model, result, speed: float) -> tuple[float, float]:
+    """(friction coefficient, F_C/F_T) from another film solver and fresh dry contacts: the split closed again."""
+    from scipy.optimize import brentq
+    scene, total = model.scene, model.scene.bodies.load
+
+    def sides(split):
+        film_load = total / (1 + math.exp(-split))
+        film = judge_film(scene, film_load, speed)
+        return film, judge_contact(model, total / (1 + math.exp(split)), film)
+
+    def surplus(split):
+        contact = sides(split)[1]
+        return math.log(contact.gap / contact.film)
+
+    if surplus(40.0) <= 0:                         # the film of the whole load clears the summits
+        film, contact = sides(40.0)
+        return own_friction(scene, film, contact, 0.0, speed), 0.0
+    share = min(max(result.film_load / total, 1e-13), 1 - 1e-13)
+    low = high = math.log(share / (1 - share))
+    step = 0.02
+    while surplus(low) > 0:
+        low, step = low - step, 3 * step
+    step = 0.02
+    while surplus(high) < 0 and high < 40:
+        high, step = high + step, 3 * step
+    split = brentq(surplus, low, high, xtol=2e-3) if high > low else low
+    film, contact = sides(split)
+    contact_load = total / (1 + math.exp(split))
+    return own_friction(scene, film, contact, contact_load, speed), contact_load / total
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Mean gap and mean film over A [m], and the share of the width in contact at each x [m]."""
+
+    gap: float
+    film: float
+    x: np.ndarray
+    touching: np.ndarray
 
 
 def judge_film(scene, load: float, speed: float):
     """By differential deflection, or if that does not converge by the tightest Newton solution."""
     case = film_case(scene, load, speed)
     try:
-        return solve_differential_deflection(**case, tolerance=1e-3)
+        return solve_differential_deflection(**case, tolerance=2e-3)
     except LubfricError:
         return solve_ehl(**case, tolerance=1e-4)
 
 
-def judge_gap(model: Model, result, film) -> tuple[float, float]:
-    """(mean gap, mean film) over A [m]: a dry contact solved afresh at the contact load found (touching if none)."""
+def judge_contact(model: Model, load: float, film) -> Sides:
+    """A dry contact solved afresh at ``load`` [N]."""
     patch, scene = model.patch, model.scene
     heights, spacing = model.surface.heights - model.surface.heights.mean(), model.surface.spacing
-    x = patch.x
+    x, flat = patch.x, scene.contact.geometry == "flat"
     smooth = film.film_at(x)
-    load = max(result.contact_load, 1e-12 * scene.bodies.load)
-    if scene.contact.geometry == "flat":
+    if flat:
         pressure, gap0, weight = load / patch.area, heights.max() - heights, np.ones(x.size)
-        boundary = ("periodic", "periodic")
     else:
         pressure = load / (scene.bodies.width * x.size * spacing[0])
-        gap0, weight, boundary = smooth[:, None] - heights, patch.region_weight, ("free", "periodic")
+        gap0, weight = smooth[:, None] - heights, patch.region_weight
     dry = solve_contact(gap0, spacing, scene.bodies.e_prime, mean_pressure=pressure, hardness=scene.bodies.hardness,
-                        boundary=boundary, tolerance=1e-6)
-    gap = np.maximum(dry.gap, 0)
-    if scene.contact.geometry == "flat":
-        return float(gap.mean()), float(smooth.mean())
-    return float(gap.mean(axis=1) @ weight / weight.sum()), float(smooth @ weight / weight.sum())
+                        boundary=("periodic" if flat else "free", "periodic"), tolerance=1e-6)
+    gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
+    if flat:
+        return Sides(float(gap.mean()), float(smooth.mean()), x, np.full(x.size, touching.mean()))
+    return Sides(float(gap.mean(axis=1) @ weight / weight.sum()), float(smooth @ weight / weight.sum()), x,
+                 touching.mean(axis=1))
+
+
+def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian film before rupture, the far inlet in closed form."""
+    bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
+    sign = math.copysign(1.0, speed)
+    order = slice(None) if sign > 0 else slice(None, None, -1)
+    x, p, h = film.x[order] * sign, film.pressure[order], film.film_thickness[order]
+    wet = x <= sign * film.rupture + 1e-12 * film.half_width
+    x, p, h = x[wet], p[wet], h[wet]
+    eta = oil.viscosity * np.exp(viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p))
+    slide = ratio * abs(speed)
+    free = 1 - np.interp(sign * x, contact.x, contact.touching, 0.0, 0.0)
+    rate = free * slide / h
+    couette = np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])) + oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
+    rolling = np.sum(0.25 * (free[1:] + free[:-1]) * (h[1:] + h[:-1]) * np.diff(p)) / 2
+    rolling += 1.5 * p[0] * h[0]                       # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
+    boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
+    return float((boundary + bodies.width * (couette + rolling)) / bodies.load)
+
+
+def _log_mean(eta) -> np.ndarray:
+    """Mean of a viscosity that is exponential between the nodes."""
+    d = np.diff(np.log(eta))
+    return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))
 
 
 def curves(name: str, quick: bool) -> Iterator[Cell]:
     """Lambda 0.01 to 10 by roughness 1 nm to 2 um, both closures; the paper's closure is not the default."""
-    roughness = np.geomspace(1e-9, 2e-6, 2 if quick else 7)
-    ratios = np.geomspace(0.01, 10, 3 if quick else 13 if name == "flat" else 9)
+    roughness = [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5)
+    ratios = np.geomspace(0.01, 10, 3 if quick else 10)
     for sq in roughness:
         base = model_of(name, float(sq), 32 if quick else 64 if name == "flat" else 48)
         for ratio in ratios:
@@ -132,7 +198,7 @@ def special_speeds(quick: bool) -> Iterator[Cell]:
     """Nearly all film, nearly all contact, no entrainment, reversed entrainment."""
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
-        for speed in (0.0, -0.01, 0.01) if quick else (0.0, *np.geomspace(1e-10, 30, 24), *-np.geomspace(1e-10, 30, 24)):
+        for speed in (0.0, -0.01, 0.01) if quick else (0.0, *np.geomspace(1e-10, 30, 12), *-np.geomspace(1e-10, 30, 12)):
             here = Condition("sharing: speed, either sign", name, float(speed), column)
             yield judged(here, "closure = load", lambda model=model, speed=speed: friction(model, float(speed)),
                          checked(model, float(speed)))
@@ -142,9 +208,9 @@ def special_speeds(quick: bool) -> Iterator[Cell]:
 def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
-    for share in (1e-2, 0.5) if quick else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6):
+    for share in (0.5,) if quick else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6):
         low, high = math.log(1e-14), math.log(1e2)
-        for _ in range(20 if quick else 40):
+        for _ in range(16 if quick else 40):
             middle = 0.5 * (low + high)
             try:
                 found = friction(model, math.exp(middle))

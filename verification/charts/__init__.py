@@ -1,0 +1,1 @@
+"""Work-precision charts: what every numerical choice costs and buys."""

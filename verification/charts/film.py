@@ -1,0 +1,73 @@
+"""Smooth films: error of smallest film, flow film and friction against time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from lubfric import solve_differential_deflection, solve_ehl
+from lubfric.analytic.film import moes_film
+
+from ..fem import ehl as fem
+from ..fem.fluid import Fluid
+from ..stability.film_map import case_of
+from .data import Point, interleaved
+
+POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
+DEFAULT = 3e-3
+
+
+def points(level: str) -> Iterator[Point]:
+    """One panel for each (M, L)."""
+    quick = level == "quick"
+    for M, L in POINTS[1:2] if quick else POINTS:
+        case = case_of(M, L)
+        exact = quantities(solve_ehl(**case, tolerance=2e-5, raise_on_failure=False))
+        for name, setting, default, (films, seconds, size) in runs(case, M, L, quick):
+            error = float(np.max(np.abs(np.array(films) / exact[:len(films)] - 1)))
+            yield Point("film", f"M = {M:g}, L = {L:g}", name, setting, error, *seconds, default=default, size=size)
+
+
+def quantities(film) -> np.ndarray:
+    """Smallest film, flow film [m], and ∫ eta/h dx (Newtonian shear force per sliding speed)."""
+    x, h, eta = film.x, film.film_thickness, film.viscosity
+    wet = x <= film.rupture + 1e-12 * film.half_width
+    return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
+
+
+def runs(case: dict, M: float, L: float, quick: bool):
+    """Yield (method, setting, is it the default, ((quantities), quartiles, unknowns))."""
+    repeats = 2 if quick else 7
+    tolerances = (1e-2, 3e-3) if quick else (0.05, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+    near = case | {"load_per_width": 0.97 * case["load_per_width"]}
+    calls = {}
+    for t in tolerances:
+        start = solve_ehl(**near, tolerance=t)
+        calls["default, cold", t] = lambda t=t: solve_ehl(**case, tolerance=t)
+        calls["default, warm", t] = lambda t=t, start=start: solve_ehl(**case, tolerance=t, start=start)
+    for (name, t), (film, seconds) in interleaved(calls, repeats).items():
+        yield name, f"tolerance {t:g}", t == DEFAULT, (quantities(film)[:2], seconds, film.state.pressure.size)
+    for nodes in (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097, 8193):
+        call = {"": lambda nodes=nodes: solve_differential_deflection(**case, nodes=nodes, tolerance=0.1, raise_on_failure=False)}
+        film, seconds = interleaved(call, 1 if quick else 3)[""]
+        if film.report.status == "converged":
+            yield "differential deflection", f"{nodes} nodes", False, (quantities(film)[:2], seconds, nodes)
+    yield from finite_elements(case, quick)
+    unit = case["radius"] * math.sqrt(2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"]))
+    formula = moes_film(M, L) * unit
+    yield "Moes formula (flow film)", "", False, ((math.nan, formula), interleaved({"": lambda: moes_film(M, L)}, 21)[""][1], 1)
+
+
+def finite_elements(case: dict, quick: bool):
+    """The full system on its nested meshes: the time of each includes the coarser ones."""
+    fluid = Fluid(case["viscosity"], viscosity_law=case["viscosity_law"],
+                  pressure_viscosity_coefficient=case["pressure_viscosity_coefficient"])
+    contact = fem.LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid)
+    for refinements in (0,) if quick else (0, 1, 2):
+        call = {"": lambda r=refinements: fem.solve_ehl(contact, refinements=r, raise_on_failure=False)}
+        solutions, seconds = interleaved(call, 1)[""]
+        if solutions[-1].report.converged and len(solutions) == refinements + 1:
+            last = solutions[-1]
+            yield "finite elements", f"{refinements} refinements", False, ((last.min_film, last.flow_film), seconds, last.P.size)

@@ -1,0 +1,98 @@
+"""Other people's contact solvers behind one signature, where they are installed (``pip install "lubfric[benchmark]"``).
+
+Each factory returns ``solve(load, tolerance) -> pressure`` [Pa], or None where its package is missing. Tolerances mean
+different things to each: compare them by one measured error, never by tolerance.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+from collections.abc import Callable
+
+import numpy as np
+
+COARSEST = 48
+
+Solver = Callable[[float, float], np.ndarray]
+
+
+def version(package: str) -> str:
+    """Installed version, or ""."""
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return ""
+
+
+def tamaas_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver | None:
+    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel runs on one thread whatever is asked."""
+    try:
+        import tamaas
+    except ImportError:
+        return None
+    tamaas.initialize(threads)
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    n = len(heights)
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [n * spacing] * 2, [n, n])
+    model.E, model.nu = e_prime / 2, 0.0
+
+    def solve(load: float, tolerance: float) -> np.ndarray:
+        model.traction[:] = 0.0
+        primal = tamaas.PolonskyKeerRey.pressure
+        solver = tamaas.PolonskyKeerRey(model, heights.copy(), tolerance, primal, primal)
+        solver.max_iter, solver.dump_freq = 20000, 10**9
+        solver.solve(load)
+        return np.array(model.traction).reshape(n, n)
+    return solve
+
+
+def aspher_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1,
+                  precision: str = "float_then_double", engine: str = "fft") -> Solver | None:
+    """Nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
+
+    Set OMP_NUM_THREADS before the process starts: OpenMP reads it once. ``heights`` must be square with an even side.
+    """
+    os.environ.setdefault("OMP_NUM_THREADS", str(threads))
+    try:
+        import aspher
+    except ImportError:
+        return None
+    n = coarsest = len(heights)
+    while coarsest % 2 == 0 and coarsest > COARSEST:
+        coarsest //= 2
+    gap = heights.max() - heights
+
+    def solve(load: float, tolerance: float) -> np.ndarray:
+        result = aspher.solve_nested(n, gap, load, domain_size=n * spacing, E_star=e_prime / 2, coarsest=coarsest,
+                                     tol=tolerance, backend="periodic", precision=precision, precond_engine=engine)
+        return np.array(result.pressure).reshape(n, n)
+    return solve
+
+
+def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
+    """The default of the library, its operator made once."""
+    from lubfric import solve_contact
+    from lubfric.halfspace import half_space
+    operator = half_space(heights.shape, spacing, e_prime, workers=threads)
+
+    def solve(load: float, tolerance: float) -> np.ndarray:
+        return solve_contact(heights.max() - heights, spacing, e_prime, mean_pressure=load, tolerance=tolerance,
+                             operator=operator, raise_on_failure=False).pressure
+    return solve
+
+
+def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
+    """Plain Polonsky-Keer with the library's operator."""
+    from lubfric.halfspace import half_space
+
+    from .polonsky_keer import polonsky_keer
+    operator = half_space(heights.shape, spacing, e_prime, workers=threads)
+
+    def solve(load: float, tolerance: float) -> np.ndarray:
+        return polonsky_keer(heights.max() - heights, operator, load, tolerance)[0]
+    return solve
+
+
+CONTACT = {"lubfric": lubfric_solver, "plain Polonsky-Keer": polonsky_keer_solver, "aspher": aspher_solver,
+           "tamaas": tamaas_solver}
