@@ -15,7 +15,8 @@ from .run import run
 from .studies import STUDIES, Study
 
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
-SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "mutations": "verification.mutations"}
+SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "mutations": "verification.mutations",
+                               "charts": "verification.charts.command", "stability": "verification.stability.command"}
 
 
 def main(argv: list[str] | None = None) -> int:
