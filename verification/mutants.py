@@ -91,9 +91,7 @@ def reversed_couette(original):
 
 def first_row_only(original):
     """Gap of the first row along y instead of the mean."""
-    return lambda patch, film, gap, contact: original(
-        patch, film, np.broadcast_to(gap[:, :1], gap.shape), contact
-    )
+    return lambda patch, film, gap, contact: original(patch, film, np.broadcast_to(gap[:, :1], gap.shape), contact)
 
 
 def decadic_exponent(original):
@@ -129,9 +127,7 @@ def no_penetration(original):
 
 def half_load(original):
     """The contact pressed with half of what it should carry."""
-    return lambda *args, **options: original(
-        *args, **options | {"mean_pressure": options["mean_pressure"] / 2}
-    )
+    return lambda *args, **options: original(*args, **options | {"mean_pressure": options["mean_pressure"] / 2})
 
 
 def lower_side(original):
@@ -196,7 +192,7 @@ MUTANTS = (
         },
     ),
     Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.patch:solve_contact": half_load}),
-    Mutant("shear_side", "shear taken on the lower surface", {"lubfric.mixed:shear_force": lower_side}),
+    Mutant("shear_side", "shear taken on the lower surface", {"lubfric.levels.balance_at:shear_force": lower_side}),
     Mutant(
         "lost_images",
         "semi-periodic operator without its waves along y, the sum over images",

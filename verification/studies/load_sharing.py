@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -93,23 +93,21 @@ class Point:
         )
 
 
-def scene(cells: int) -> lubfric.Scene:
-    """The paper's cylinder on a patch of ``cells`` squared; `rough` makes the heights."""
+def scene() -> lubfric.Scene:
+    """The paper's cylinder, everything modelled on the grid given."""
     return lubfric.load_scene("paper").with_(
-        surface={"correlation_length": 2.5 * LENGTH / cells},
-        contact={"shape": (cells, cells), "spacing": LENGTH / cells},
-        numerics={"tolerance": 1e-3, "ehl_tolerance": 1e-4},
+        numerics={"tolerance": 1e-4, "ehl_tolerance": 1e-4, "balance_tolerance": 1e-6, "model": "full"}
     )
 
 
 def elastic() -> Elastic:
     """The body that stands for both."""
-    return Elastic.from_e_prime(scene(16).bodies.e_prime, 0.3)
+    return Elastic.from_e_prime(scene().bodies.e_prime, 0.3)
 
 
 def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
-    asked, block = scene(finest).surface, finest // cells
+    asked, block = scene().surface, finest // cells
     surface = lubfric.generate_surface(
         (finest, finest),
         LENGTH / finest,
@@ -121,15 +119,9 @@ def rough(finest: int, cells: int) -> np.ndarray:
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
 
-def model_with(heights: np.ndarray):
-    """`lubfric` made ready for these heights."""
-    model = prepare(scene(heights.shape[0]))
-    return replace(model, patch=replace(model.patch, heights=heights))
-
-
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) -> Point:
     """One speed by both methods; the finite-element root starts from no knowledge of the other's."""
-    s = scene(heights.shape[0])
+    s, cell = scene(), LENGTH / heights.shape[0]
     b, oil = s.bodies, s.lubricant
     fluid = Fluid(oil.viscosity, oil.viscosity_law, oil.pressure_viscosity_coefficient)
     line = LineContact(b.load / b.width, b.radius, b.e_prime, speed, fluid)
@@ -146,7 +138,7 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) 
         heights.shape[0],
         speed,
         share_load(bodies, refinements=refinements),
-        lubfric.friction(model_with(heights), speed, fields=True),
+        lubfric.friction(prepare(s, lubfric.Surface(heights, (cell, cell))), speed, fields=True),
     )
 
 
@@ -256,9 +248,7 @@ def pressure_field(p: Point) -> Field:
     edges = np.linspace(-LENGTH / 2, LENGTH / 2, p.cells + 1)
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
-    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(
-        -1, 4
-    )
+    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
     contact = p.main.balance.closure.contact
     values = {
         "pressure": p.fem.pressed.pressure,
@@ -269,8 +259,7 @@ def pressure_field(p: Point) -> Field:
     values |= {f"{name}_difference": values[f"{name}_lubfric"] - values[name] for name in ("pressure", "gap")}
     return Field(
         "load_sharing",
-        f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric, and "
-        "the differences",
+        f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric, and the differences",
         np.column_stack([x.ravel(), y.ravel()]),
         {"quad": quads},
         cell_data={name: [v.ravel()] for name, v in values.items()},
