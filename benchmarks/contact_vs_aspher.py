@@ -51,7 +51,7 @@ def compare(solvers, load, reference, target, repeats):
     for repeat in range(repeats):
         for name, solve in solvers.items():
             if name == "tamaas" and repeat >= max(1, repeats // 3):
-                continue                                        # minutes each; its spread is small against its distance
+                continue  # minutes each; its spread is small against its distance
             begun = time.perf_counter()
             solve(load, found[name][0])
             seconds[name].append(time.perf_counter() - begun)
@@ -59,7 +59,9 @@ def compare(solvers, load, reference, target, repeats):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--cells", type=int, nargs="+", default=[816, 2048])
     parser.add_argument("--loads", type=float, nargs="+", default=[50, 200, 1000], help="MPa")
     parser.add_argument("--repeats", type=int, default=5)
@@ -68,21 +70,39 @@ def main() -> None:
     parser.add_argument("--without", nargs="*", default=[], help="opponents to leave out")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    rows = []
+    rows, ours = [], float("nan")
     for cells in options.cells:
         heights = surface(cells)
         made = {"lubfric": lubfric_solver, "aspher": aspher_solver, "tamaas": tamaas_solver}
-        solvers = {k: f(heights, SPACING, E_PRIME, options.threads) for k, f in made.items() if k not in options.without}
+        solvers = {
+            k: f(heights, SPACING, E_PRIME, options.threads)
+            for k, f in made.items()
+            if k not in options.without
+        }
         solvers = {k: s for k, s in solvers.items() if s is not None}
         for load in options.loads:
             reference = solvers["lubfric"](1e6 * load, 1e-10)
-            for name, tolerance, error, median, low, high in compare(solvers, 1e6 * load, reference, options.target,
-                                                                     options.repeats):
-                ours = median if name == "lubfric" else ours
-                print(f"{cells:5d}²  {load:5g} MPa  {name:8s} tolerance {tolerance:7.1e}  error {error:7.1e}  "
-                      f"{median:8.3f} s [{low:.3f}, {high:.3f}]  {median / ours:6.2f} x lubfric", flush=True)
-                rows.append(dict(cells=cells, load=load, name=name, tolerance=tolerance, error=error, median=median,
-                                 low=low, high=high))
+            for name, tolerance, error, median, low, high in compare(
+                solvers, 1e6 * load, reference, options.target, options.repeats
+            ):
+                ours = median if name == "lubfric" else ours  # the first of every table
+                print(
+                    f"{cells:5d}²  {load:5g} MPa  {name:8s} tolerance {tolerance:7.1e}  error {error:7.1e}  "
+                    f"{median:8.3f} s [{low:.3f}, {high:.3f}]  {median / ours:6.2f} x lubfric",
+                    flush=True,
+                )
+                rows.append(
+                    dict(
+                        cells=cells,
+                        load=load,
+                        name=name,
+                        tolerance=tolerance,
+                        error=error,
+                        median=median,
+                        low=low,
+                        high=high,
+                    )
+                )
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1))
 

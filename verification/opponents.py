@@ -44,11 +44,18 @@ def tamaas_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: 
         solver.max_iter, solver.dump_freq = 20000, 10**9
         solver.solve(load)
         return np.array(model.traction).reshape(n, n)
+
     return solve
 
 
-def aspher_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1,
-                  precision: str = "float_then_double", engine: str = "fft") -> Solver | None:
+def aspher_solver(
+    heights: np.ndarray,
+    spacing: float,
+    e_prime: float,
+    threads: int = 1,
+    precision: str = "float_then_double",
+    engine: str = "fft",
+) -> Solver | None:
     """Nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
 
     Set OMP_NUM_THREADS before the process starts: OpenMP reads it once. ``heights`` must be square with an even side.
@@ -64,9 +71,20 @@ def aspher_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: 
     gap = heights.max() - heights
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        result = aspher.solve_nested(n, gap, load, domain_size=n * spacing, E_star=e_prime / 2, coarsest=coarsest,
-                                     tol=tolerance, backend="periodic", precision=precision, precond_engine=engine)
+        result = aspher.solve_nested(
+            n,
+            gap,
+            load,
+            domain_size=n * spacing,
+            E_star=e_prime / 2,
+            coarsest=coarsest,
+            tol=tolerance,
+            backend="periodic",
+            precision=precision,
+            precond_engine=engine,
+        )
         return np.array(result.pressure).reshape(n, n)
+
     return solve
 
 
@@ -74,11 +92,20 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
     """The default of the library, its operator made once."""
     from lubfric import solve_contact
     from lubfric.halfspace import half_space
+
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        return solve_contact(heights.max() - heights, spacing, e_prime, mean_pressure=load, tolerance=tolerance,
-                             operator=operator, raise_on_failure=False).pressure
+        return solve_contact(
+            heights.max() - heights,
+            spacing,
+            e_prime,
+            mean_pressure=load,
+            tolerance=tolerance,
+            operator=operator,
+            raise_on_failure=False,
+        ).pressure
+
     return solve
 
 
@@ -87,12 +114,18 @@ def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, th
     from lubfric.halfspace import half_space
 
     from .polonsky_keer import polonsky_keer
+
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
         return polonsky_keer(heights.max() - heights, operator, load, tolerance)[0]
+
     return solve
 
 
-CONTACT = {"lubfric": lubfric_solver, "plain Polonsky-Keer": polonsky_keer_solver, "aspher": aspher_solver,
-           "tamaas": tamaas_solver}
+CONTACT = {
+    "lubfric": lubfric_solver,
+    "plain Polonsky-Keer": polonsky_keer_solver,
+    "aspher": aspher_solver,
+    "tamaas": tamaas_solver,
+}

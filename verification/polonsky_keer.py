@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 
-def polonsky_keer(gap0: np.ndarray, operator, mean_pressure: float, tolerance: float = 1e-6,
-                  max_iterations: int = 5000) -> tuple[np.ndarray, bool]:
+def polonsky_keer(
+    gap0: np.ndarray, operator, mean_pressure: float, tolerance: float = 1e-6, max_iterations: int = 5000
+) -> tuple[np.ndarray, bool]:
     """(pressure [Pa], converged) for any ``operator`` with ``apply``.
 
     Converged when sum(p |g|)/sum(p) and the deepest overlap are <= tolerance times the load-weighted deflection

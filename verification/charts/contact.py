@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,19 +17,30 @@ from .data import Point, interleaved
 
 SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
 DEFAULT = 1e-6
-BOUNDARIES = {"periodic": ("periodic", "periodic"), "periodic along y": ("free", "periodic"), "free": ("free", "free")}
+BOUNDARIES = {
+    "periodic": ("periodic", "periodic"),
+    "periodic along y": ("free", "periodic"),
+    "free": ("free", "free"),
+}
 OWN = ("lubfric", "plain Polonsky-Keer", "paper, single loop", "paper, alternating")
 
 
 def heights(n: int, acf: str, seed: int = 0) -> np.ndarray:
     """Periodic Gaussian heights [m]; a smaller grid is every other point of the next larger one."""
-    finest = 2048
+    z = _finest(acf, seed)
+    step = len(z) // n
+    return np.ascontiguousarray(z[::step, ::step])
+
+
+@lru_cache(maxsize=2)
+def _finest(acf: str, seed: int, finest: int = 2048) -> np.ndarray:
     x = np.fft.fftfreq(finest) * finest * SPACING * 512 / finest
     r = np.hypot(x[:, None], x) / LENGTH
     amplitude = np.sqrt(np.maximum(np.fft.fft2(np.exp(-r if acf == "exponential" else -r * r)).real, 0))
-    z = np.fft.ifft2(amplitude * np.fft.fft2(np.random.default_rng(seed).standard_normal((finest, finest)))).real
-    z = (z - z.mean()) * (SIGMA / z.std())
-    return np.ascontiguousarray(z[::finest // n, ::finest // n])
+    z = np.fft.ifft2(
+        amplitude * np.fft.fft2(np.random.default_rng(seed).standard_normal((finest, finest)))
+    ).real
+    return (z - z.mean()) * (SIGMA / z.std())
 
 
 def points(level: str) -> Iterator[Point]:
@@ -39,10 +51,18 @@ def points(level: str) -> Iterator[Point]:
     for acf in ("gaussian",) if quick else ("exponential", "gaussian"):
         z = heights(n, acf)
         for pressure in (200e6,) if quick else (50e6, 200e6, 1000e6):
-            yield from panel(z, pressure, "periodic", f"{acf}, {pressure / 1e6:g} MPa, {n}²", tolerances, quick)
+            yield from panel(
+                z, pressure, "periodic", f"{acf}, {pressure / 1e6:g} MPa, {n}²", tolerances, quick
+            )
     for name in list(BOUNDARIES)[1:]:
-        yield from panel(heights(64 if quick else 128, "exponential"), 200e6, name,
-                         f"{name}, exponential, 200 MPa, {64 if quick else 128}²", tolerances[:5], quick)
+        yield from panel(
+            heights(64 if quick else 128, "exponential"),
+            200e6,
+            name,
+            f"{name}, exponential, 200 MPa, {64 if quick else 128}²",
+            tolerances[:5],
+            quick,
+        )
     yield from grids(quick)
 
 
@@ -54,11 +74,19 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     weight = np.ones(z.shape)
     options = dict(operator=operator, boundary=kind, raise_on_failure=False)
     gap0 = z.max() - z
-    found = {"lubfric": lambda t: solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, tolerance=t, **options).pressure,
-             "paper, single loop": lambda t: single_loop(z, mean_gap, spacing, E_PRIME, weight=weight, tolerance=t,
-                                                         max_iterations=600, **options).pressure,
-             "paper, alternating": lambda t: alternating(z, mean_gap, spacing, E_PRIME, weight=weight, tolerance=t,
-                                                         **options).pressure}
+    found = {
+        "lubfric": lambda t: (
+            solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, tolerance=t, **options).pressure
+        ),
+        "paper, single loop": lambda t: (
+            single_loop(
+                z, mean_gap, spacing, E_PRIME, weight=weight, tolerance=t, max_iterations=600, **options
+            ).pressure
+        ),
+        "paper, alternating": lambda t: (
+            alternating(z, mean_gap, spacing, E_PRIME, weight=weight, tolerance=t, **options).pressure
+        ),
+    }
     if boundary == "periodic":
         for name in ("plain Polonsky-Keer", "aspher", "tamaas"):
             solver = CONTACT[name](z, spacing, E_PRIME)
@@ -70,16 +98,31 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
 def panel(z, pressure: float, boundary: str, label: str, tolerances, quick: bool) -> Iterator[Point]:
     """Every method at every tolerance against one tight solution."""
     spacing = 512 * SPACING / len(z)
-    tight = solve_contact(z.max() - z, spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-11,
-                          boundary=BOUNDARIES[boundary], raise_on_failure=False)
+    tight = solve_contact(
+        z.max() - z,
+        spacing,
+        E_PRIME,
+        mean_pressure=pressure,
+        tolerance=1e-11,
+        boundary=BOUNDARIES[boundary],
+        raise_on_failure=False,
+    )
     solvers = methods(z, pressure, boundary, tight.mean_gap)
     for tolerance in tolerances:
         calls = {name: lambda s=solve: attempt(s, tolerance) for name, solve in solvers.items()}
         for name, (p, seconds) in interleaved(calls, 1 if quick else 3).items():
             if p is not None:
                 error = float(np.linalg.norm(p - tight.pressure) / np.linalg.norm(tight.pressure))
-                yield Point("contact", label, name, f"tolerance {tolerance:g}", error, *seconds, size=z.size,
-                            default=name == "lubfric" and tolerance == DEFAULT)
+                yield Point(
+                    "contact",
+                    label,
+                    name,
+                    f"tolerance {tolerance:g}",
+                    error,
+                    *seconds,
+                    size=z.size,
+                    default=name == "lubfric" and tolerance == DEFAULT,
+                )
 
 
 def attempt(solve, tolerance: float):
@@ -97,12 +140,24 @@ def grids(quick: bool) -> Iterator[Point]:
         solved = {}
         for n in sizes:
             z = heights(n, acf)
-            call = {"lubfric": lambda z=z, n=n: solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6)}
+            call = {
+                "lubfric": lambda z=z, n=n: solve_contact(
+                    z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6
+                )
+            }
             solved[n] = interleaved(call, 1)["lubfric"]
         finest = solved[sizes[-1]][0]
         for n in sizes[:-1]:
             result, seconds = solved[n]
             for what in ("contact_area_fraction", "mean_gap"):
                 off = abs(getattr(result, what) / getattr(finest, what) - 1)
-                yield Point("contact", "discretisation, 200 MPa", f"{acf}, {what.replace('_fraction', '').replace('_', ' ')}",
-                            f"{n}²", result.report.residual, *seconds, discretisation=off, size=n * n)
+                yield Point(
+                    "contact",
+                    "discretisation, 200 MPa",
+                    f"{acf}, {what.replace('_fraction', '').replace('_', ' ')}",
+                    f"{n}²",
+                    result.report.residual,
+                    *seconds,
+                    discretisation=off,
+                    size=n * n,
+                )

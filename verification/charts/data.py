@@ -42,7 +42,9 @@ class Point:
     work: float = float("nan")
 
 
-def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[object, tuple[float, float, float]]]:
+def interleaved(
+    calls: dict[str, Callable], repeats: int
+) -> dict[str, tuple[object, tuple[float, float, float]]]:
     """{name: (value, (median, lower, upper quartile) of seconds)}, the repeats of all calls taken in turn."""
     seconds, values = {name: [] for name in calls}, {}
     for _ in range(repeats):
@@ -50,7 +52,10 @@ def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[obj
             begun = time.perf_counter()
             values[name] = call()
             seconds[name].append(time.perf_counter() - begun)
-    return {name: (values[name], tuple(float(q) for q in np.quantile(seconds[name], (0.5, 0.25, 0.75)))) for name in calls}
+    return {
+        name: (values[name], tuple(float(q) for q in np.quantile(seconds[name], (0.5, 0.25, 0.75))))
+        for name in calls
+    }
 
 
 def machine() -> str:
@@ -58,8 +63,10 @@ def machine() -> str:
     found = environment()
     parts = [f"{name} {found[name]}" for name in ("python", "numpy", "scipy") if name in found]
     parts += [f"{name} {version(name)}" for name in ("tamaas", "aspher") if version(name)]
-    return (f"{processor()}, {os.cpu_count()} cores, OMP_NUM_THREADS={os.environ.get('OMP_NUM_THREADS', 'unset')}; "
-            f"{', '.join(parts)}; {time.strftime('%Y-%m-%d')}")
+    return (
+        f"{processor()}, {os.cpu_count()} cores, OMP_NUM_THREADS={os.environ.get('OMP_NUM_THREADS', 'unset')}; "
+        f"{', '.join(parts)}; {time.strftime('%Y-%m-%d')}"
+    )
 
 
 def processor() -> str:
@@ -68,13 +75,17 @@ def processor() -> str:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
         return platform.processor() or platform.machine()
-    return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
+    return next(
+        (line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine()
+    )
 
 
 def save(points: list[Point], out: Path, name: str) -> None:
     """``name``.csv and ``name``.json in ``out``."""
     out.mkdir(parents=True, exist_ok=True)
-    (out / f"{name}.json").write_text(json.dumps({"machine": machine(), "points": [asdict(p) for p in points]}, indent=1))
+    (out / f"{name}.json").write_text(
+        json.dumps({"machine": machine(), "points": [asdict(p) for p in points]}, indent=1)
+    )
     with open(out / f"{name}.csv", "w", newline="") as stream:
         writer = csv.writer(stream)
         writer.writerow([f.name for f in fields(Point)])

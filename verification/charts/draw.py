@@ -17,28 +17,54 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
     panels = list(dict.fromkeys(p.panel for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
-    canvas, axes = plotting.axes(rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False)
+    canvas, axes = plotting.axes(
+        rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False
+    )
     colours = palette(points)
-    for ax in axes.ravel()[len(panels):]:
+    for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, label in zip(axes.ravel(), panels):
         chosen = [p for p in points if p.panel == label]
         for method in dict.fromkeys(p.method for p in chosen):
             curve(ax, [p for p in chosen if p.method == method], colours[method])
         apart = any(np.isfinite(p.discretisation) for p in chosen)
-        ax.set(xscale="log", yscale="log", xlabel="seconds", title=label,
-               ylabel="discretisation error" if apart else "solver error")
+        ax.set(
+            xscale="log",
+            yscale="log",
+            xlabel="seconds",
+            title=label,
+            ylabel="discretisation error" if apart else "solver error",
+        )
+        ax.xaxis.set_minor_formatter("")
+        ax.title.set_fontsize(9)
     handles = [axes[0, 0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
-    handles.append(axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
-    canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
-    canvas.suptitle(machine, fontsize=6.5)
+    handles.append(
+        axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0]
+    )
+    canvas.legend(
+        handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8
+    )
+    canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish(name, canvas, name, format="png")
 
 
 def palette(points: list[Point]) -> dict[str, str]:
     """A colour for each method, our default first."""
-    methods = sorted(dict.fromkeys(p.method for p in points), key=lambda m: (m not in ORDER, ORDER.index(m) if m in ORDER else 0))
-    colours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B", "#7F7F7F"]
+    methods = sorted(
+        dict.fromkeys(p.method for p in points),
+        key=lambda m: (m not in ORDER, ORDER.index(m) if m in ORDER else 0),
+    )
+    colours = [
+        "#0072B2",
+        "#D55E00",
+        "#009E73",
+        "#CC79A7",
+        "#E69F00",
+        "#56B4E9",
+        "#000000",
+        "#8C564B",
+        "#7F7F7F",
+    ]
     return {m: colours[i % len(colours)] for i, m in enumerate(methods)}
 
 
@@ -47,7 +73,9 @@ def curve(ax, points: list[Point], colour: str) -> None:
     errors = [p.discretisation if np.isfinite(p.discretisation) else p.error for p in points]
     times = np.array([p.seconds for p in points])
     spread = np.abs([times - [p.low for p in points], [p.high for p in points] - times])
-    ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
+    ax.errorbar(
+        times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8
+    )
     for p, e in zip(points, errors):
         if p.default:
             ax.plot(p.seconds, e, "o", mfc="none", mec="k", ms=10)
@@ -62,11 +90,17 @@ def growth(points: list[Point], machine: str) -> Figure:
         sizes = [p.size for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
         axes[0, column].loglog(sizes, [p.seconds for p in chosen], "o-")
-        axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
+        axes[0, column].set(
+            title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit
+        )
         if label == "contact":
-            axes[0, column].set_title(f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\n"
-                                      f"convolutions ~ N^{exponent(chosen, 'work'):.2f}")
+            axes[0, column].set_title(
+                f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\n"
+                f"convolutions ~ N^{exponent(chosen, 'work'):.2f}"
+            )
         axes[1, column].loglog(sizes, [p.memory / 1e6 for p in chosen], "o-", color="#D55E00")
-        axes[1, column].set(title=f"memory ~ N^{exponent(chosen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
-    canvas.suptitle(machine, fontsize=6.5)
+        axes[1, column].set(
+            title=f"memory ~ N^{exponent(chosen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit
+        )
+    canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish("performance-growth", canvas, "Cost growth", format="png")

@@ -14,37 +14,53 @@ from .data import Point
 
 ROOT = Path(__file__).parents[2]
 START = "import json, resource, sys, time\nimport numpy as np\n"
-REPORT = ("\nprint(json.dumps(dict(seconds=times, work=work, size=size, memory=1024 * (resource.getrusage("
-          "resource.RUSAGE_SELF).ru_maxrss - before))))")
+REPORT = (
+    "\nprint(json.dumps(dict(seconds=times, work=work, size=size, memory=1024 * (resource.getrusage("
+    "resource.RUSAGE_SELF).ru_maxrss - before))))"
+)
 BEFORE = "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
-CONTACT = START + """
+CONTACT = (
+    START
+    + """
 from lubfric import solve_contact
 from lubfric.halfspace import half_space
 from verification.charts.growth import rough
 n = int(sys.argv[1])
 z = rough(n)
 solve_contact(-z[:32, :32], 2e-6, 231e9, mean_pressure=2e8)
-""" + BEFORE + """
+"""
+    + BEFORE
+    + """
 operator = half_space(z.shape, 2e-6, 231e9)
 times = []
 for _ in range(3 if n <= 1024 else 1):
     begun = time.perf_counter()
     r = solve_contact(-z, 2e-6, 231e9, mean_pressure=2e8, operator=operator)
     times.append(time.perf_counter() - begun)
-work, size = r.report.evaluations, n * n""" + REPORT
-FILM = START + """
+work, size = r.report.evaluations, n * n"""
+    + REPORT
+)
+FILM = (
+    START
+    + """
 from lubfric import solve_ehl, solve_differential_deflection
 from verification.stability.film_map import case_of
 case, nodes = case_of(20, 5), int(sys.argv[1])
 solve_differential_deflection(**case)
-""" + BEFORE + """
+"""
+    + BEFORE
+    + """
 times = []
 for _ in range(5):
     begun = time.perf_counter()
     r = solve_differential_deflection(**case, nodes=nodes, tolerance=0.1, raise_on_failure=False)
     times.append(time.perf_counter() - begun)
-work, size = r.report.iterations, nodes""" + REPORT
-NEWTON = START + """
+work, size = r.report.iterations, nodes"""
+    + REPORT
+)
+NEWTON = (
+    START
+    + """
 from lubfric import solve_ehl
 from lubfric.ehl.newton import newton
 from lubfric.ehl.solve import _ascend
@@ -52,30 +68,42 @@ from verification.charts.growth import newton_problem
 problem, state = newton_problem()
 n = int(sys.argv[1])
 _ascend(problem, 1.0, 60, state, 48, 1)
-""" + BEFORE + """
+"""
+    + BEFORE
+    + """
 times = []
 for _ in range(5 if n < 1600 else 1):
     begun = time.perf_counter()
     levels = _ascend(problem, 1.0, 60, state, n, 1)
     times.append(time.perf_counter() - begun)
-work, size = len(levels[-1].history) - 1, n""" + REPORT
-SWEEP = START + """
+work, size = len(levels[-1].history) - 1, n"""
+    + REPORT
+)
+SWEEP = (
+    START
+    + """
 import lubfric
 from lubfric.mixed import prepare
 model = prepare(lubfric.load_scene("paper").with_(contact={"shape": (50, 50), "spacing": 1.8e-6}))
 lubfric.stribeck(model, [0.1])
-""" + BEFORE + """
+"""
+    + BEFORE
+    + """
 n = int(sys.argv[1])
 begun = time.perf_counter()
 r = lubfric.stribeck(model, np.geomspace(1e-4, 1.0, n))
 times = [time.perf_counter() - begun]
-work, size = n, n""" + REPORT
+work, size = n, n"""
+    + REPORT
+)
 
 
 def rough(n: int) -> np.ndarray:
     """Heights [m] of the same statistics at any size, in single-precision noise: cheap enough for 4096²."""
     k = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(n)) * 2 * np.pi * 17
-    z = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * (1 + k * k) ** -0.75, s=(n, n))
+    z = np.fft.irfft2(
+        np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * (1 + k * k) ** -0.75, s=(n, n)
+    )
     return (z - z.mean()) * (240e-9 / z.std())
 
 
@@ -86,6 +114,7 @@ def newton_problem():
     from lubfric.lubricant import Lubricant
 
     from ..stability.film_map import case_of
+
     case = case_of(20, 5)
     oil = Lubricant(case["viscosity"], case["pressure_viscosity_coefficient"], "roelands", "constant")
     problem = Problem(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
@@ -96,19 +125,39 @@ def points(level: str) -> Iterator[Point]:
     """Each size in a process of its own, whose peak memory is its own."""
     quick = level == "quick"
     for label, code, sizes in (
-            ("contact", CONTACT, (128, 256) if quick else (128, 256, 512, 1024, 2048, 4096)),
-            ("EHL, Newton, one grid, warm", NEWTON, (48, 96) if quick else (48, 96, 192, 384, 768, 1536, 3072, 6144)),
-            ("EHL, differential deflection", FILM, (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097, 8193)),
-            ("sweep, 50² contact", SWEEP, (1, 5) if quick else (1, 3, 10, 30, 100, 300, 1000))):
+        ("contact", CONTACT, (128, 256) if quick else (128, 256, 512, 1024, 2048, 4096)),
+        (
+            "EHL, Newton, one grid, warm",
+            NEWTON,
+            (48, 96) if quick else (48, 96, 192, 384, 768, 1536, 3072, 6144),
+        ),
+        (
+            "EHL, differential deflection",
+            FILM,
+            (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097, 8193),
+        ),
+        ("sweep, 50² contact", SWEEP, (1, 5) if quick else (1, 3, 10, 30, 100, 300, 1000)),
+    ):
         for size in sizes:
             found = measured(code, size)
-            yield Point("growth", label, label, str(size), float("nan"), *np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist(),
-                        size=found["size"], memory=max(found["memory"], 1), work=found["work"])
+            yield Point(
+                "growth",
+                label,
+                label,
+                str(size),
+                float("nan"),
+                *np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist(),
+                size=found["size"],
+                memory=max(found["memory"], 1),
+                work=found["work"],
+            )
 
 
 def measured(code: str, size: int) -> dict:
     """Run ``code`` with the size as its argument."""
-    done = subprocess.run([sys.executable, "-c", code, str(size)], capture_output=True, text=True, cwd=ROOT, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(size)], capture_output=True, text=True, cwd=ROOT, check=False
+    )
     if done.returncode:
         raise RuntimeError(done.stderr[-2000:])
     return json.loads(done.stdout.splitlines()[-1])
@@ -117,7 +166,9 @@ def measured(code: str, size: int) -> dict:
 def exponent(points: list[Point], quantity: str) -> float:
     """Least-squares slope of log(quantity) over log(size), the larger half of the sizes."""
     chosen = sorted((p for p in points if getattr(p, quantity) > 0), key=lambda p: p.size)
-    chosen = chosen[len(chosen) // 2 - 1:] if len(chosen) > 3 else chosen
+    chosen = chosen[len(chosen) // 2 - 1 :] if len(chosen) > 3 else chosen
     if len(chosen) < 2:
         return float("nan")
-    return float(np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0])
+    return float(
+        np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0]
+    )

@@ -24,10 +24,22 @@ def points(level: str) -> Iterator[Point]:
     exact = coefficients(scene(n, tolerance=TIGHT / 3 if not quick else TIGHT), speeds)
     for name, numerics in variants.items():
         tolerances = (0.1, 0.01) if quick else (0.1, 0.03, 0.01, 0.005, 0.002)
-        calls = {t: lambda t=t, numerics=numerics: coefficients(scene(n, tolerance=t, **numerics), speeds) for t in tolerances}
+        calls = {
+            t: lambda t=t, numerics=numerics: coefficients(scene(n, tolerance=t, **numerics), speeds)
+            for t in tolerances
+        }
         for t, (f, seconds) in interleaved(calls, 1 if quick else 3).items():
-            yield point("whole job, tolerance", name, f"tolerance {t:g}", f, exact, seconds, speeds.size,
-                        not numerics and t == DEFAULT, n)
+            yield point(
+                "whole job, tolerance",
+                name,
+                f"tolerance {t:g}",
+                f,
+                exact,
+                seconds,
+                speeds.size,
+                not numerics and t == DEFAULT,
+                n,
+            )
     yield from grids(quick, speeds)
 
 
@@ -36,16 +48,22 @@ def scene(n: int, **numerics):
     finest = 400
     base = load_scene("paper").with_(numerics=numerics)
     from lubfric import Surface, generate_surface
-    full = generate_surface((finest, finest), 90e-6 / finest, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=1)
+
+    full = generate_surface(
+        (finest, finest), 90e-6 / finest, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=1
+    )
     step = finest // n
     del Surface
-    return base.with_(contact={"shape": (n, n), "spacing": 90e-6 / n}), np.ascontiguousarray(full.heights[::step, ::step][:n, :n])
+    return base.with_(contact={"shape": (n, n), "spacing": 90e-6 / n}), np.ascontiguousarray(
+        full.heights[::step, ::step][:n, :n]
+    )
 
 
 def coefficients(pair, speeds) -> np.ndarray:
     """Friction coefficients of one scene on its height map."""
     from lubfric import Surface
     from lubfric.mixed import prepare
+
     made, heights = pair
     model = prepare(made, Surface(heights, made.contact.spacing))
     return stribeck(model, speeds, raise_on_failure=False).coefficient
@@ -54,14 +72,37 @@ def coefficients(pair, speeds) -> np.ndarray:
 def point(panel, method, setting, f, exact, seconds, count, default, n, apart=False) -> Point:
     """Largest relative deviation of f over the speeds; seconds per point, preparation included."""
     off = float(np.nanmax(np.abs(f / exact - 1)))
-    return Point("job", panel, method, setting, float("nan") if apart else off, *(s / count for s in seconds),
-                 discretisation=off if apart else float("nan"), default=default, size=n * n)
+    return Point(
+        "job",
+        panel,
+        method,
+        setting,
+        float("nan") if apart else off,
+        *(s / count for s in seconds),
+        discretisation=off if apart else float("nan"),
+        default=default,
+        size=n * n,
+    )
 
 
 def grids(quick: bool, speeds) -> Iterator[Point]:
     """One surface on coarser contact grids against the finest."""
     sizes = (40, 50, 100) if quick else (40, 50, 80, 100, 200, 400)
-    solved = {n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""] for n in sizes}
+    solved = {
+        n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""]
+        for n in sizes
+    }
     for n in sizes[:-1]:
         f, seconds = solved[n]
-        yield point("whole job, contact grid", "default", f"{n}²", f, solved[sizes[-1]][0], seconds, speeds.size, n == 200, n, True)
+        yield point(
+            "whole job, contact grid",
+            "default",
+            f"{n}²",
+            f,
+            solved[sizes[-1]][0],
+            seconds,
+            speeds.size,
+            n == 200,
+            n,
+            True,
+        )

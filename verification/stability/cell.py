@@ -66,10 +66,20 @@ def judged(condition: Condition, method: str, solve: Callable, check: Callable, 
     try:
         result = solve()
     except Exception as failure:
-        if not (isinstance(failure, lubfric.LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
+        if not (
+            isinstance(failure, lubfric.LubfricError)
+            or type(failure).__name__ in ("SolveError", "InputError")
+        ):
             raise
-        return _cell(condition, method, FAILED, math.nan, f"{type(failure).__name__}: {failure}"[:300],
-                     time.perf_counter() - begun, default)
+        return _cell(
+            condition,
+            method,
+            FAILED,
+            math.nan,
+            f"{type(failure).__name__}: {failure}"[:300],
+            time.perf_counter() - begun,
+            default,
+        )
     seconds = time.perf_counter() - begun
     ratios = check(result)
     worst = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
@@ -78,5 +88,16 @@ def judged(condition: Condition, method: str, solve: Callable, check: Callable, 
 
 
 def _cell(condition, method, verdict, error, note, seconds, default) -> Cell:
-    return Cell(condition.map, condition.panel, method, float(condition.x), float(condition.y), verdict, error, note,
-                seconds, default, bool(condition.inside))
+    return Cell(
+        condition.map,
+        condition.panel,
+        method,
+        float(condition.x),
+        float(condition.y),
+        verdict,
+        error,
+        note,
+        seconds,
+        default,
+        bool(condition.inside),
+    )

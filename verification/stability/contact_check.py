@@ -10,7 +10,9 @@ from scipy import fft
 import lubfric.halfspace
 
 
-def deflection(pressure: np.ndarray, spacing: tuple[float, float], e_prime: float, boundary: tuple[str, str]) -> np.ndarray:
+def deflection(
+    pressure: np.ndarray, spacing: tuple[float, float], e_prime: float, boundary: tuple[str, str]
+) -> np.ndarray:
     """u = K p [m]: periodic by the full complex transform; free by sums of Love's cells over all pairs; mixed by the
     library's operator, which its own tests hold against quadrature and image sums."""
     if boundary == ("periodic", "periodic"):
@@ -34,16 +36,21 @@ def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
         r = np.hypot(x, y)
         return x * np.log(y + r) + y * np.log(x + r)
 
-    kernel = 2 / (math.pi * e_prime) * (corner(right, high) - corner(left, high) - corner(right, low) + corner(left, low))
-    table = kernel[(np.arange(nx)[:, None] - np.arange(nx)) + nx - 1]                  # (nx, nx, 2 ny - 1)
+    kernel = (
+        2
+        / (math.pi * e_prime)
+        * (corner(right, high) - corner(left, high) - corner(right, low) + corner(left, low))
+    )
+    table = kernel[(np.arange(nx)[:, None] - np.arange(nx)) + nx - 1]  # (nx, nx, 2 ny - 1)
     u = np.zeros_like(pressure)
     for column in range(ny):
-        u += np.einsum("abj,b->aj", table[:, :, ny - 1 - column:2 * ny - 1 - column], pressure[:, column])
+        u += np.einsum("abj,b->aj", table[:, :, ny - 1 - column : 2 * ny - 1 - column], pressure[:, column])
     return u
 
 
-def contact_deviations(result, gap0, spacing, e_prime, boundary, hardness=None, mean_pressure=None,
-                       mean_gap=None) -> dict[str, float]:
+def contact_deviations(
+    result, gap0, spacing, e_prime, boundary, hardness=None, mean_pressure=None, mean_gap=None
+) -> dict[str, float]:
     """Deviations of a `ContactResult`, dimensionless.
 
     Lengths are measured by sum(p u')/sum(p), u' = u less its least value under the contact, plus the mean gap: what is
@@ -63,10 +70,12 @@ def contact_deviations(result, gap0, spacing, e_prime, boundary, hardness=None, 
     length = (p * (u - u[touching].min())).sum() / total + np.maximum(gap, 0).mean()
     length = max(length, 4 * p.mean() * min(spacing) / e_prime)
     misfit = np.where(yielded, np.maximum(gap, 0), np.abs(gap))
-    found = {"complementarity": float((p * misfit).sum() / total / length),
-             "penetration": float(max(0.0, -(np.where(yielded, 0, gap)).min()) / length),
-             "sign": float(max(-p.min(), p.max() - limit if hardness else 0.0) / p.max()),
-             "fields": float(np.abs(gap - result.gap).max() / (length + np.abs(gap0).max() * 1e-6))}
+    found = {
+        "complementarity": float((p * misfit).sum() / total / length),
+        "penetration": float(max(0.0, -(np.where(yielded, 0, gap)).min()) / length),
+        "sign": float(max(-p.min(), p.max() - limit if hardness else 0.0) / p.max()),
+        "fields": float(np.abs(gap - result.gap).max() / (length + np.abs(gap0).max() * 1e-6)),
+    }
     if mean_pressure is not None:
         found["load"] = abs(p.mean() / mean_pressure - 1)
     if mean_gap is not None:

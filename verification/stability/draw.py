@@ -13,24 +13,36 @@ from .cell import FAILED, RIGHT, VERDICTS, WRONG, Cell
 
 COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
 MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
-AXES = {"film: load and material": ("load number M", "material number L"),
-        "film: speed and load": ("entrainment speed, m/s", "load, N/m"),
-        "film: tolerance": ("case", "tolerance asked for"), "film: poor start": ("start from case", "case"),
-        "film: starved inlet": ("load number M", "oil ahead, inlet lengths"),
-        "contact: load and surface": ("mean pressure / flattening pressure", "surface"),
-        "contact: hardness": ("hardness / E'", "mean pressure / hardness"),
-        "contact: size and aspect ratio": ("cell length / width", "grid"),
-        "contact: mean gap": ("mean gap / gap at first touch", "surface"),
-        "contact: roughness height": ("rms height, m", "mean pressure, Pa"),
-        "contact: tilt and offset": ("tilt, rms heights", "offset, m"),
-        "contact: precision, tolerance, start": ("tolerance", "input"),
-        "sharing: flat": ("film / roughness", "rms height, m"), "sharing: paper": ("film / roughness", "rms height, m"),
-        "sharing: speed, either sign": ("entrainment speed, m/s", "scene"),
-        "sharing: share of the contact": ("F_C / F_T", "")}
-LINEAR = {"film: load and material": "y", "film: tolerance": "x", "film: poor start": "xy", "contact: load and surface": "y",
-          "contact: size and aspect ratio": "y", "contact: mean gap": "y", "contact: tilt and offset": "xy",
-          "contact: precision, tolerance, start": "y", "sharing: speed, either sign": "xy",
-          "sharing: share of the contact": "y"}
+AXES = {
+    "film: load and material": ("load number M", "material number L"),
+    "film: speed and load": ("entrainment speed, m/s", "load, N/m"),
+    "film: tolerance": ("case", "tolerance asked for"),
+    "film: poor start": ("start from case", "case"),
+    "film: starved inlet": ("load number M", "oil ahead, inlet lengths"),
+    "contact: load and surface": ("mean pressure / flattening pressure", "surface"),
+    "contact: hardness": ("hardness / E'", "mean pressure / hardness"),
+    "contact: size and aspect ratio": ("cell length / width", "grid"),
+    "contact: mean gap": ("mean gap / gap at first touch", "surface"),
+    "contact: roughness height": ("rms height, m", "mean pressure, Pa"),
+    "contact: tilt and offset": ("tilt, rms heights", "offset, m"),
+    "contact: precision, tolerance, start": ("tolerance", "input"),
+    "sharing: flat": ("film / roughness", "rms height, m"),
+    "sharing: paper": ("film / roughness", "rms height, m"),
+    "sharing: speed, either sign": ("entrainment speed, m/s", "scene"),
+    "sharing: share of the contact": ("F_C / F_T", ""),
+}
+LINEAR = {
+    "film: load and material": "y",
+    "film: tolerance": "x",
+    "film: poor start": "xy",
+    "contact: load and surface": "y",
+    "contact: size and aspect ratio": "y",
+    "contact: mean gap": "y",
+    "contact: tilt and offset": "xy",
+    "contact: precision, tolerance, start": "y",
+    "sharing: speed, either sign": "xy",
+    "sharing: share of the contact": "y",
+}
 
 
 def counts(cells: list[Cell]) -> dict[tuple[str, str, bool], Counter]:
@@ -49,7 +61,9 @@ def table(cells: list[Cell]) -> str:
         lines.append(f"{name:<40}{label:<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
     defaults = [c for c in cells if c.default]
     found = Counter(c.verdict for c in defaults)
-    lines.append(f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
+    lines.append(
+        f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS)
+    )
     promised = sum(c.verdict == FAILED and c.inside for c in defaults)
     lines.append(f"reported failures of default methods inside the range promised: {promised}")
     return "\n".join(lines)
@@ -58,8 +72,9 @@ def table(cells: list[Cell]) -> str:
 def save(cells: list[Cell], seconds: float, level: str, out: Path) -> list[Path]:
     """stability.json and one PNG for each kind of map."""
     out.mkdir(parents=True, exist_ok=True)
-    (out / "stability.json").write_text(json.dumps(
-        {"level": level, "seconds": seconds, "cells": [c.as_dict() for c in cells]}, indent=0))
+    (out / "stability.json").write_text(
+        json.dumps({"level": level, "seconds": seconds, "cells": [c.as_dict() for c in cells]}, indent=0)
+    )
     files = []
     for kind in ("film", "contact", "sharing"):
         chosen = [c for c in cells if c.map.startswith(kind)]
@@ -76,7 +91,7 @@ def draw(kind: str, cells: list[Cell]):
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     canvas, axes = plotting.axes(rows, columns, width=11, height=2.9 * rows + 0.4, squeeze=False)
-    for ax in axes.ravel()[len(panels):]:
+    for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, (name, method) in zip(axes.ravel(), panels):
         panel(ax, [c for c in cells if (c.map, c.method) == (name, method)])
@@ -92,13 +107,23 @@ def panel(ax, cells: list[Cell]) -> None:
     found = Counter(c.verdict for c in cells)
     for verdict in VERDICTS:
         places = np.array([(c.x, c.y) for c in cells if c.verdict == verdict]).reshape(-1, 2)
-        ax.plot(places[:, 0], places[:, 1], MARKS[verdict], color=COLOURS[verdict], markersize=4,
-                zorder=1 + VERDICTS.index(verdict))
+        ax.plot(
+            places[:, 0],
+            places[:, 1],
+            MARKS[verdict],
+            color=COLOURS[verdict],
+            markersize=4,
+            zorder=1 + VERDICTS.index(verdict),
+        )
     for axis, values in (("x", [c.x for c in cells]), ("y", [c.y for c in cells])):
         if axis not in linear and min(values) > 0:
             getattr(ax, f"set_{axis}scale")("log")
         elif axis not in linear or name.startswith("sharing: speed") and axis == "x":
-            getattr(ax, f"set_{axis}scale")("symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12)
+            getattr(ax, f"set_{axis}scale")(
+                "symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12
+            )
     labels = AXES.get(name, ("", ""))
     ax.set(xlabel=labels[0], ylabel=labels[1])
-    ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)
+    ax.set_title(
+        f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9
+    )

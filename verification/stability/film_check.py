@@ -31,14 +31,17 @@ def density_ratio(law: str, pressure) -> np.ndarray:
     return np.ones_like(pressure) if law == "constant" else (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
-def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float) -> np.ndarray:
+def deflection(
+    points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float
+) -> np.ndarray:
     """-(4/(pi E')) ∫ p ln(|points - x|/reference) dx of a piecewise linear pressure."""
+
     def log(t):
         return np.log(np.where(t == 0, 1.0, np.abs(t)) / reference)
 
     left, right = x[:-1] - points[:, None], x[1:] - points[:, None]
     slope = np.diff(p) / np.diff(x)
-    at_point = p[:-1] - slope * left                      # the linear piece continued to the point
+    at_point = p[:-1] - slope * left  # the linear piece continued to the point
     flat = right * (log(right) - 1) - left * (log(left) - 1)
     ramp = right**2 * (0.5 * log(right) - 0.25) - left**2 * (0.5 * log(left) - 0.25)
     return -4 / (math.pi * e_prime) * (at_point * flat + slope * ramp).sum(axis=1)
@@ -63,20 +66,28 @@ def film_deviations(result, case: dict) -> dict[str, float]:
     tail = 0.0 if case.get("inlet_length") else 0.5 * abs(x[0]) * p[0]
     load = 0.5 * ((p[1:] + p[:-1]) * np.diff(x)).sum() + tail
     at_rupture = h[before][-1]
-    return {"elastic": float(np.max(np.abs(shape - h) / h)), "load": abs(load / case["load_per_width"] - 1),
-            "tension": max(0.0, -float(p.min() / p.max())),
-            "gap": max(0.0, 1 - float(h[~before].min() / at_rupture)) if (~before).any() else 0.0,
-            "flow": float(np.sqrt(np.mean(((flow - q) / np.maximum(mid, q))[wet] ** 2)))}
+    return {
+        "elastic": float(np.max(np.abs(shape - h) / h)),
+        "load": abs(load / case["load_per_width"] - 1),
+        "tension": max(0.0, -float(p.min() / p.max())),
+        "gap": max(0.0, 1 - float(h[~before].min() / at_rupture)) if (~before).any() else 0.0,
+        "flow": float(np.sqrt(np.mean(((flow - q) / np.maximum(mid, q))[wet] ** 2))),
+    }
 
 
 def cell_flow(x, p, result, case, law) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
     centre, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
     inside = 0.5 * (p[1:] + p[:-1])
-    h = (result.approach + deflection(centre, x, p, case["e_prime"], result.half_width)
-         + centre**2 / (2 * case["radius"]))
+    h = (
+        result.approach
+        + deflection(centre, x, p, case["e_prime"], result.half_width)
+        + centre**2 / (2 * case["radius"])
+    )
     steps = 0.5 * np.diff(p)[:, None] * POINTS
-    log_eta = viscosity_ratio(law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps)
+    log_eta = viscosity_ratio(
+        law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps
+    )
     fluidity = np.exp(-log_eta) @ (0.5 * WEIGHTS)
     poiseuille = h**3 * fluidity * np.diff(p) / dx / (12 * case["viscosity"] * abs(case["entrainment_speed"]))
     return density_ratio(case.get("density", "constant"), inside) * (h - poiseuille)

@@ -15,10 +15,10 @@ from .cell import Cell, Condition, judged
 from .film_check import film_deviations
 
 ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
-TOLERANCE = 3e-3                     # the default of `solve_ehl`
-FILM = 2.0                           # times the tolerance asked for: allowed difference of films to the judge
+TOLERANCE = 3e-3  # the default of `solve_ehl`
+FILM = 2.0  # times the tolerance asked for: allowed difference of films to the judge
 OWN = {"elastic": 1e-3, "load": 1e-3, "tension": 1e-3, "gap": 1e-3, "flow": 0.01}
-FORMULA = 0.10                       # error at which a regression formula counts as wrong
+FORMULA = 0.10  # error at which a regression formula counts as wrong
 LAWS = (("roelands", "constant"), ("barus", "constant"), ("roelands", "dowson-higginson"))
 PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
 
@@ -27,9 +27,16 @@ def case_of(M: float, L: float, law: str = "roelands", density: str = "constant"
     """SI arguments with the Moes numbers M and L; L = 0 is the constant viscosity."""
     law, effective = ("constant", 5.0) if L == 0 else (law, L)
     u1 = (effective / (ALPHA * E_PRIME)) ** 4
-    return {"load_per_width": M * math.sqrt(u1) * E_PRIME * RADIUS, "radius": RADIUS, "e_prime": E_PRIME,
-            "entrainment_speed": u1 * E_PRIME * RADIUS / (2 * VISCOSITY), "viscosity": VISCOSITY,
-            "pressure_viscosity_coefficient": ALPHA, "viscosity_law": law, "density": density}
+    return {
+        "load_per_width": M * math.sqrt(u1) * E_PRIME * RADIUS,
+        "radius": RADIUS,
+        "e_prime": E_PRIME,
+        "entrainment_speed": u1 * E_PRIME * RADIUS / (2 * VISCOSITY),
+        "viscosity": VISCOSITY,
+        "pressure_viscosity_coefficient": ALPHA,
+        "viscosity_law": law,
+        "density": density,
+    }
 
 
 def cells(level: str) -> Iterator[Cell]:
@@ -46,8 +53,10 @@ def cells(level: str) -> Iterator[Cell]:
 def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
     """(min_film, flow_film, method): another discretisation, else the tightest Newton solution."""
     case = dict(items)
-    for solve, name, tight in ((solve_differential_deflection, "differential deflection", max(tolerance / 3, 1e-4)),
-                               (solve_ehl, "tight", 1e-4)):
+    for solve, name, tight in (
+        (solve_differential_deflection, "differential deflection", max(tolerance / 3, 1e-4)),
+        (solve_ehl, "tight", 1e-4),
+    ):
         try:
             film = solve(**case, tolerance=tight)
         except LubfricError:
@@ -63,13 +72,17 @@ def reference(case: dict, tolerance: float = TOLERANCE) -> tuple[float, float, s
 
 def checked(case: dict, tolerance: float = TOLERANCE, judge=None):
     """check(result) for `judged`: own residuals, and both films against ``judge`` (default: `reference`)."""
+
     def check(film) -> dict[str, float]:
         smallest, flow, _ = judge or reference(case, tolerance)
         ratios = {name: value / OWN[name] for name, value in film_deviations(film, case).items()}
         if tolerance > TOLERANCE:
-            ratios["flow"] *= TOLERANCE / tolerance              # judged by the grid that was asked for
-        return ratios | {"min_film": abs(film.min_film / smallest - 1) / (FILM * tolerance),
-                         "flow_film": abs(film.flow_film / flow - 1) / (FILM * tolerance)}
+            ratios["flow"] *= TOLERANCE / tolerance  # judged by the grid that was asked for
+        return ratios | {
+            "min_film": abs(film.min_film / smallest - 1) / (FILM * tolerance),
+            "flow_film": abs(film.flow_film / flow - 1) / (FILM * tolerance),
+        }
+
     return check
 
 
@@ -94,6 +107,7 @@ def load_and_material(quick: bool) -> Iterator[Cell]:
 
 def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[Cell]:
     """The paper's discretisation, judged by the tight default, and Moes' formula."""
+
     def tight():
         film = solve_ehl(**case, tolerance=1e-4)
         return film.min_film, film.flow_film, "tight"
@@ -117,33 +131,75 @@ def speeds(quick: bool) -> Iterator[Cell]:
             case = PAPER | {"load_per_width": float(load), "entrainment_speed": sign * float(speed)}
             u1 = 2 * 0.36 * speed / (231e9 * 2e-3)
             M, L = load / (231e9 * 2e-3) / math.sqrt(u1), 25e-9 * 231e9 * u1**0.25
-            yield judged(Condition("film: speed and load", "steel cylinder, R = 2 mm", speed, load, promised(M, L)),
-                         "solve_ehl", lambda case=case: solve_ehl(**case), checked(case))
+            yield judged(
+                Condition("film: speed and load", "steel cylinder, R = 2 mm", speed, load, promised(M, L)),
+                "solve_ehl",
+                lambda case=case: solve_ehl(**case),
+                checked(case),
+            )
 
 
 def tolerances(quick: bool) -> Iterator[Cell]:
     """From one tenth, where grids are far too coarse, to 1e-4: the error has to be what was asked for."""
-    points = ((1e-2, 5), (10, 10), (100, 20), (1000, 5)) if quick else (
-        (1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10), (20, 5), (50, 10), (100, 5), (100, 15),
-        (100, 20), (1000, 2.5), (1000, 10), (1000, 20))
+    points = (
+        ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
+        if quick
+        else (
+            (1e-3, 5),
+            (1e-2, 5),
+            (0.1, 10),
+            (1, 0),
+            (1, 10),
+            (5, 5),
+            (10, 10),
+            (20, 5),
+            (50, 10),
+            (100, 5),
+            (100, 15),
+            (100, 20),
+            (1000, 2.5),
+            (1000, 10),
+            (1000, 20),
+        )
+    )
     for row, (M, L) in enumerate(points):
         case = case_of(M, L)
         for tolerance in (0.1, 1e-2, 1e-3) if quick else (0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3, 3e-4):
             here = Condition("film: tolerance", "cases by M, L", row, tolerance)
-            yield judged(here, "solve_ehl", lambda case=case, t=tolerance: solve_ehl(**case, tolerance=t),
-                         checked(case, tolerance))
+            yield judged(
+                here,
+                "solve_ehl",
+                lambda case=case, t=tolerance: solve_ehl(**case, tolerance=t),
+                checked(case, tolerance),
+            )
 
 
 def starts(quick: bool) -> Iterator[Cell]:
     """Started from the solution of a contact that may be a million times lighter, or of another lubricant."""
-    points = ((1e-2, 5), (10, 5), (1000, 20)) if quick else (
-        (1e-3, 0.5), (1e-2, 5), (0.1, 20), (1, 5), (5, 15), (20, 5), (100, 1), (100, 20), (1000, 5), (1000, 20))
+    points = (
+        ((1e-2, 5), (10, 5), (1000, 20))
+        if quick
+        else (
+            (1e-3, 0.5),
+            (1e-2, 5),
+            (0.1, 20),
+            (1, 5),
+            (5, 15),
+            (20, 5),
+            (100, 1),
+            (100, 20),
+            (1000, 5),
+            (1000, 20),
+        )
+    )
     films = [solve_ehl(**case_of(M, L)) for M, L in points]
     for column, film in enumerate(films):
         for row, (M, L) in enumerate(points):
             case = case_of(M, L)
             here = Condition("film: poor start", "cases by M, L", column, row)
-            yield judged(here, "solve_ehl", lambda case=case, film=film: solve_ehl(**case, start=film), checked(case))
+            yield judged(
+                here, "solve_ehl", lambda case=case, film=film: solve_ehl(**case, start=film), checked(case)
+            )
 
 
 def starved(quick: bool) -> Iterator[Cell]:
@@ -155,5 +211,9 @@ def starved(quick: bool) -> Iterator[Cell]:
             half_width = math.sqrt(8 * case["load_per_width"] * RADIUS / (math.pi * E_PRIME))
             length = half_width + share * math.sqrt(2 * RADIUS * moes_film(M, 10) * unit)
             case["inlet_length"] = length
-            yield judged(Condition("film: starved inlet", "L = 10", M, share), "solve_ehl",
-                         lambda case=case: solve_ehl(**case), checked(case))
+            yield judged(
+                Condition("film: starved inlet", "L = 10", M, share),
+                "solve_ehl",
+                lambda case=case: solve_ehl(**case),
+                checked(case),
+            )

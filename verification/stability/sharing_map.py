@@ -13,7 +13,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric import LubfricError, friction, load_scene, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric import (
+    LubfricError,
+    friction,
+    load_scene,
+    solve_contact,
+    solve_differential_deflection,
+    solve_ehl,
+)
 from lubfric.mixed import Model, prepare
 
 from .cell import Cell, Condition, judged
@@ -55,36 +62,51 @@ def speed_for(scene, film_thickness: float) -> float:
 def film_case(scene, load: float, speed: float) -> dict:
     """Arguments of the film solvers for ``load`` [N]."""
     bodies, oil = scene.bodies, scene.lubricant
-    return {"load_per_width": load / bodies.width, "radius": bodies.radius, "e_prime": bodies.e_prime,
-            "entrainment_speed": speed, "viscosity": oil.viscosity,
-            "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
-            "viscosity_law": oil.viscosity_law, "density": oil.density_law}
+    return {
+        "load_per_width": load / bodies.width,
+        "radius": bodies.radius,
+        "e_prime": bodies.e_prime,
+        "entrainment_speed": speed,
+        "viscosity": oil.viscosity,
+        "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
+        "viscosity_law": oil.viscosity_law,
+        "density": oil.density_law,
+    }
 
 
 def checked(model: Model, speed: float):
     """check(result) for `judged`: sums of the result itself, and friction and contact load against `judge`."""
+
     def check(result) -> dict[str, float]:
         scene = model.scene
         total = scene.bodies.load
         forces = result.boundary_force + result.shear_force
         share = result.contact_load / total
-        found = {"load": abs((result.contact_load + result.film_load) / total - 1),
-                 "friction sum": abs(result.coefficient * total - forces) / abs(forces),
-                 "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0}
+        found = {
+            "load": abs((result.contact_load + result.film_load) / total - 1),
+            "friction sum": abs(result.coefficient * total - forces) / abs(forces),
+            "bounds": 0.0
+            if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1
+            else 1.0,
+        }
         if speed == 0:
             coefficient, split = scene.bodies.boundary_friction_coefficient, 1.0
         else:
             coefficient, split = judge(model, result, speed)
         found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
-        allowed = ALLOWED | {"load": 2 * scene.numerics.volume_tolerance}       # what one closure balances, the other keeps
+        allowed = ALLOWED | {
+            "load": 2 * scene.numerics.volume_tolerance
+        }  # what one closure balances, the other keeps
         return {name: value / allowed[name] for name, value in found.items()}
+
     return check
 
 
 def judge(model: Model, result, speed: float) -> tuple[float, float]:
     """(friction coefficient, F_C/F_T) from another film solver and fresh dry contacts: the split closed again."""
     from scipy.optimize import brentq
+
     scene, total = model.scene, model.scene.bodies.load
 
     def sides(split):
@@ -96,7 +118,7 @@ def judge(model: Model, result, speed: float) -> tuple[float, float]:
         contact = sides(split)[1]
         return math.log(contact.gap / contact.film)
 
-    if surplus(40.0) <= 0:                         # the film of the whole load clears the summits
+    if surplus(40.0) <= 0:  # the film of the whole load clears the summits
         film, contact = sides(40.0)
         return own_friction(scene, film, contact, 0.0, speed), 0.0
     share = min(max(result.film_load / total, 1e-13), 1 - 1e-13)
@@ -143,13 +165,24 @@ def judge_contact(model: Model, load: float, film) -> Sides:
     else:
         pressure = load / (scene.bodies.width * x.size * spacing[0])
         gap0, weight = smooth[:, None] - heights, patch.region_weight
-    dry = solve_contact(gap0, spacing, scene.bodies.e_prime, mean_pressure=pressure, hardness=scene.bodies.hardness,
-                        boundary=("periodic" if flat else "free", "periodic"), tolerance=1e-6)
+    dry = solve_contact(
+        gap0,
+        spacing,
+        scene.bodies.e_prime,
+        mean_pressure=pressure,
+        hardness=scene.bodies.hardness,
+        boundary=("periodic" if flat else "free", "periodic"),
+        tolerance=1e-6,
+    )
     gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
     if flat:
         return Sides(float(gap.mean()), float(smooth.mean()), x, np.full(x.size, touching.mean()))
-    return Sides(float(gap.mean(axis=1) @ weight / weight.sum()), float(smooth @ weight / weight.sum()), x,
-                 touching.mean(axis=1))
+    return Sides(
+        float(gap.mean(axis=1) @ weight / weight.sum()),
+        float(smooth @ weight / weight.sum()),
+        x,
+        touching.mean(axis=1),
+    )
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
@@ -160,13 +193,17 @@ def own_friction(scene, film, contact: Sides, contact_load: float, speed: float)
     x, p, h = film.x[order] * sign, film.pressure[order], film.film_thickness[order]
     wet = x <= sign * film.rupture + 1e-12 * film.half_width
     x, p, h = x[wet], p[wet], h[wet]
-    eta = oil.viscosity * np.exp(viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p))
+    eta = oil.viscosity * np.exp(
+        viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
+    )
     slide = ratio * abs(speed)
     free = 1 - np.interp(sign * x, contact.x, contact.touching, 0.0, 0.0)
     rate = free * slide / h
-    couette = np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])) + oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
+    couette = np.sum(
+        np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])
+    ) + oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
     rolling = np.sum(0.25 * (free[1:] + free[:-1]) * (h[1:] + h[:-1]) * np.diff(p)) / 2
-    rolling += 1.5 * p[0] * h[0]                       # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
+    rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
     return float((boundary + bodies.width * (couette + rolling)) / bodies.load)
 
@@ -188,27 +225,43 @@ def curves(name: str, quick: bool) -> Iterator[Cell]:
             for closure in ("load", "separation"):
                 model = replace(base, scene=base.scene.with_(numerics={"closure": closure}))
                 if closure == "separation" and name == "flat":
-                    continue                            # its curve has to reach further: prepared anew below
-                yield judged(Condition(f"sharing: {name}", "lambda by roughness", ratio, sq), f"closure = {closure}",
-                             lambda model=model, speed=speed: friction(model, speed), checked(model, speed),
-                             closure == "load")
+                    continue  # its curve has to reach further: prepared anew below
+                yield judged(
+                    Condition(f"sharing: {name}", "lambda by roughness", ratio, sq),
+                    f"closure = {closure}",
+                    lambda model=model, speed=speed: friction(model, speed),
+                    checked(model, speed),
+                    closure == "load",
+                )
 
 
 def special_speeds(quick: bool) -> Iterator[Cell]:
     """Nearly all film, nearly all contact, no entrainment, reversed entrainment."""
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
-        for speed in (0.0, -0.01, 0.01) if quick else (0.0, *np.geomspace(1e-10, 30, 12), *-np.geomspace(1e-10, 30, 12)):
+        for speed in (
+            (0.0, -0.01, 0.01)
+            if quick
+            else (0.0, *np.geomspace(1e-10, 30, 12), *-np.geomspace(1e-10, 30, 12))
+        ):
             here = Condition("sharing: speed, either sign", name, float(speed), column)
-            yield judged(here, "closure = load", lambda model=model, speed=speed: friction(model, float(speed)),
-                         checked(model, float(speed)))
+            yield judged(
+                here,
+                "closure = load",
+                lambda model=model, speed=speed: friction(model, float(speed)),
+                checked(model, float(speed)),
+            )
         yield from shares(model, name, quick)
 
 
 def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
-    for share in (0.5,) if quick else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6):
+    for share in (
+        (0.5,)
+        if quick
+        else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6)
+    ):
         low, high = math.log(1e-14), math.log(1e2)
         for _ in range(16 if quick else 40):
             middle = 0.5 * (low + high)
@@ -218,5 +271,9 @@ def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
                 break
             low, high = (middle, high) if found.contact_load > share * total else (low, middle)
         speed = math.exp(middle)
-        yield judged(Condition("sharing: share of the contact", name, share, 0.0), "closure = load",
-                     lambda speed=speed: friction(model, speed), checked(model, speed))
+        yield judged(
+            Condition("sharing: share of the contact", name, share, 0.0),
+            "closure = load",
+            lambda speed=speed: friction(model, speed),
+            checked(model, speed),
+        )

@@ -1,0 +1,104 @@
+"""Charts: data survive the round trip, exponents are fitted, errors are told apart, points come out sane."""
+
+import math
+
+import numpy as np
+import pytest
+
+from verification.__main__ import main
+from verification.charts import contact, draw
+from verification.charts.data import Point, interleaved, load, machine, save
+from verification.charts.growth import exponent
+from verification.opponents import CONTACT
+
+
+def sample(n, power=1.5):
+    return [
+        Point(
+            "growth",
+            "contact",
+            "contact",
+            str(k),
+            float("nan"),
+            1e-6 * k**power,
+            0.0,
+            0.0,
+            size=k,
+            memory=8.0 * k,
+            work=20.0,
+        )
+        for k in n
+    ]
+
+
+def test_data_survive_csv_and_json(tmp_path):
+    points = sample((10, 100, 1000))
+    save(points, tmp_path, "growth")
+    where, back = load(tmp_path / "growth.json")
+    assert where == machine()
+    assert [(p.size, p.seconds) for p in back] == [(p.size, p.seconds) for p in points]
+    assert math.isnan(back[0].error)
+    assert len((tmp_path / "growth.csv").read_text().splitlines()) == 4
+
+
+@pytest.mark.parametrize("power", [1.0, 1.5, 2.9])
+def test_exponents(power):
+    points = sample((16, 64, 256, 1024, 4096), power)
+    assert exponent(points, "seconds") == pytest.approx(power)
+    assert exponent(points, "memory") == pytest.approx(1.0)
+    assert exponent(points, "work") == pytest.approx(0.0, abs=1e-12)
+
+
+def test_repeats_are_interleaved():
+    order = []
+    calls = {name: lambda name=name: order.append(name) for name in "ab"}
+    found = interleaved(calls, 3)
+    assert order == list("ababab")
+    median, low, high = found["a"][1]
+    assert 0 <= low <= median <= high
+
+
+def test_coarser_grids_sample_the_same_surface():
+    fine, coarse = contact.heights(128, "gaussian"), contact.heights(64, "gaussian")
+    assert np.array_equal(fine[::2, ::2], coarse)
+
+
+def test_methods_agree_and_errors_fall_with_the_tolerance():
+    z = contact.heights(64, "exponential")
+    points = list(contact.panel(z, 200e6, "periodic", "test", (1e-3, 1e-6), quick=True))
+    ours = [p.error for p in points if p.method == "lubfric"]
+    assert ours[1] < 1e-5 < 1e-2 and ours[1] < ours[0] < 0.1
+    tight = {p.method: p.error for p in points if p.setting == "tolerance 1e-06"}
+    assert set(tight) >= {"lubfric", "plain Polonsky-Keer", "paper, single loop", "paper, alternating"}
+    assert max(tight.values()) < 1e-3
+    assert [p.setting for p in points if p.default] == ["tolerance 1e-06"]
+
+
+def test_opponents_give_none_where_they_are_not_installed(monkeypatch):
+    import sys
+
+    z = contact.heights(64, "gaussian")
+    for name in ("aspher", "tamaas"):
+        monkeypatch.setitem(sys.modules, name, None)
+        assert CONTACT[name](z, 1e-6, 231e9) is None
+
+
+def test_redraw_from_saved_data(tmp_path, capsys):
+    save(sample((10, 100, 1000, 10000)), tmp_path, "growth")
+    save(
+        [
+            Point("contact", "a", "lubfric", "tolerance 1e-06", 1e-7, 0.1, 0.09, 0.12, default=True),
+            Point("contact", "b", "lubfric", "64²", 1e-7, 0.1, 0.09, 0.12, discretisation=0.01),
+        ],
+        tmp_path,
+        "contact",
+    )
+    assert main(["charts", "--redraw", "--only", "growth", "contact", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "performance-contact.png").stat().st_size > 1000
+    assert draw.palette([]) == {}
+
+
+@pytest.mark.slow
+def test_quick_charts(tmp_path):
+    assert main(["charts", "--quick", "--out", str(tmp_path)]) == 0
+    assert len(list(tmp_path.glob("performance-*.png"))) == 4

@@ -1,0 +1,180 @@
+"""Stability maps: the judge catches wrong answers, the default gives none, what a user meets at the edges."""
+
+import warnings
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric.contact.residual import deflection_scale
+from lubfric.halfspace import half_space
+from verification.polonsky_keer import polonsky_keer
+from verification.stability import contact_map, film_map, sharing_map
+from verification.stability.cell import FAILED, RIGHT, WRONG, Condition, judged
+from verification.stability.contact_check import contact_deviations, deflection
+from verification.stability.draw import save, table
+from verification.stability.film_check import film_deviations
+
+HERE = Condition("contact: load and surface", "", 1.0, 1.0)
+
+
+def test_verdicts():
+    def fails():
+        raise ConvergenceError("gave up")
+
+    assert judged(HERE, "m", fails, dict).verdict == FAILED
+    assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 0.1}).verdict == RIGHT
+    assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 1.1}).verdict == WRONG
+    assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": float("nan")}).note == "b"
+    assert judged(HERE, "m", lambda: 1, lambda r: {"b": float("nan")}).verdict == WRONG
+
+
+def test_a_defect_is_not_a_reported_failure():
+    def breaks():
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        judged(HERE, "m", breaks, dict)
+
+
+@pytest.mark.parametrize("fault", ["pressure", "film", "flow", "approach"])
+def test_the_film_judge_sees_a_wrong_film(fault):
+    from dataclasses import replace
+
+    case = film_map.case_of(20, 5)
+    good = solve_ehl(**case)
+    assert max(v / film_map.OWN[k] for k, v in film_deviations(good, case).items()) < 1
+    bad = {
+        "pressure": {"pressure": 1.02 * good.pressure},
+        "film": {"film_thickness": 1.01 * good.film_thickness},
+        "flow": {"flow_film": 1.05 * good.flow_film},
+        "approach": {"approach": good.approach + 0.05 * good.min_film},
+    }
+    wrong = replace(good, **bad[fault])
+    assert max(v / film_map.OWN[k] for k, v in film_deviations(wrong, case).items()) > 1
+
+
+@pytest.mark.parametrize("fault", ["scaled", "moved", "tension", "approach"])
+def test_the_contact_judge_sees_a_wrong_contact(fault):
+    from dataclasses import replace
+
+    z = contact_map.surface("exponential", 32, 32)
+    good = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=2e8)
+    bad = {
+        "scaled": {"pressure": 1.001 * good.pressure},
+        "moved": {"pressure": np.roll(good.pressure, 1, 0)},
+        "tension": {"pressure": good.pressure - 1e-3 * good.pressure.max() * (good.pressure > 0)},
+        "approach": {"approach": good.approach + 1e-3 * z.std()},
+    }
+
+    def worst(result):
+        found = contact_deviations(result, z.max() - z, 1e-6, 231e9, contact_map.PERIODIC, mean_pressure=2e8)
+        return max(v / contact_map.OWN[k] for k, v in found.items())
+
+    assert worst(good) < 1 < worst(replace(good, **bad[fault]))
+
+
+@pytest.mark.parametrize("boundary", contact_map.BOUNDARIES.values())
+def test_deflection_of_the_judge_agrees_with_the_operator(boundary):
+    p = np.random.default_rng(1).random((12, 9))
+    u = deflection(p, (1e-6, 2e-6), 231e9, boundary)
+    assert u == pytest.approx(half_space(p.shape, (1e-6, 2e-6), 231e9, boundary).apply(p), rel=1e-10)
+
+
+def test_polonsky_keer_agrees_with_the_default():
+    z = contact_map.surface("gaussian", 48, 48)
+    p, converged = polonsky_keer(z.max() - z, half_space(z.shape, 1e-6, 231e9), 1e8, tolerance=1e-9)
+    ours = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=1e8, tolerance=1e-9).pressure
+    assert converged and np.linalg.norm(p - ours) < 1e-6 * np.linalg.norm(ours)
+
+
+def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cells = list(contact_map.cells("quick"))
+    assert len(cells) > 100
+    assert Counter(c.verdict for c in cells) == {RIGHT: len(cells)}
+
+
+def test_films_at_the_corners_of_the_promise():
+    for M in (1e-3, 1000):
+        for L in (0, 20):
+            case = film_map.case_of(M, L)
+            cell = judged(
+                Condition("film: load and material", "", M, L),
+                "solve_ehl",
+                lambda case=case: solve_ehl(**case),
+                film_map.checked(case),
+            )
+            assert cell.verdict == RIGHT, cell
+
+
+def test_the_judge_of_load_sharing_closes_the_same_balance():
+    model = sharing_map.model_of("flat", 100e-9, 32)
+    result = lubfric.friction(model, 1e-3)
+    coefficient, share = sharing_map.judge(model, result, 1e-3)
+    assert result.coefficient == pytest.approx(coefficient, rel=0.02)
+    assert result.contact_load / 5.5 == pytest.approx(share, abs=0.02)
+
+
+def test_bulk_deflection_does_not_hide_open_gaps():
+    # a rough flat that is free along x, pressed flat: the mean deflection is hundreds of roughness heights
+    z = contact_map.surface("exponential", 97, 12)
+    for aspect in (10.0, 50.0):
+        result = solve_contact(
+            z.max() - z, (aspect * 1e-6, 1e-6), 231e9, mean_pressure=3e10, boundary=("free", "periodic")
+        )
+        gap = np.abs(result.gap[result.pressure > 0])
+        assert gap.max() < 1e-3 * z.std()
+
+
+def test_scale_of_residuals_is_bounded_without_periodicity():
+    operator = half_space((8, 8), 1e-6, 231e9, "free")
+    ripple = 4 / np.pi * 1e9 * 1e-6 / 231e9
+    assert deflection_scale(1.0 * 64e9, 64e9, 1e-9, operator) == pytest.approx(ripple)
+    assert deflection_scale(1.0 * 64e9, 64e9, 1.0, operator) == pytest.approx(1.0)
+    assert deflection_scale(0.0, 64e9, 1e-9, operator) == pytest.approx(1e-9)
+
+
+@pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
+@pytest.mark.parametrize("kind, hardness", [("noise", None), ("gaussian", 0.05 * 231e9)])
+def test_mean_gap_of_a_hundredth_without_periodicity(boundary, kind, hardness):
+    z = contact_map.surface(kind, 32, 32)
+    asked = 1e-2 * (z.max() - z.mean())
+    result = solve_contact(z.max() - z, 1e-6, 231e9, boundary=boundary, mean_gap=asked, hardness=hardness)
+    assert np.maximum(result.gap, 0).mean() == pytest.approx(asked, rel=1e-6)
+
+
+def test_a_load_below_rounding_rests_on_one_cell():
+    z = contact_map.surface("exponential", 32, 32)
+    result = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=1e-20)
+    assert np.count_nonzero(result.pressure) == 1 and result.mean_pressure == pytest.approx(1e-20, rel=1e-12)
+
+
+def test_contact_curve_holds_its_accuracy_near_full_contact():
+    from lubfric.contact_curve import contact_curve
+
+    z = contact_map.surface("exponential", 48, 48, 1e-9)
+    heaviest = 0.7 * contact_map.full_contact(z, 1e-6)
+    curve = contact_curve(z, 1e-6, 231e9, heaviest=heaviest, tolerance=1e-6)
+    for share in (0.55, 0.3, 0.07, 0.01):
+        exact = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=share * heaviest).mean_gap
+        assert curve.at(share * heaviest)[0] == pytest.approx(exact, rel=0.01)
+
+
+def test_two_discretisations_of_the_film_agree():
+    case = film_map.case_of(50, 10)
+    newton, other = solve_ehl(**case, tolerance=1e-3), solve_differential_deflection(**case, tolerance=1e-3)
+    assert newton.min_film == pytest.approx(other.min_film, rel=2e-3)
+
+
+def test_table_and_figures(tmp_path):
+    cells = [
+        judged(HERE, "solve_contact", lambda: 1, lambda r: {"a": 0.1}),
+        judged(HERE, "solve_contact", lambda: 1, lambda r: {"a": 2.0}, default=False),
+    ]
+    assert "reported failures of default methods inside the range promised: 0" in table(cells)
+    (picture,) = save(cells, 1.0, "quick", tmp_path)
+    assert picture.read_bytes()[:4] == b"\x89PNG" and (tmp_path / "stability.json").exists()
