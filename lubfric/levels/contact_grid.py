@@ -12,16 +12,19 @@ from ..patch import CylinderPatch, strip_weight
 LEAST_ROUGHNESS = 0.9      # of Sq, kept by the averages over the largest cells
 MARGIN = 0.1               # of the length in contact, kept free on each side
 MARGIN_CELLS = 4
+TOUCH = 1e-3               # of Sq: an overlap that is none
 
 
 def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch | None:
     """The patch on cells twice as long and wide (an axis of too few or odd cells is kept), its heights averaged.
 
-    half_width [m] of the area A (None: all of the patch). None where neither axis can be halved.
+    half_width [m] of the area A (None: all of the patch), which has to stay wider than a cell. None where neither axis
+    can be halved.
     """
     operator = patch.operator
-    factors = tuple(2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
-                    for kept, padded in zip(operator.shape, operator.padded))
+    wide = half_width is not None and 2 * patch.spacing[0] > half_width
+    factors = tuple(2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST and not fixed else 1
+                    for kept, padded, fixed in zip(operator.shape, operator.padded, (wide, False)))
     if factors == (1, 1):
         return None
     (nx, ny), (fx, fy) = operator.shape, factors
@@ -62,6 +65,21 @@ def cut(patch: CylinderPatch, ends: tuple[float, float]) -> CylinderPatch:
     keep = slice(first, first + count)
     return replace(patch, heights=patch.heights[keep], x=patch.x[keep], region_weight=patch.region_weight[keep],
                    operator=patch.operator.shortened(count))
+
+
+def holds(patch: CylinderPatch, whole: CylinderPatch, under: np.ndarray, contact) -> bool:
+    """No cell of ``whole`` outside its part ``patch`` is touched: one convolution of the contact found on the part.
+
+    under [m] (nx,): what ``whole`` is pressed under (the film, up to a constant).
+    """
+    if contact is None or patch is whole:
+        return True
+    first = int(np.searchsorted(whole.x, patch.x[0] - 0.5 * patch.spacing[0]))
+    pressure = np.zeros(whole.heights.shape)
+    pressure[first:first + patch.x.size] = contact.pressure
+    gap = whole.operator.apply(pressure) + under[:, None] - whole.heights - contact.approach
+    gap[first:first + patch.x.size] = 0.0
+    return bool(gap.min() >= -TOUCH * whole.heights.std())
 
 
 def _weight(x, step, half_width) -> np.ndarray:

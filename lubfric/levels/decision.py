@@ -32,12 +32,12 @@ class Decision:
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
     forced: tuple[str, ...] = ()
-    note: str = ""
+    notes: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
         """In words, the number beside its budget."""
-        return "; ".join(part for part in (self._film(), self._contact(), self._grid(), self.note) if part)
+        return "; ".join(part for part in (self._film(), self._contact(), self._grid(), *self.notes) if part)
 
     def _film(self) -> str:
         text = f"film: {WORDS[self.film]}"

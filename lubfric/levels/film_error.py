@@ -9,10 +9,11 @@ from functools import cache
 import numpy as np
 
 from ..ehl.kernel import hat_kernel
-from ..lubricant import Lubricant, density_ratio, viscosity
+from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
 from ..rigid_film import CELLS, RigidFilm, unit_nodes
 
 STRIDE = 2                # of the nodes: the deflection is smooth
+STIFFEST = 50.0           # ln(eta/eta0): a rigid film of such pressures means nothing
 
 
 @dataclass(frozen=True)
@@ -45,13 +46,16 @@ def elastic_error(film: RigidFilm, lubricant: Lubricant) -> float:
     A small change d(x) of the film changes the reduced pressure by dq' = 12 eta0 U ((d - dr)/h³ - 3 (h - hr) d/h⁴),
     hr the film at rupture and dr such that dq vanishes there; the load by ∫ (eta/eta0) dq dx. d is the deflection
     plus the shift that leaves the load as it is. Returned: the larger of |d|/h at the centre, and of the change of
-    ∫ eta/h dx. At M -> 0 both are a number times M².
+    ∫ eta/h dx. At M -> 0 both are a number times M². Infinite where the viscosity rises above e^50.
     """
     nodes, kernel = _unit_deflection()
     sign = math.copysign(1.0, film.entrainment_speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
     p = film.pressure[order][:CELLS + 1:STRIDE]
-    thin = viscosity(lubricant, p) / lubricant.viscosity
+    rise = log_viscosity_ratio(lubricant, p)[0]
+    if not rise.max() < STIFFEST:
+        return math.inf
+    thin = np.exp(rise)
     length = math.sqrt(2 * film.radius * film.min_film)
     x, h = length * nodes, film.min_film * (1 + nodes**2)
     bend = length / film.e_prime * (kernel @ p)

@@ -12,6 +12,12 @@ WORDS = {ISOVISCOUS: "rigid isoviscous", PIEZOVISCOUS: "rigid piezoviscous", EHL
 RIGID = {ISOVISCOUS: isoviscous_film, PIEZOVISCOUS: piezoviscous_film}
 
 
+def higher(level: str, other: str) -> str:
+    """The one that leaves out less."""
+    order = (ISOVISCOUS, PIEZOVISCOUS, EHL)
+    return max(level, other, key=order.index)
+
+
 def film_at_level(level: str, scene: Scene, speed: float, load: float, *, tolerance: float, start=None):
     """The film that carries ``load`` [N] at ``speed`` [m/s]: a `RigidFilm`, or an `EHLResult` to ``tolerance``."""
     bodies, lubricant = scene.bodies, scene.lubricant
@@ -32,7 +38,7 @@ def lowest_level(scene: Scene, speed: float, load: float, budget: float) -> tupl
     """
     thin = film_at_level(ISOVISCOUS, scene, speed, load, tolerance=budget)
     error = rigid_error(thin, scene.lubricant)
-    if error.total > budget:
+    if not error.total <= budget:
         return EHL, error
     thick = film_at_level(PIEZOVISCOUS, scene, speed, load, tolerance=budget)
     error = rigid_error(thin, scene.lubricant, thick)

@@ -25,15 +25,17 @@ from .balance_at import (
     moved_split,
     separated_at,
 )
-from .contact_grid import cut, grids, in_contact
+from .contact_grid import cut, grids, holds, in_contact
 from .decision import FILM_SHARE, GRID_SHARE, Decision
 from .film_error import FilmError
-from .film_level import EHL, ISOVISCOUS, level_error, lowest_level
+from .film_level import EHL, ISOVISCOUS, higher, level_error, lowest_level
 
 LOOSEST_FILM, LOOSEST_VOLUME = 0.03, 0.02
-TIGHTEST_FILM, TIGHTEST_VOLUME = 1e-5, 1e-8
+TIGHTEST_FILM, TIGHTEST_SHEAR, TIGHTEST_VOLUME = 2e-4, 3e-4, 1e-7
 LARGEST_ERROR = 0.3        # of a film to first order: beyond it the estimate is none
+ROUNDS = 8                 # of one balance, each with a higher level or tighter tolerances
 SLACK = 1.5                # a tolerance off by less is not worth another solve
+LEAST_CONTACT = 1e-6       # of the load: less is next to separation on this grid
 WORST_GRID = 2.0           # relative error of the film's load that the coarsest grid may make
 SAFE_FILM = 2.0            # times Moes' film: more than any film has
 
@@ -59,21 +61,37 @@ def settle(model, speed: float, start: Balance | None = None, *, given_grid: boo
         return balance, replace(decision, contact=_contact_name(model), shape=_shape(model.patch))
     touching = numerics.contact_level != "none" and _certainly_touching(model, model.patch, speed)
     if not touching:
-        balance, settings, error = _separated(model, speed, start)
-        clearance = -(balance.closure.mean_gap - balance.closure.mean_film) / max(model.surface.sq, 1e-12)
+        stage = _separated(model, speed, start)
+        closure = stage.balance.closure
+        clearance = (closure.mean_film - closure.mean_gap) / max(model.surface.sq, 1e-12)
         if clearance >= 0 or numerics.contact_level == "none":
-            return balance, replace(decision, film=settings.level, contact="none", film_error=error, clearance=clearance,
-                                    film_tolerance=settings.film_tolerance if settings.level == EHL else 0.0)
+            return stage.balance, replace(_described(decision, stage), contact="none", clearance=clearance)
     return _in_contact(model, speed, start, decision, given_grid or numerics.grid == "given" or numerics.model == "full")
 
 
-def _separated(model, speed, start) -> tuple[Balance, Settings, FilmError]:
+def _separated(model, speed, start) -> Stage:
+    """The film with the whole load, at the level and on the grid that f asks for."""
     numerics, load = model.scene.numerics, model.scene.bodies.load
     level, error = numerics.forced_film_level, FilmError()
     if level == "auto":
         level, error = lowest_level(model.scene, speed, load, FILM_SHARE * numerics.tolerance)
     settings = Settings(level, numerics.film_tolerance, numerics.volume_tolerance)
-    return separated_at(model, model.patch, speed, settings, start), settings, FilmError() if level == EHL else error
+    while True:
+        balance = separated_at(model, model.patch, speed, settings, start)
+        found = forces(model.scene, speed, balance)
+        stage = Stage(balance, found, model.patch, settings, FilmError() if level == EHL else error)
+        finer = _finer_film(numerics, settings, found, settings.film_tolerance)
+        if finer >= settings.film_tolerance / SLACK:
+            return stage
+        settings, start = replace(settings, film_tolerance=finer), balance
+
+
+def _finer_film(numerics, settings, found: Forces, film_tolerance: float) -> float:
+    """Tolerance of the film at which also the sum of its shear stress should be good enough."""
+    if settings.level != EHL or numerics.ehl_tolerance is not None or settings.film_tolerance <= TIGHTEST_SHEAR:
+        return film_tolerance
+    excess = found.quadrature / (0.3 * numerics.tolerance)
+    return film_tolerance if excess <= 1 else max(min(film_tolerance, settings.film_tolerance / 4), TIGHTEST_SHEAR)
 
 
 def _certainly_touching(model, patch, speed) -> bool:
@@ -91,7 +109,7 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
     index, changes, error = 0, [], math.inf
     stage = _stage(model, ladder[0], speed, *_begin(model, speed, start))
     while index < last and error > limit:
-        if stage.balance.contact_load == 0:                      # so coarse that the summits are gone
+        if stage.balance.contact_load < LEAST_CONTACT * model.scene.bodies.load:     # too coarse to hold the summits
             index += 1
             stage = _stage(model, ladder[index], speed, None, stage.settings)
             continue
@@ -99,17 +117,25 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
         if index > 0:
             stage = _stage(model, moved.patch, speed, moved.balance, moved.settings, ladder[index])
         error = _grid_error(changes, stage, limit)
-    note = ""
-    if index == last:
-        if error > decision.tolerance and last > 0:
-            note = (f"the map is too coarse for its roughness: cells half as long would change f by an estimated "
-                    f"{100 * error:.2g} %")
-        error = None
-    return stage.balance, replace(
-        decision, film=stage.settings.level, contact=_contact_name(model), film_error=stage.film_error,
-        sensitivity=stage.forces.sensitivity, shape=_shape(stage.patch), grid_error=error, note=note,
-        coarsening=_coarsening(model.patch, stage.patch),
-        film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0)
+    decision = replace(_described(decision, stage), contact=_contact_name(model), shape=_shape(stage.patch),
+                       coarsening=_coarsening(model.patch, stage.patch))
+    if index < last:
+        return stage.balance, replace(decision, grid_error=error)
+    if decision.tolerance < error < math.inf:
+        note = f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
+        decision = replace(decision, notes=(*decision.notes, note))
+    return stage.balance, decision
+
+
+def _described(decision: Decision, stage: Stage) -> Decision:
+    """``decision`` with what is known of the film of a stage."""
+    notes = ()
+    if stage.settings.level == EHL and stage.forces.quadrature > 0.3 * decision.tolerance:
+        notes = (f"the film's friction is not resolved (a pressure spike?): estimated error "
+                 f"{100 * stage.forces.quadrature:.1g} % of f",)
+    return replace(decision, film=stage.settings.level, film_error=stage.film_error, notes=notes,
+                   sensitivity=stage.forces.sensitivity,
+                   film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0)
 
 
 def _begin(model, speed, start: Balance | None) -> tuple[Balance | None, Settings]:
@@ -129,18 +155,21 @@ def _begin(model, speed, start: Balance | None) -> tuple[Balance | None, Setting
 def _stage(model, patch, speed, begun: Balance | None, settings: Settings, whole=None) -> Stage:
     """The balance on ``patch`` (cut from ``whole``), with the film level and tolerances that its sensitivity asks for."""
     whole = whole or patch
-    while True:
+    for _ in range(ROUNDS):
         balance = balance_at(model, patch, speed, settings, begun)
-        if patch is not whole and not _inside(patch, balance):
+        if not holds(patch, whole, film_shape(model.scene, whole, balance.film), balance.closure.contact):
             patch = whole
             continue
         found = forces(model.scene, speed, balance)
         error = level_error(balance.film, model.scene, speed)
         better = _needed(model, speed, settings, balance, found, error)
         if better is None:
-            whole.check(balance.closure)
-            return Stage(balance, found, patch, settings, error)
-        settings, begun = better, balance
+            break
+        used, settings, begun = settings, better, balance
+    else:
+        settings = used
+    whole.check(balance.closure)
+    return Stage(balance, found, patch, settings, error)
 
 
 @dataclass(frozen=True)
@@ -164,15 +193,23 @@ def _finer(model, ladder, index, changes, stage: Stage, limit) -> tuple[int, lis
         index += 1
         whole = ladder[index]
         finer = cut(whole, in_contact(patch, closure.contact.pressure)) if _cut_allowed(model) else whole
-        start = carried_over(replace(balance, closure=closure), finer).closure.contact
-        found = finer.close(balance.film.film_at(finer.x), balance.contact_load, start,
-                            film_shape(model.scene, finer, balance.film))
+        found = _closed(model, finer, balance, closure)
+        if not holds(finer, whole, film_shape(model.scene, whole, balance.film), found.contact):
+            finer = whole
+            found = _closed(model, finer, balance, found)
         change = found.volume_residual - closure.volume_residual
         changes, total, closure, patch = [*changes, change], total + change, found, finer
         if _grid_error(changes, stage, limit) <= limit:
             break
     step = 0.0 if not balance.slope else min(max(-total / balance.slope, -1.0), 1.0)
     return index, changes, Moved(patch, moved_split(replace(balance, closure=closure), step), stage.settings)
+
+
+def _closed(model, patch, balance: Balance, closure):
+    """Contact on ``patch`` under the film and load of ``balance``, begun from the pressure of ``closure``."""
+    film = balance.film
+    start = carried_over(replace(balance, closure=closure), patch).closure.contact
+    return patch.close(film.film_at(patch.x), balance.contact_load, start, film_shape(model.scene, patch, film))
 
 
 def _cut_allowed(model) -> bool:
@@ -187,25 +224,23 @@ def _allowed_error(numerics, sensitivity: float) -> float:
 def _needed(model, speed, settings, balance, found: Forces, error: FilmError) -> Settings | None:
     """Settings that the balance shows to be needed; None where its own will do."""
     numerics = model.scene.numerics
-    sensitivity = max(found.sensitivity, 1e-12)
+    sensitivity = max(found.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
     film, volume = numerics.film_tolerance, numerics.volume_tolerance
     if numerics.ehl_tolerance is None:
         film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
+    film = _finer_film(numerics, settings, found, film)
     if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
         volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
     level, allowed = settings.level, _allowed_error(numerics, sensitivity)
-    if numerics.forced_film_level == "auto" and error.total > allowed:
-        level = lowest_level(model.scene, speed, balance.film_load, allowed)[0]
+    if numerics.forced_film_level == "auto" and not error.total <= allowed:
+        level = higher(level, lowest_level(model.scene, speed, balance.film_load, allowed)[0])
+    if not balance.report.converged and level == settings.level:
+        return None
     enough = film >= settings.film_tolerance / SLACK or level != EHL
     if level == settings.level and enough and abs(balance.closure.volume_residual) <= SLACK * volume:
         return None
-    return replace(settings, level=level, film_tolerance=film, volume_tolerance=volume)
-
-
-def _inside(patch, balance: Balance) -> bool:
-    """No contact in the outermost columns of a patch that was cut."""
-    contact = balance.closure.contact
-    return contact is None or not (contact.pressure[0].any() or contact.pressure[-1].any())
+    return replace(settings, level=level, film_tolerance=min(film, settings.film_tolerance),
+                   volume_tolerance=min(volume, SLACK * settings.volume_tolerance))
 
 
 def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:
@@ -213,7 +248,7 @@ def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:
 
     Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
     last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
-    converging): the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance;
+    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance;
     times 2 ``sensitivity``, the effect of a residual on f.
     """
     if stage.balance.contact_load == 0:
@@ -221,10 +256,10 @@ def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:
     bound = WORST_GRID * stage.forces.sensitivity
     if bound <= limit:
         return bound
-    if len(changes) < 2:
+    if not changes:
         return math.inf
-    d2, d1 = (abs(change) for change in changes[-2:])
-    ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.75
+    d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
+    ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
     return 2 * stage.forces.sensitivity * max(d1 * ratio / (1 - ratio), d2 / 12)
 
 
