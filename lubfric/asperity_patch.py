@@ -37,7 +37,8 @@ def asperity_curve(
     ``reading``: "volume" or "mean-plane" (the module's docstring) of heights [m] about their mean. The flat
     comes down until ``heaviest`` [Pa] is carried, or, where the model cannot carry it, to the deepest valley
     (to the mean plane itself for "mean-plane"): the curve then ends at the most it carries. Patches that grow
-    together carry less than before; such nodes are left out, so the pressure rises along the curve.
+    together carry less than before; such nodes are left out, so the pressure rises along the curve. The search
+    ends below half of the most that was carried.
     """
     law = contact_law(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))
@@ -51,7 +52,7 @@ def asperity_curve(
             nodes.append(
                 (found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction)
             )
-        if nodes and nodes[-1][0] >= heaviest:
+        if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
             break
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
     return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0)

@@ -4,13 +4,24 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 
 def spread(function, cases, quick: bool) -> list:
-    """``[function(*case) for case in cases]`` in as many processes as there are cores (one when
-    ``quick``)."""
+    """``[function(*case) for case in cases]``, a process a core (one when ``quick``).
+
+    Fresh processes with one thread each: linear algebra on all cores in each of them would fight for the cores.
+    """
     cores = 1 if quick else os.cpu_count() or 1
     if cores == 1:
         return [function(*case) for case in cases]
-    with ProcessPoolExecutor(cores) as pool:
-        return list(pool.map(function, *zip(*cases)))
+    before = os.environ.get("OMP_NUM_THREADS")
+    os.environ["OMP_NUM_THREADS"] = "1"
+    try:
+        with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as pool:
+            return list(pool.map(function, *zip(*cases)))
+    finally:
+        if before is None:
+            del os.environ["OMP_NUM_THREADS"]
+        else:
+            os.environ["OMP_NUM_THREADS"] = before
