@@ -75,12 +75,16 @@ class FrictionResult:
     decision: Decision | None = None
 
 
-def prepare(scene: Scene, surface: Surface | None = None) -> Model:
+def prepare(scene: Scene, surface: Surface | None = None, *, like: Model | None = None) -> Model:
     """Build what does not depend on the speed: the height map and the contact operator or curve.
 
     ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
     along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so).
+    ``like``: a model of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
+    load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     """
+    if like is not None:
+        return _another(scene, like)
     if surface is None:
         surface = contact_map(scene)
     else:
@@ -101,18 +105,49 @@ def _flat_patch(scene: Scene, heights, spacing) -> FlatPatch:
     else:
         curve = asperity_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, definition=contact.model,
                                reading=contact.asperity_separation, hardness=bodies.hardness)
-    x = centred_axis(STRIP_POINTS, 2 * bodies.half_width / STRIP_POINTS)
-    return FlatPatch(curve, x, area)
+    return _strip(scene, curve)
 
 
-def _cylinder_patch(scene: Scene, heights, spacing) -> CylinderPatch | AsperityPatch:
+def _strip(scene: Scene, curve) -> FlatPatch:
+    """``curve`` under the Hertz strip of the scene's load."""
+    half_width = scene.bodies.half_width
+    return FlatPatch(curve, centred_axis(STRIP_POINTS, 2 * half_width / STRIP_POINTS),
+                     2 * half_width * scene.bodies.width)
+
+
+def _another(scene: Scene, like: Model) -> Model:
+    """The model of another scene on the map, operator and curve of ``like``."""
+    old = like.scene
+    for name, a, b in (("surface", scene.surface, old.surface), ("contact", scene.contact, old.contact),
+                       ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
+                       ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness)):
+        if a != b:
+            raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
+    if not isinstance(like.patch, FlatPatch):
+        check_grid(scene, like.surface)
+        operator = getattr(like.patch, "operator", None)
+        return Model(scene, like.surface, _cylinder_patch(scene, like.patch.heights, like.patch.spacing, operator))
+    pressure, heaviest = scene.bodies.mean_hertz_pressure, float(like.patch.curve.mean_pressure[0])
+    if pressure > heaviest * (1 + 1e-9):
+        raise InputError(f"bodies.load = {scene.bodies.load:g} N needs {pressure:.4g} Pa of a contact curve that ends at "
+                         f"{heaviest:.4g} Pa; allowed: lighter loads, or prepare with the heaviest first")
+    if scene.numerics.tolerance < old.numerics.tolerance:
+        raise InputError(f"numerics.tolerance = {scene.numerics.tolerance:g} is tighter than that of the contact curve; "
+                         f"allowed: at least {old.numerics.tolerance:g}, or prepare again")
+    return Model(scene, like.surface, _strip(scene, like.patch.curve))
+
+
+
+
+def _cylinder_patch(scene: Scene, heights, spacing, operator=None) -> CylinderPatch | AsperityPatch:
     bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
     x = centred_axis(heights.shape[0], spacing[0])
     weight = np.ones(x.size) if contact.region == "box" else strip_weight(x, spacing[0], bodies.half_width)
     if contact.model != "half-space":
         return AsperityPatch(heights, spacing, x, weight, bodies.e_prime, bodies.width, bodies.hardness, contact.model,
                              contact.asperity_separation, numerics.pressure_tolerance)
-    operator = half_space(heights.shape, spacing, bodies.e_prime, ("free", "periodic"), workers=numerics.workers)
+    if operator is None:
+        operator = half_space(heights.shape, spacing, bodies.e_prime, ("free", "periodic"), workers=numerics.workers)
     return CylinderPatch(heights, spacing, x, weight, operator, bodies.width, bodies.hardness,
                          numerics.pressure_tolerance)
 
@@ -160,7 +195,7 @@ def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | Non
     asked = scene_of(scene).with_(numerics=changed)
     if not isinstance(scene, Model):
         return prepare(asked)
-    return replace(scene, scene=asked) if changed else scene
+    return prepare(asked, like=scene) if asked != scene.scene else scene
 
 
 def _result(model: Model, speed: float, balance: Balance, decision: Decision, begun: float) -> FrictionResult:

@@ -120,8 +120,10 @@ def _film(h0, law, load, radius, e_prime, speed, lubricant, solver) -> RigidFilm
     order = slice(None) if sign > 0 else slice(None, None, -1)
     carried = float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0])
     residual = abs(carried / load - 1)
+    with np.errstate(over="ignore"):               # far above its range: infinite beyond e^709, as in an EHLResult
+        eta = viscosity(lubricant, p)[order]
     report = Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual})
     return RigidFilm(x=(sign * x)[order], pressure=p[order], film_thickness=(h0 + x**2 / (2 * radius))[order],
-                     viscosity=viscosity(lubricant, p)[order], min_film=h0, central_film=h0,
+                     viscosity=eta, min_film=h0, central_film=h0,
                      flow_film=constants.flow_film_ratio * h0, rupture=sign * scale * constants.rupture, load=load,
                      radius=radius, e_prime=e_prime, entrainment_speed=speed, report=report)
