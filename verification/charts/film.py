@@ -64,7 +64,7 @@ def runs(case: dict, M: float, L: float, quick: bool):
         calls["default, warm", t] = lambda t=t, start=start: solve_ehl(**case, tolerance=t, start=start)
     for (name, t), (film, seconds) in interleaved(calls, repeats).items():
         yield name, f"tolerance {t:g}", t == DEFAULT, (quantities(film), seconds, film.state.pressure.size)
-    for nodes in (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097, 8193):
+    for nodes in (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097):
         call = {
             "": lambda nodes=nodes: solve_differential_deflection(
                 **case, nodes=nodes, tolerance=0.1, raise_on_failure=False
@@ -73,7 +73,8 @@ def runs(case: dict, M: float, L: float, quick: bool):
         film, seconds = interleaved(call, 1 if quick else 3)[""]
         if film.report.status == "converged":
             yield "differential deflection", f"{nodes} nodes", False, (quantities(film), seconds, nodes)
-    yield from finite_elements(case, quick)
+    if M <= 100:  # beyond, its meshes cost minutes
+        yield from finite_elements(case, quick)
     unit = case["radius"] * math.sqrt(
         2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"])
     )
@@ -96,7 +97,7 @@ def finite_elements(case: dict, quick: bool):
     contact = fem.LineContact(
         case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid
     )
-    for refinements in (0,) if quick else (0, 1, 2):
+    for refinements in (0,) if quick else (0, 1):
         call = {"": lambda r=refinements: fem.solve_ehl(contact, refinements=r, raise_on_failure=False)}
         solutions, seconds = interleaved(call, 1)[""]
         if solutions[-1].report.converged and len(solutions) == refinements + 1:
