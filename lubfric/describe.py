@@ -6,6 +6,7 @@ import math
 
 from .analytic import film as film_formulas
 from .analytic import hertz
+from .levels.forecast import forecast
 from .rough_map import contact_map
 from .scene import Scene
 
@@ -45,6 +46,8 @@ def describe_scene(scene: Scene) -> str:
         plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
-    lines += [f"  will solve     film: numerical EHL (relative tolerance {scene.numerics.film_tolerance:g}); contact: {plan} "
-              f"(tolerance {scene.numerics.pressure_tolerance:g}); {len(speeds)} speeds"]
+    lines += [f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
+              f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"]
+    lines += [f"  U = {speed:<10.4g} {forecast(scene, surface, speed)}"
+              for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})]
     return "\n".join(lines)

@@ -89,8 +89,14 @@ def prepare(scene: Scene, surface: Surface | None = None, *, like: Model | None 
         surface = contact_map(scene)
     else:
         check_grid(scene, surface)
+    flat = scene.contact.geometry == "flat"
+    if flat and scene.numerics.contact_level == "semi-periodic":
+        raise InputError("numerics.contact_level = 'semi-periodic' needs contact.geometry = 'cylinder'; a flat contact is "
+                         "periodic both ways")
+    if not flat and scene.numerics.contact_level == "flat":
+        flat, surface = True, surface.periodic("mirror", axes=(True, False))
     heights = surface.heights - surface.heights.mean()
-    build = _flat_patch if scene.contact.geometry == "flat" else _cylinder_patch
+    build = _flat_patch if flat else _cylinder_patch
     return Model(scene, surface, build(scene, heights, surface.spacing))
 
 

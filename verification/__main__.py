@@ -15,7 +15,7 @@ from .run import run
 from .studies import STUDIES, Study
 
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
-SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "mutations": "verification.mutations",
+SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "levels": "verification.levels", "mutations": "verification.mutations",
                                "charts": "verification.charts.command", "stability": "verification.stability.command"}
 
 

@@ -36,12 +36,12 @@ def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch |
 
 
 def grids(model) -> list:
-    """The patch of ``model``, from the coarsest grid that still holds its roughness to its own."""
+    """The patch of ``model``, from the coarsest grid that still holds its roughness to its own; two, if it can be halved."""
     patches, kept = [model.patch], LEAST_ROUGHNESS * model.surface.sq
     half_width = model.scene.bodies.half_width if model.scene.contact.region == "hertz" else None
     while isinstance(patches[0], CylinderPatch):
         coarse = coarsened(patches[0], half_width)
-        if coarse is None or coarse.heights.std() < kept:
+        if coarse is None or len(patches) > 1 and coarse.heights.std() < kept:
             break
         patches.insert(0, coarse)
     return patches

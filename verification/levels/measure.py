@@ -66,6 +66,18 @@ def errors(rows: list[dict], tolerance: float) -> list[float]:
             if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]]
 
 
+def savings(rows: list[dict]) -> str:
+    """Median ratios of times, in words."""
+    from .charts import median_saving
+    lines = []
+    for tolerance in TOLERANCES:
+        point, whole, same = (median_saving(rows, tolerance, against, preparation=prepared) for against, prepared in
+                              (("reference", False), ("reference", True), ("full", False)))
+        lines.append(f"tolerance {100 * tolerance:g} %: median time {point:.3g} times less than the reference ({whole:.3g} "
+                     f"with the surface made), {same:.3g} times less than everything at 1 %")
+    return "\n".join(lines)
+
+
 def finer_reference(index: int, values: dict) -> tuple[float, float]:
     """f_full, and f of the same surface on cells half as long (its Fourier series) with a film ten times as tight."""
     problem = scene(values, index)

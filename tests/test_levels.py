@@ -1,0 +1,172 @@
+"""Film levels against closed forms and the numerical film, their error estimates, grids, and the knob as a whole."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.analytic import rigid
+from lubfric.halfspace import half_space
+from lubfric.levels.contact_grid import cut, grids, holds, in_contact
+from lubfric.levels.film_error import elastic_error, rigid_error
+from lubfric.levels.film_level import EHL, ISOVISCOUS, PIEZOVISCOUS, lowest_level
+from lubfric.lubricant import Lubricant
+from lubfric.mixed import prepare
+from lubfric.rigid_film import isoviscous_film, piezoviscous_film
+from lubfric.shear import shear_force
+
+E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
+PAPER = lubfric.load_scene("paper")
+
+
+def line_contact(m, l):
+    """Keyword arguments of a film with the Moes numbers."""
+    u1 = (l / (ALPHA * E)) ** 4
+    return {"load_per_width": m * np.sqrt(u1) * E * R, "radius": R, "e_prime": E, "entrainment_speed": u1 * E * R / (2 * ETA)}
+
+
+def numerical(lubricant, **case):
+    return lubfric.solve_ehl(viscosity=lubricant.viscosity, viscosity_law=lubricant.viscosity_law, tolerance=1e-4,
+                             pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient, **case)
+
+
+def test_the_isoviscous_film_has_the_friction_of_the_closed_form():
+    film = isoviscous_film(load_per_width=10.0, radius=R, e_prime=E, entrainment_speed=1e-3, lubricant=Lubricant(ETA, 0.0, "constant"))
+    found = shear_force(film, Lubricant(ETA, 0.0, "constant"), entrainment_speed=1e-3, slide_roll_ratio=2.0, radius=R, width=1.0,
+                        contact_fraction=lambda x: 0 * x)
+    assert found.couette == pytest.approx(rigid.couette_friction(film.min_film, radius=R, speed_difference=2e-3, viscosity=ETA), rel=1e-4)
+    assert found.rolling == pytest.approx(rigid.rolling_friction(film.min_film, radius=R, entrainment_speed=1e-3, viscosity=ETA), rel=5e-4)
+    assert film.report.residuals["load"] < 1e-3
+
+
+@pytest.mark.parametrize("law", ["roelands", "barus"])
+@pytest.mark.parametrize("l", [1.0, 20.0])
+def test_what_the_rigid_films_leave_out_is_foretold(law, l):
+    """The estimate is the error against the numerical film, to the next order."""
+    lubricant = Lubricant(ETA, ALPHA, law)
+    for m in (0.05, 0.1, 0.2):
+        case = line_contact(m, l)
+        full = numerical(lubricant, **case).central_film
+        thin, thick = (make(lubricant=lubricant, **case) for make in (isoviscous_film, piezoviscous_film))
+        assert 1 - thick.central_film / full == pytest.approx(elastic_error(thick, lubricant), rel=0.1, abs=2e-4)
+        assert 1 - thin.central_film / full == pytest.approx(rigid_error(thin, lubricant, thick).total, rel=0.25, abs=3e-4)
+
+
+def test_the_elastic_correction_of_the_isoviscous_film_grows_with_the_square_of_the_load():
+    lubricant = Lubricant(ETA, 0.0, "constant")
+    errors = [elastic_error(isoviscous_film(lubricant=lubricant, **line_contact(m, 1.0)), lubricant) for m in (0.01, 0.02, 0.04)]
+    np.testing.assert_allclose(np.log2(np.divide(errors[1:], errors[:-1])), 2.0, atol=1e-6)
+
+
+def test_blok_limit_of_the_barus_film():
+    lubricant = Lubricant(ETA, ALPHA, "barus")
+    case = line_contact(30.0, 15.0)
+    limit = rigid.piezoviscous_min_film(radius=R, entrainment_speed=case["entrainment_speed"], viscosity=ETA,
+                                        pressure_viscosity_coefficient=ALPHA)
+    assert piezoviscous_film(lubricant=lubricant, **case).min_film == pytest.approx(limit, rel=0.02)
+
+
+def test_a_film_run_backwards_is_mirrored():
+    lubricant, case = Lubricant(ETA, ALPHA), line_contact(0.1, 10.0)
+    forth = piezoviscous_film(lubricant=lubricant, **case)
+    back = piezoviscous_film(lubricant=lubricant, **case | {"entrainment_speed": -case["entrainment_speed"]})
+    np.testing.assert_allclose(back.x, -forth.x[::-1])
+    np.testing.assert_allclose(back.pressure, forth.pressure[::-1])
+    assert back.rupture == -forth.rupture and elastic_error(back, lubricant) == pytest.approx(elastic_error(forth, lubricant))
+
+
+def test_levels_rise_with_load_and_with_what_is_asked():
+    order = [ISOVISCOUS, PIEZOVISCOUS, EHL]
+    levels = [lowest_level(PAPER, 1.0, load, 1e-3)[0] for load in np.geomspace(1e-3, 50.0, 25)]
+    assert sorted(levels, key=order.index) == levels and set(levels) == set(order)
+    asked = [lowest_level(PAPER, 1.0, 1.0, budget)[0] for budget in np.geomspace(0.2, 1e-6, 20)]
+    assert sorted(asked, key=order.index) == asked
+
+
+def test_a_shortened_operator_is_a_part_of_the_whole():
+    whole = half_space((40, 24), (1e-6, 2e-6), E, ("free", "periodic"))
+    pressure = np.zeros((40, 24))
+    pressure[:12] = np.random.default_rng(1).random((12, 24))
+    np.testing.assert_allclose(whole.shortened(12).apply(pressure[:12]), whole.apply(pressure)[:12], rtol=1e-11)
+    with pytest.raises(lubfric.InputError, match="free axis"):
+        half_space((8, 8), 1e-6, E).shortened(4)
+
+
+def test_a_cut_patch_finds_the_same_contact_and_knows_when_it_does_not():
+    model = prepare(PAPER.with_(contact={"shape": (160, 96)}))
+    whole = model.patch
+    film = whole.x**2 / (2 * PAPER.bodies.radius)
+    closure = whole.close(film, 5.0)
+    part = cut(whole, in_contact(whole, closure.contact.pressure))
+    found = part.close(part.x**2 / (2 * PAPER.bodies.radius), 5.0)
+    assert part.x.size < 140 and found.mean_gap == pytest.approx(closure.mean_gap, rel=1e-6)
+    assert holds(part, whole, film, found.contact)
+    narrow = cut(whole, (-8e-6, 8e-6))
+    found = narrow.close(narrow.x**2 / (2 * PAPER.bodies.radius), 5.0)
+    assert not holds(narrow, whole, film, found.contact)
+
+
+def test_grids_end_at_the_given_one_and_hold_its_roughness():
+    model = prepare(PAPER)
+    ladder = grids(model)
+    assert ladder[-1] is model.patch and len(ladder) >= 3
+    assert all(p.heights.std() > 0.89 * model.surface.sq for p in ladder)
+
+
+@pytest.mark.parametrize("tolerance", [5e-2, 1e-2, 2e-3])
+def test_the_paper_curve_is_within_the_tolerance(tolerance):
+    model = prepare(PAPER)
+    speeds = np.geomspace(1e-4, 1.0, 7)
+    full = lubfric.stribeck(model, speeds, tolerance=5e-4, model="full").coefficient
+    auto = lubfric.stribeck(model, speeds, tolerance=tolerance)
+    assert np.max(np.abs(auto.coefficient / full - 1)) <= tolerance
+    assert all("film:" in p.decision.text and p.decision.text in p.report.notes for p in auto.points)
+
+
+@pytest.mark.parametrize("level", ["isoviscous", "piezoviscous", "ehl"])
+def test_a_film_level_can_be_forced(level):
+    point = lubfric.friction(PAPER.with_(numerics={"film_level": level}), 0.3)
+    assert point.decision.film == level and "forced" in point.decision.text
+
+
+def test_other_levels_can_be_forced():
+    none = lubfric.friction(PAPER.with_(numerics={"contact_level": "none"}), 1e-3)
+    assert none.contact_load == 0 and none.decision.contact == "none" and none.decision.clearance < 0
+    dry = lubfric.friction(PAPER.with_(numerics={"film_level": "none"}), 1e-3)
+    assert dry.film_load == 0 and dry.coefficient == pytest.approx(0.09)
+    flat = lubfric.friction(PAPER.with_(numerics={"contact_level": "flat"}, contact={"shape": (96, 96)},
+                                        surface={"correlation_length": 4e-6}), 1e-2)
+    assert "flat" in flat.decision.contact and 0 < flat.contact_load < 5.5
+    given = lubfric.friction(PAPER.with_(numerics={"grid": "given"}), 1e-3)
+    assert given.decision.shape == (200, 200) and given.decision.coarsening == (1, 1)
+    with pytest.raises(lubfric.InputError, match="did you mean"):
+        PAPER.with_(numerics={"film_level": "isoviscus"})
+
+
+def test_a_map_too_coarse_for_its_roughness_says_so():
+    rough = PAPER.with_(surface={"acf": "exponential", "correlation_length": 4e-6}, contact={"shape": (128, 96), "spacing": 1e-6})
+    assert "too coarse" in lubfric.friction(rough, 0.03, tolerance=2e-3).decision.text
+
+
+def test_one_curve_serves_every_load_and_lubricant():
+    flat = lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing": 8e-6})
+    heavy = prepare(flat.with_(bodies={"load": 55.0}))
+    light = flat.with_(bodies={"load": 2.0}, lubricant={"viscosity": 0.1})
+    again = prepare(light, like=heavy)
+    assert again.patch.curve is heavy.patch.curve
+    assert lubfric.friction(again, 0.02).coefficient == pytest.approx(lubfric.friction(light, 0.02).coefficient, rel=1e-2)
+    with pytest.raises(lubfric.InputError, match="heaviest first"):
+        prepare(flat.with_(bodies={"load": 100.0}), like=heavy)
+    with pytest.raises(lubfric.InputError, match="tighter"):
+        lubfric.friction(again, 0.02, tolerance=1e-3)
+    with pytest.raises(lubfric.InputError, match="surface"):
+        prepare(light.with_(surface={"seed": 9}), like=heavy)
+
+
+def test_scenes_of_the_study_keep_the_tolerance():
+    from verification.levels import measure
+    for index in (1, 9, 24, 26, 30):
+        row = measure.row(index, measure.points(64)[index])
+        for tolerance in measure.TOLERANCES:
+            assert measure.errors([row], tolerance)[0] <= tolerance, row
