@@ -1,8 +1,8 @@
 """A run's state on disk: written whole after every step, so that a kill loses nothing that was computed.
 
-One ``.npz`` file of plain arrays (no pickle), replaced atomically, with a fingerprint of the problem; rows and
-fields of the outputs so far are appended to two binary files beside it, which a resume cuts to the count that the
-state knows of.
+One ``.npz`` file of plain arrays (no pickle), replaced atomically, with a fingerprint of the problem; rows
+and fields of the outputs so far are appended to two binary files beside it, which a resume cuts to the
+count that the state knows of.
 """
 
 from __future__ import annotations
@@ -37,17 +37,25 @@ class Checkpoint:
         with np.load(path, allow_pickle=False) as file:
             state = dict(file)
         if str(state["fingerprint"]) != self.fingerprint:
-            raise InputError(f"checkpoint in {self.folder} belongs to another run (scene, times or version differ); "
-                             "allowed: the same scene, or an empty folder")
+            raise InputError(
+                f"checkpoint in {self.folder} belongs to another run (scene, times or version differ); "
+                "allowed: the same scene, or an empty folder"
+            )
         count = int(state["outputs"])
-        return state, self._cut(ROWS, count, int(state["row_size"])), self._cut(FIELDS, count, int(state["field_size"]))
+        return (
+            state,
+            self._cut(ROWS, count, int(state["row_size"])),
+            self._cut(FIELDS, count, int(state["field_size"])),
+        )
 
     def _cut(self, name: str, count: int, size: int) -> np.ndarray:
         path = self.folder / name
         values = np.fromfile(path, dtype=float, count=count * size)
         if values.size != count * size:
-            raise InputError(f"checkpoint file {path} is shorter than its state; allowed: an undamaged folder, or an "
-                             "empty one to begin again")
+            raise InputError(
+                f"checkpoint file {path} is shorter than its state; allowed: an undamaged folder, or an "
+                "empty one to begin again"
+            )
         with path.open("r+b") as file:
             file.truncate(values.nbytes)
         return values.reshape(count, size)

@@ -80,8 +80,8 @@ class Harmonic(Constant):
 class Table(Constant):
     """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
 
-    A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table must
-    last as long as the run.
+    A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table
+    must last as long as the run.
     """
 
     times: tuple[float, ...] = ()
@@ -93,15 +93,21 @@ class Table(Constant):
         times = validate.array("history times", self.times, "s", ndim=1)
         values = validate.array("history values", self.values, "(SI)", ndim=1)
         if times.size != values.size or times.size < 2:
-            raise InputError(f"history has {times.size} times and {values.size} values; allowed: as many, at least two")
+            raise InputError(
+                f"history has {times.size} times and {values.size} values; allowed: as many, at least two"
+            )
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:
             i = int(falls[0])
-            raise InputError(f"history times are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2}); "
-                             "allowed: times that do not decrease, in s")
+            raise InputError(
+                f"history times are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2}); "
+                "allowed: times that do not decrease, in s"
+            )
         if times[0] > 0.0 or times[-1] <= times[0]:
-            raise InputError(f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a "
-                             "later time")
+            raise InputError(
+                f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a "
+                "later time"
+            )
         if self.repeat and times[0] != 0.0:
             raise InputError(f"history times start at {times[0]:g} s; allowed for repeat: 0 s")
         if np.any(times[2:] == times[:-2]):
@@ -151,7 +157,8 @@ class Table(Constant):
 
 @dataclass(frozen=True)
 class Ramp(Constant):
-    """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end`` after it."""
+    """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end``
+    after it."""
 
     start: float = 0.0
     end: float = 0.0
@@ -182,7 +189,8 @@ class Ramp(Constant):
 
 
 def read_history(path, column: str, *, time_column: str = "time", repeat: bool = False) -> Table:
-    """The `Table` in two columns of a CSV file whose first row names the columns (times in s, values in SI)."""
+    """The `Table` in two columns of a CSV file whose first row names the columns (times in s, values in
+    SI)."""
     path = Path(path)
     if not path.is_file():
         raise InputError(f"history file {str(path)!r} does not exist; allowed: a CSV file")
@@ -193,15 +201,19 @@ def read_history(path, column: str, *, time_column: str = "time", repeat: bool =
     names = [name.split("[")[0].strip() for name in rows[0]]
     for name in (time_column, column):
         if name not in names:
-            raise InputError(f"history file {path.name} has no column {name!r}{validate.nearest(name, names)}; "
-                             f"it has: {', '.join(names)}")
+            raise InputError(
+                f"history file {path.name} has no column {name!r}{validate.nearest(name, names)}; "
+                f"it has: {', '.join(names)}"
+            )
     columns = []
     for name in (time_column, column):
         k = names.index(name)
         try:
             columns.append(tuple(float(row[k]) for row in rows[1:]))
         except (ValueError, IndexError):
-            raise InputError(f"history file {path.name}, column {name!r}: not a number in every row") from None
+            raise InputError(
+                f"history file {path.name}, column {name!r}: not a number in every row"
+            ) from None
     return Table(times=columns[0], values=columns[1], repeat=repeat)
 
 
@@ -216,12 +228,17 @@ def history(name: str, given, folder: Path = Path()) -> Constant:
         return Constant(validate.number(name, given, "(SI)"))
     table = dict(given)
     kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
-    allowed = {"file", "column", "time_column", "repeat"} if kind == "file" else {
-        f.name for f in fields(KINDS[kind]) if f.name != "value" or kind == "constant"}
+    allowed = (
+        {"file", "column", "time_column", "repeat"}
+        if kind == "file"
+        else {f.name for f in fields(KINDS[kind]) if f.name != "value" or kind == "constant"}
+    )
     for key in table:
         if key not in allowed:
-            raise InputError(f"unknown key {key!r} in {name}{validate.nearest(key, allowed)}; "
-                             f"allowed: {', '.join(sorted(allowed))}")
+            raise InputError(
+                f"unknown key {key!r} in {name}{validate.nearest(key, allowed)}; "
+                f"allowed: {', '.join(sorted(allowed))}"
+            )
     try:
         if kind == "file":
             return read_history(folder / table.pop("file"), **table)
@@ -229,29 +246,35 @@ def history(name: str, given, folder: Path = Path()) -> Constant:
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
     except (TypeError, KeyError) as error:
-        raise InputError(f"{name}: {kind} needs more: {error}; allowed keys: {', '.join(sorted(allowed))}") from None
+        raise InputError(
+            f"{name}: {kind} needs more: {error}; allowed keys: {', '.join(sorted(allowed))}"
+        ) from None
 
 
 def check_history(name: str, unit: str, given: Constant, duration: float, *, positive: bool) -> None:
     """The history lasts as long as the run and stays in its range."""
     if isinstance(given, Table) and not given.repeat and given.times[-1] < duration * (1 - 1e-9):
-        raise InputError(f"{name}: the table ends at {given.times[-1]:g} s, the run lasts {duration:g} s; "
-                         "allowed: a table as long as the run, or repeat = true")
+        raise InputError(
+            f"{name}: the table ends at {given.times[-1]:g} s, the run lasts {duration:g} s; "
+            "allowed: a table as long as the run, or repeat = true"
+        )
     lowest = given.range(duration)[0]
     if positive and lowest <= 0.0:
-        raise InputError(f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times")
+        raise InputError(
+            f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times"
+        )
 
 
 @dataclass(frozen=True)
 class Transient:
     """What changes in time in a scene, and for how long.
 
-    duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or histories of this
-    module; None: the scene's own constant): speed [m/s] entrainment speed; sliding [m/s] u2 - u1 (None: slide-roll
-    ratio x speed); load [N]; radius [m]; viscosity [Pa s] at ambient pressure.
-    initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact carries the
-    load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start from the undeformed
-    parabola at this height instead.
+    duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or histories
+    of this module; None: the scene's own constant): speed [m/s] entrainment speed; sliding [m/s] u2 - u1
+    (None: slide-roll ratio x speed); load [N]; radius [m]; viscosity [Pa s] at ambient pressure.
+    initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact
+    carries the load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start
+    from the undeformed parabola at this height instead.
     tolerance: largest local error of the film per step, relative (None: 0.01 x the scene's film tolerance).
     """
 
@@ -274,9 +297,17 @@ class Transient:
             validate.positive("transient.initial_film", self.initial_film, "m")
         if self.tolerance is not None:
             validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
-        for name, unit in (("speed", "m/s"), ("sliding", "m/s"), ("load", "N"), ("radius", "m"), ("viscosity", "Pa s")):
+        for name, unit in (
+            ("speed", "m/s"),
+            ("sliding", "m/s"),
+            ("load", "N"),
+            ("radius", "m"),
+            ("viscosity", "Pa s"),
+        ):
             given = getattr(self, name)
             if given is not None:
                 given = history(f"transient.{name}", given)
                 object.__setattr__(self, name, given)
-                check_history(f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s"))
+                check_history(
+                    f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s")
+                )

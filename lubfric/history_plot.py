@@ -8,7 +8,7 @@ import numpy as np
 
 from .plot import BLUE, GREEN, GREY, RED, _figure
 
-FRAMES = 150         # at most, spread over the run
+FRAMES = 150  # at most, spread over the run
 
 
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
@@ -39,9 +39,17 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     third.legend(frameon=False, ncols=2, fontsize=8)
     fourth.plot(t, c["coefficient"], color=BLUE, label="friction coefficient f")
     sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
-    fourth.plot(t, c["boundary_force"] * sense / c["load"], color=RED, lw=1, ls="--", label="from the contact spots")
-    fourth.plot(t, (c["couette_force"] + c["rolling_force"]) * sense / c["load"], color=GREEN, lw=1, ls="--",
-                label="from the film")
+    fourth.plot(
+        t, c["boundary_force"] * sense / c["load"], color=RED, lw=1, ls="--", label="from the contact spots"
+    )
+    fourth.plot(
+        t,
+        (c["couette_force"] + c["rolling_force"]) * sense / c["load"],
+        color=GREEN,
+        lw=1,
+        ls="--",
+        label="from the film",
+    )
     fourth.set(ylabel="friction coefficient (-)", xlabel=f"time ({unit})", xlim=(t[0], t[-1]))
     low, high = fourth.get_ylim()
     fourth.set_ylim(low, high + 0.15 * (high - low))
@@ -53,8 +61,12 @@ def animate(path: Path, result, half_width: float) -> None:
     """GIF of pressure and film along the contact over time (Pillow writer)."""
     from matplotlib.animation import FuncAnimation, PillowWriter
 
-    chosen = np.unique(np.linspace(0, result.time.size - 1, min(FRAMES, result.time.size)).round().astype(int))
-    reach = 3.0 * max(half_width, float(np.sqrt(result.film_thickness.min(axis=1).max() * 2.0 * _radius(result))))
+    chosen = np.unique(
+        np.linspace(0, result.time.size - 1, min(FRAMES, result.time.size)).round().astype(int)
+    )
+    reach = 3.0 * max(
+        half_width, float(np.sqrt(result.film_thickness.min(axis=1).max() * 2.0 * _radius(result)))
+    )
     seen = np.abs(result.x) <= reach
     x = result.x[seen] * 1e6
     figure = _figure(figsize=(7, 4.5))
@@ -72,14 +84,19 @@ def animate(path: Path, result, half_width: float) -> None:
     def draw(i):
         pressure.set_data(x, result.pressure[i, seen] / 1e6)
         film.set_data(x, thick[i])
-        top.set_title(f"t = {result.time[i] * scale:.4g} {unit},  U = {result.entrainment_speed[i]:.3g} m/s,  "
-                      f"f = {result.coefficient[i]:.4f}", fontsize=10)
+        top.set_title(
+            f"t = {result.time[i] * scale:.4g} {unit},  U = {result.entrainment_speed[i]:.3g} m/s,  "
+            f"f = {result.coefficient[i]:.4f}",
+            fontsize=10,
+        )
         return pressure, film
 
     draw(0)
     figure.canvas.draw()
-    figure.set_layout_engine("none")          # laid out once: the frames must not jump, and are drawn faster
-    FuncAnimation(figure, draw, frames=[int(i) for i in chosen], blit=False).save(path, writer=PillowWriter(fps=15), dpi=80)
+    figure.set_layout_engine("none")  # laid out once: the frames must not jump, and are drawn faster
+    FuncAnimation(figure, draw, frames=[int(i) for i in chosen], blit=False).save(
+        path, writer=PillowWriter(fps=15), dpi=80
+    )
 
 
 def _radius(result) -> float:

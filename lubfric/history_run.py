@@ -20,14 +20,14 @@ from .scene_file import scene_as_dict
 from .unsteady import TransientResult, transient
 from .unsteady_row import UNITS
 
-SAY_EVERY = 1.0      # s of wall time between two lines of progress
+SAY_EVERY = 1.0  # s of wall time between two lines of progress
 
 
 def run_history(scene: Scene, out: Path, animation: bool, say) -> int:
     """Compute and write history.csv, history.png, fields.npz, result.json (and animation.gif) to ``out``.
 
-    An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then `ConvergenceError`
-    raised."""
+    An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then
+    `ConvergenceError` raised."""
     out.mkdir(parents=True, exist_ok=True)
     begun = time.perf_counter()
     say(f"{scene.name}: preparing the height map and the contact")
@@ -44,14 +44,22 @@ def run_history(scene: Scene, out: Path, animation: bool, say) -> int:
             raise
         result, failure = error.result, error
     write_history(out / "history.csv", result)
-    np.savez_compressed(out / "fields.npz", time=result.time, x=result.x, pressure=result.pressure,
-                        film_thickness=result.film_thickness)
+    np.savez_compressed(
+        out / "fields.npz",
+        time=result.time,
+        x=result.x,
+        pressure=result.pressure,
+        film_thickness=result.film_thickness,
+    )
     _write_json(out / "result.json", scene, model, result, time.perf_counter() - begun)
     if result.time.size > 1:
         plot_history(out / "history.png", result.columns, scene.name)
     if animation:
         animate(out / "animation.gif", result, scene.bodies.half_width)
-    say(f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} in {time.perf_counter() - begun:.1f} s")
+    say(
+        f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} "
+        f"in {time.perf_counter() - begun:.1f} s"
+    )
     if failure:
         raise failure
     return 0
@@ -80,18 +88,34 @@ def _progress(say):
     def on_step(now, duration, row):
         if row is not None and (time.perf_counter() - last[0] > SAY_EVERY or now >= duration):
             last[0] = time.perf_counter()
-            say(f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:.5f}, "
+            say(
+                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, "
+                f"f = {row['coefficient']:.5f}, "
                 f"F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
-                f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})")
+                f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
+            )
+
     return on_step
 
 
 def _write_json(path: Path, scene: Scene, model, result: TransientResult, seconds: float) -> None:
     import scipy
-    record = {"scene": scene_as_dict(scene),
-              "surface": {"shape": model.surface.heights.shape, "spacing": model.surface.spacing,
-                          "sq": model.surface.sq, "notes": list(model.surface.notes)},
-              "versions": {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__,
-                           "python": platform.python_version()},
-              "seconds": seconds, "report": result.report.as_dict()}
+
+    record = {
+        "scene": scene_as_dict(scene),
+        "surface": {
+            "shape": model.surface.heights.shape,
+            "spacing": model.surface.spacing,
+            "sq": model.surface.sq,
+            "notes": list(model.surface.notes),
+        },
+        "versions": {
+            "lubfric": __version__,
+            "numpy": np.__version__,
+            "scipy": scipy.__version__,
+            "python": platform.python_version(),
+        },
+        "seconds": seconds,
+        "report": result.report.as_dict(),
+    }
     path.write_text(json.dumps(_plain(record), indent=1, allow_nan=False))

@@ -14,16 +14,48 @@ from .lubricant import shear_stress, viscosity
 from .patch import Closure
 from .unsteady_sharing import Contact, Sharing
 
-UNITS = {"time": "s", "entrainment_speed": "m/s", "sliding_speed": "m/s", "load": "N", "contact_load": "N",
-         "film_load": "N", "coefficient": "-", "friction_force": "N", "boundary_force": "N", "couette_force": "N",
-         "rolling_force": "N", "min_film": "m", "central_film": "m", "mean_film": "m", "mean_gap": "m",
-         "max_pressure": "Pa", "wet_from": "m", "wet_to": "m", "real_contact_area_fraction": "-",
-         "plastic_area_fraction": "-", "load_residual": "-", "volume_residual": "-", "net_inflow": "m2/s",
-         "stored": "m2/s", "mass_residual": "-", "cavity_growth": "m2/s", "time_error": "-", "steps": "-"}
+UNITS = {
+    "time": "s",
+    "entrainment_speed": "m/s",
+    "sliding_speed": "m/s",
+    "load": "N",
+    "contact_load": "N",
+    "film_load": "N",
+    "coefficient": "-",
+    "friction_force": "N",
+    "boundary_force": "N",
+    "couette_force": "N",
+    "rolling_force": "N",
+    "min_film": "m",
+    "central_film": "m",
+    "mean_film": "m",
+    "mean_gap": "m",
+    "max_pressure": "Pa",
+    "wet_from": "m",
+    "wet_to": "m",
+    "real_contact_area_fraction": "-",
+    "plastic_area_fraction": "-",
+    "load_residual": "-",
+    "volume_residual": "-",
+    "net_inflow": "m2/s",
+    "stored": "m2/s",
+    "mass_residual": "-",
+    "cavity_growth": "m2/s",
+    "time_error": "-",
+    "steps": "-",
+}
 
 
-def moment(sharing: Sharing, time: float, sliding: float, boundary_coefficient: float, solution: StepSolution,
-           contact: Contact, advanced: Advance | None, steps: int) -> dict[str, float]:
+def moment(
+    sharing: Sharing,
+    time: float,
+    sliding: float,
+    boundary_coefficient: float,
+    solution: StepSolution,
+    contact: Contact,
+    advanced: Advance | None,
+    steps: int,
+) -> dict[str, float]:
     """One row of the result, by name in the order of ``UNITS``."""
     setting, t = sharing.setting, solution.terms
     p, grid, total = setting.problem, setting.grid, sharing.total(time)
@@ -35,23 +67,39 @@ def moment(sharing: Sharing, time: float, sliding: float, boundary_coefficient: 
     sense = np.sign(sliding) if sliding else 1.0
     closure = contact.closure
     balance = closure.volume_residual if contact.load > 0.0 else 0.0
-    return {"time": time, "entrainment_speed": setting.contact.speed.before(time), "sliding_speed": sliding, "load": total,
-            "contact_load": contact.load, "film_load": film_load, "coefficient": force * sense / total,
-            "friction_force": force, "boundary_force": boundary, "couette_force": couette, "rolling_force": rolling,
-            "min_film": smallest(grid.x, t.H) * p.film_unit, "central_film": t.H[grid.n // 2] * p.film_unit,
-            "mean_film": closure.mean_film, "mean_gap": closure.mean_gap if contact.load > 0.0 else closure.mean_film,
-            "max_pressure": float(t.P.max()) * p.pressure_unit,
-            "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
-            "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-            "real_contact_area_fraction": closure.real_contact_area_fraction,
-            "plastic_area_fraction": closure.plastic_area_fraction,
-            "load_residual": (film_load + contact.load) / total - 1.0, "volume_residual": balance,
-            **_mass(sharing, solution), "time_error": advanced.error if advanced else 0.0, "steps": steps}
+    return {
+        "time": time,
+        "entrainment_speed": setting.contact.speed.before(time),
+        "sliding_speed": sliding,
+        "load": total,
+        "contact_load": contact.load,
+        "film_load": film_load,
+        "coefficient": force * sense / total,
+        "friction_force": force,
+        "boundary_force": boundary,
+        "couette_force": couette,
+        "rolling_force": rolling,
+        "min_film": smallest(grid.x, t.H) * p.film_unit,
+        "central_film": t.H[grid.n // 2] * p.film_unit,
+        "mean_film": closure.mean_film,
+        "mean_gap": closure.mean_gap if contact.load > 0.0 else closure.mean_film,
+        "max_pressure": float(t.P.max()) * p.pressure_unit,
+        "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
+        "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
+        "real_contact_area_fraction": closure.real_contact_area_fraction,
+        "plastic_area_fraction": closure.plastic_area_fraction,
+        "load_residual": (film_load + contact.load) / total - 1.0,
+        "volume_residual": balance,
+        **_mass(sharing, solution),
+        "time_error": advanced.error if advanced else 0.0,
+        "steps": steps,
+    }
 
 
 def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
-    """Lubricant per unit width and time [m²/s]: into the pressurised film, kept there, and the growth of the gap
-    in the cavitated zone that nothing fills; mass_residual: what is missing of it, of the largest flow."""
+    """Lubricant per unit width and time [m²/s]: into the pressurised film, kept there, and the growth of
+    the gap in the cavitated zone that nothing fills; mass_residual: what is missing of it, of the largest
+    flow."""
     t, p = solution.terms, sharing.setting.problem
     unit = p.film_unit * p.speed
     wet = t.P[1:-1] > 0.0
@@ -59,36 +107,51 @@ def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
     inflow = -float(np.sum(np.diff(t.flux)[wet]))
     inside = np.abs(t.flux)[1:-1][wet[1:] & wet[:-1]]
     through = max(float(np.median(inside, axis=0)) if inside.size else 0.0, abs(stored), 1e-300)
-    return {"net_inflow": inflow * unit, "stored": stored * unit, "mass_residual": abs(stored - inflow) / through,
-            "cavity_growth": float(np.sum(t.r[1:-1][~wet])) * unit}
+    return {
+        "net_inflow": inflow * unit,
+        "stored": stored * unit,
+        "mass_residual": abs(stored - inflow) / through,
+        "cavity_growth": float(np.sum(t.r[1:-1][~wet])) * unit,
+    }
 
 
-def _shear(sharing: Sharing, time: float, sliding: float, solution: StepSolution, contact: Contact) -> tuple[float, float]:
-    """Couette and rolling part [N] of the force on the upper surface along +x: B ∫ eta (u2 - u1)/h dx over the
-    pressurised film and B ∫ (h/2) dp/dx dx, both without the share of the width in contact, with the inlet tails."""
+def _shear(
+    sharing: Sharing, time: float, sliding: float, solution: StepSolution, contact: Contact
+) -> tuple[float, float]:
+    """Couette and rolling part [N] of the force on the upper surface along +x: B ∫ eta (u2 - u1)/h dx over
+    the pressurised film and B ∫ (h/2) dp/dx dx, both without the share of the width in contact, with the
+    inlet tails."""
     setting, t, closure = sharing.setting, solution.terms, contact.closure
     p, grid, now = setting.problem, setting.grid, setting.conditions(time)
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
     free = 1.0 - _touching(x, closure)
     rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
     lubricant = setting.contact.lubricant
-    rate = sliding * now.viscosity * p.lubricant.viscosity / lubricant.viscosity / h      # the history scales eta
+    rate = sliding * now.viscosity * p.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta
     tau = shear_stress(lubricant, pressure, rate)
     couette = float(np.sum(0.5 * (tau[1:] + tau[:-1]) * free * np.diff(x) * full_part(x, pressure)))
     ambient = float(viscosity(lubricant, 0.0)) * now.viscosity * p.lubricant.viscosity / lubricant.viscosity
     for end, sign in ((0, 1.0), (-1, -1.0)):
         if t.P[end] > 0.0:
             flow = sign * t.flux[end] + t.stored[end]
-            reach, tail = outside_shear(abs(grid.x[end]), t.H[end], now.curvature, now.viscosity, sign * now.speed, flow,
-                                        t.stored[end] / grid.weights[end])
+            reach, tail = outside_shear(
+                abs(grid.x[end]),
+                t.H[end],
+                now.curvature,
+                now.viscosity,
+                sign * now.speed,
+                flow,
+                t.stored[end] / grid.weights[end],
+            )
             couette += ambient * sliding * reach * p.length_unit / p.film_unit
             rolling -= sign * tail * p.film_unit * p.pressure_unit
     return sharing.width * couette, sharing.width * rolling
 
 
 def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it ruptures the
-    pressure falls to zero like a square (p = dp/dx = 0 there), which the two nodes before give."""
+    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it
+    ruptures the pressure falls to zero like a square (p = dp/dx = 0 there), which the two nodes before
+    give."""
     wet = pressure > 0.0
     root = np.sqrt(np.maximum(pressure, 0.0))
     part = (wet[1:] & wet[:-1]).astype(float)
@@ -102,8 +165,8 @@ def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
 
 def _touching(x: np.ndarray, closure: Closure) -> np.ndarray:
-    """Share of the width in contact, averaged over each cell between neighbouring ``x``: the columns of the patch are
-    finer than the cells of the film, and vary from one to the next."""
+    """Share of the width in contact, averaged over each cell between neighbouring ``x``: the columns of
+    the patch are finer than the cells of the film, and vary from one to the next."""
     step = closure.x[1] - closure.x[0] if closure.x.size > 1 else 0.0
     edges = np.append(closure.x - 0.5 * step, closure.x[-1] + 0.5 * step)
     touched = np.append(0.0, np.cumsum(closure.contact_fraction) * step)

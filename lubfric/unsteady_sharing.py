@@ -15,8 +15,8 @@ from .errors import ConvergenceError
 from .patch import Closure
 from .report import CONVERGED, ITERATION_LIMIT
 
-FIRST_TOUCH = 1e-3       # of the load: tried when the film has just come too thin for separated surfaces
-LAST_TOUCH = 1e-5        # of the load: below it, ask whether the film clears the surface
+FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
+LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
 MOST_TRIALS = 16
 
 
@@ -58,15 +58,23 @@ def make_sharing(setting: Setting, patch, width: float, tolerance: float) -> Sha
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
     weight = getattr(patch, "region_weight", np.ones(x.size))
-    return Sharing(setting, patch, to_patch, weight @ to_patch / weight.sum(), p.e_prime * p.film_unit * width, width,
-                   tolerance)
+    return Sharing(
+        setting,
+        patch,
+        to_patch,
+        weight @ to_patch / weight.sum(),
+        p.e_prime * p.film_unit * width,
+        width,
+        tolerance,
+    )
 
 
 def share_step(sharing: Sharing, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
     """Film and contact at ``time`` [s]; the `Contact` is the payload of the solution.
 
-    The contact enters the film's load balance as a `Spring`; the contact is then solved at the load the spring
-    took, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
+    The contact enters the film's load balance as a `Spring`; the contact is then solved at the load the
+    spring took, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film)
+    <= tolerance.
     """
     touch, softness, seen = past.load, past.softness, None
     total = sharing.total(time)

@@ -11,7 +11,15 @@ from .ehl.active_set import StepSolution, solve_step
 from .ehl.bdf import Level
 from .ehl.squeeze import Memory
 from .ehl.transient import TIME_SHARE, default_step, film_error
-from .ehl.transient_problem import LineContact, Setting, discretisation, make_setting, parabola, steady_start
+from .ehl.transient_problem import (
+    FINER,
+    LineContact,
+    Setting,
+    discretisation,
+    make_setting,
+    parabola,
+    steady_start,
+)
 from .errors import ConvergenceError, InputError
 from .history import Constant, Transient
 from .mixed import Model, friction, prepare
@@ -69,46 +77,69 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     """Check the scene, make it ready, find its first state."""
     base = scene.scene if isinstance(scene, Model) else scene
     if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
-        raise InputError("a transient needs numerics.film_deflection = 'hydrodynamic' and cavitated_shear = 'none'")
+        raise InputError(
+            "a transient needs numerics.film_deflection = 'hydrodynamic' and cavitated_shear = 'none'"
+        )
     load = plan.load or Constant(base.bodies.load)
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        raise InputError(f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
-                         f"{base.bodies.load:g} N, whose Hertz strip is the area A")
+        raise InputError(
+            f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
+            f"{base.bodies.load:g} N, whose Hertz strip is the area A"
+        )
     model = scene if isinstance(scene, Model) else prepare(scene)
-    setting = _setting(model, plan, load)
-    sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
-    initial = plan.initial
-    if initial == "auto":
-        initial = "rest" if setting.contact.speed.before(0.0) == 0.0 else "steady"
-    grid_error = math.nan
-    if plan.initial_film is not None:
-        start = _flying(sharing, parabola(setting, plan.initial_film))
-    elif initial == "rest":
-        start = _resting(sharing)
-    else:
-        start, grid_error = _steady(model, sharing)
+    tolerance = base.numerics.film_tolerance
+    for finer in FINER:
+        setting = _setting(model, plan, load, finer)
+        sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
+        start, grid_error = _first_state(model, plan, sharing)
+        if not grid_error > tolerance:  # NaN: no steady start to judge by
+            break
     return Run(model, plan, sharing, plan.sliding, start, grid_error)
+
+
+def _first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+    """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
+    still = sharing.setting.contact.speed.before(0.0) == 0.0
+    if plan.initial_film is not None:
+        return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
+    if plan.initial == "rest" or (plan.initial == "auto" and still):
+        return _resting(sharing), math.nan
+    return _steady(model, sharing)
 
 
 def _volume_tolerance(scene: Scene) -> float:
     return min(scene.numerics.volume_tolerance, 1e-4)
 
 
-def _setting(model: Model, plan: Transient, load: Constant) -> Setting:
+def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Setting:
     scene = model.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = LineContact(
-        _per_width(load, bodies.width), plan.radius or Constant(bodies.radius), bodies.e_prime,
-        plan.speed or Constant(scene.motion.entrainment_speed), plan.viscosity or Constant(lubricant.viscosity), lubricant,
-        plan.duration, plan.initial_film)
+        _per_width(load, bodies.width),
+        plan.radius or Constant(bodies.radius),
+        bodies.e_prime,
+        plan.speed or Constant(scene.motion.entrainment_speed),
+        plan.viscosity or Constant(lubricant.viscosity),
+        lubricant,
+        plan.duration,
+        plan.initial_film,
+    )
     rough = model.surface.sq > 0.0
     sigma = max(model.surface.sq, 0.0)
     if not rough and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
-        raise InputError("smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
-                         "an entrainment speed before t = 0")
+        raise InputError(
+            "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
+            "an entrainment speed before t = 0"
+        )
     reach = float(np.max(np.abs(model.patch.x))) if rough else 0.0
-    return make_setting(contact, scene.numerics.film_tolerance, shared=rough, reach=reach,
-                        film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0))
+    return make_setting(
+        contact,
+        scene.numerics.film_tolerance,
+        shared=rough,
+        reach=reach,
+        film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0),
+        finer=finer,
+    )
 
 
 @dataclass(frozen=True)
@@ -148,17 +179,26 @@ def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
 def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
     """No pressure anywhere, the gap as it is."""
     setting = sharing.setting
-    found = solve_step(setting.grid, setting.problem, setting.conditions(0.0), Memory(0.0, np.zeros(setting.grid.n + 1)), z,
-                       max_steps=0)
+    found = solve_step(
+        setting.grid,
+        setting.problem,
+        setting.conditions(0.0),
+        Memory(0.0, np.zeros(setting.grid.n + 1)),
+        z,
+        max_steps=0,
+    )
     contact = _untouched(sharing, found.terms.H)
     if contact.closure.volume_residual > 0.0:
-        raise InputError(f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
-                         f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'")
+        raise InputError(
+            f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
+            f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'"
+        )
     return replace(found, payload=contact)
 
 
 def _resting(sharing: Sharing) -> StepSolution:
-    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without pressure."""
+    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without
+    pressure."""
     setting = sharing.setting
     radius = setting.contact.radius.before(0.0)
     closure = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
@@ -166,10 +206,18 @@ def _resting(sharing: Sharing) -> StepSolution:
     flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
     z[-1] = (closure.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
     if z[-1] <= 0.0:
-        raise InputError("at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
-                         "initial = 'steady' with an entrainment speed, or transient.initial_film")
-    found = solve_step(setting.grid, setting.problem, setting.conditions(0.0), Memory(0.0, np.zeros(setting.grid.n + 1)), z,
-                       max_steps=0)
+        raise InputError(
+            "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
+            "initial = 'steady' with an entrainment speed, or transient.initial_film"
+        )
+    found = solve_step(
+        setting.grid,
+        setting.problem,
+        setting.conditions(0.0),
+        Memory(0.0, np.zeros(setting.grid.n + 1)),
+        z,
+        max_steps=0,
+    )
     closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
     return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
 
@@ -179,9 +227,13 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     setting, scene = sharing.setting, model.scene
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
-        raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
-    values = scene.with_(bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
-                         lubricant={"viscosity": c.viscosity.before(0.0)})
+        raise InputError(
+            "transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed"
+        )
+    values = scene.with_(
+        bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
+        lubricant={"viscosity": c.viscosity.before(0.0)},
+    )
     point = friction(replace(model, scene=values), speed, fields=True)
     film = steady_start(setting, point.film_load / sharing.width)
     if film.status != CONVERGED:
@@ -192,7 +244,9 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
     found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
     if found.status != CONVERGED:
-        raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
+        raise ConvergenceError(
+            "transient: film and contact of the steady start do not balance on the grid of the run"
+        )
     return found, error
 
 

@@ -17,7 +17,9 @@ def test_each_kind_has_its_values():
     assert [ramp.at(t) for t in (0.0, 1.0, 1.5, 2.0, 9.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
     wave = Harmonic(mean=1.0, amplitude=2.0, frequency=0.5, phase=np.pi / 2)
     assert wave.at(0.0) == pytest.approx(3.0) and wave.at(1.0) == pytest.approx(-1.0)
-    assert STEP.before(1.0) == 2.0 and STEP.at(1.0) == 5.0 and STEP.at(2.0) == 5.5 and STEP.jumps(3.0) == (1.0,)
+    assert (
+        STEP.before(1.0) == 2.0 and STEP.at(1.0) == 5.0 and STEP.at(2.0) == 5.5 and STEP.jumps(3.0) == (1.0,)
+    )
 
 
 def test_a_repeated_table_jumps_every_period():
@@ -27,11 +29,20 @@ def test_a_repeated_table_jumps_every_period():
 
 
 KINDS = st.one_of(
-    st.builds(Harmonic, mean=st.floats(-3, 3), amplitude=st.floats(-3, 3), frequency=st.floats(0.05, 5),
-              phase=st.floats(-20, 20)),
-    st.builds(Ramp, start=st.floats(-3, 3), end=st.floats(-3, 3), begin=st.just(0.3), until=st.floats(0.4, 9)),
+    st.builds(
+        Harmonic,
+        mean=st.floats(-3, 3),
+        amplitude=st.floats(-3, 3),
+        frequency=st.floats(0.05, 5),
+        phase=st.floats(-20, 20),
+    ),
+    st.builds(
+        Ramp, start=st.floats(-3, 3), end=st.floats(-3, 3), begin=st.just(0.3), until=st.floats(0.4, 9)
+    ),
     st.lists(st.floats(-3, 3), min_size=2, max_size=6).map(
-        lambda v: Table(times=tuple(np.linspace(0, 4, len(v))), values=tuple(v), repeat=True)))
+        lambda v: Table(times=tuple(np.linspace(0, 4, len(v))), values=tuple(v), repeat=True)
+    ),
+)
 
 
 @given(KINDS, st.floats(0.1, 4.0), st.floats(0, 1))
@@ -61,36 +72,44 @@ def test_a_csv_file(tmp_path):
         read_history(path, "speed")
 
 
-@pytest.mark.parametrize("table, words", [
-    ({"kind": "table", "times": [0, 2, 1], "values": [1, 2, 3]}, "not sorted"),
-    ({"kind": "table", "times": [0, 1], "values": [1, float("nan")]}, "NaN"),
-    ({"kind": "table", "times": [0, 1, 2], "values": [1, 2]}, "as many"),
-    ({"kind": "table", "times": [1, 2], "values": [1, 2]}, "from 0 s"),
-    ({"kind": "table", "times": [0, 1, 1, 1, 2], "values": [1, 2, 3, 4, 5]}, "three times"),
-    ({"kind": "harmonic", "amplitude": 1, "frequency": 0}, "frequency"),
-    ({"kind": "ramp", "start": 0, "end": 1, "until": 0}, "until"),
-    ({"kind": "wave"}, "ramp"),
-    ({"kind": "ramp", "strat": 0}, "start"),
-    ({"kind": "file", "file": "missing.csv", "column": "speed"}, "does not exist"),
-])
+@pytest.mark.parametrize(
+    "table, words",
+    [
+        ({"kind": "table", "times": [0, 2, 1], "values": [1, 2, 3]}, "not sorted"),
+        ({"kind": "table", "times": [0, 1], "values": [1, float("nan")]}, "NaN"),
+        ({"kind": "table", "times": [0, 1, 2], "values": [1, 2]}, "as many"),
+        ({"kind": "table", "times": [1, 2], "values": [1, 2]}, "from 0 s"),
+        ({"kind": "table", "times": [0, 1, 1, 1, 2], "values": [1, 2, 3, 4, 5]}, "three times"),
+        ({"kind": "harmonic", "amplitude": 1, "frequency": 0}, "frequency"),
+        ({"kind": "ramp", "start": 0, "end": 1, "until": 0}, "until"),
+        ({"kind": "wave"}, "ramp"),
+        ({"kind": "ramp", "strat": 0}, "start"),
+        ({"kind": "file", "file": "missing.csv", "column": "speed"}, "does not exist"),
+    ],
+)
 def test_bad_histories_are_refused(table, words):
     with pytest.raises(lubfric.InputError, match=words):
         history("speed", table)
 
 
-@pytest.mark.parametrize("values, words", [
-    ({"load": Ramp(start=5.0, end=-1.0, until=1.0)}, "-1 N"),
-    ({"viscosity": Harmonic(mean=0.1, amplitude=0.2)}, "> 0 Pa s"),
-    ({"speed": Table(times=(0.0, 0.5), values=(1.0, 0.0))}, "table ends at 0.5 s"),
-    ({"duration": 0.0}, "duration"), ({"initial": "hot"}, "steady"), ({"outputs": 0}, "outputs"),
-    ({"tolerance": 1.0}, "tolerance"),
-])
+@pytest.mark.parametrize(
+    "values, words",
+    [
+        ({"load": Ramp(start=5.0, end=-1.0, until=1.0)}, "-1 N"),
+        ({"viscosity": Harmonic(mean=0.1, amplitude=0.2)}, "> 0 Pa s"),
+        ({"speed": Table(times=(0.0, 0.5), values=(1.0, 0.0))}, "table ends at 0.5 s"),
+        ({"duration": 0.0}, "duration"),
+        ({"initial": "hot"}, "steady"),
+        ({"outputs": 0}, "outputs"),
+        ({"tolerance": 1.0}, "tolerance"),
+    ],
+)
 def test_bad_runs_are_refused(values, words):
     with pytest.raises(lubfric.InputError, match=words):
         Transient(**{"duration": 1.0, **values})
 
 
-SCENE = '''
+SCENE = """
 [bodies]
 radius = 2e-3
 width = 6e-3
@@ -112,7 +131,7 @@ spacing = 1e-6
 [transient]
 duration = 1.0
 outputs = 5
-'''
+"""
 
 
 def test_histories_in_a_scene_file(tmp_path):
@@ -131,6 +150,6 @@ def test_histories_in_a_scene_file(tmp_path):
     path.write_text(SCENE + "load = 3.0\n")
     with pytest.raises(lubfric.InputError, match="both"):
         lubfric.load_scene(path)
-    path.write_text(SCENE.replace('start = 2.0', 'start = -2.0'))
+    path.write_text(SCENE.replace("start = 2.0", "start = -2.0"))
     with pytest.raises(lubfric.InputError, match="-2 N"):
         lubfric.load_scene(path)

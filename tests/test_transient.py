@@ -20,10 +20,17 @@ from lubfric.ehl.transient import solve_transient_ehl
 from lubfric.history import Constant, Harmonic, Ramp, Table
 from lubfric.lubricant import Lubricant
 
-SQUEEZE = dict(load_per_width=100.0, radius=0.01, e_prime=2.2e17, entrainment_speed=0.0, viscosity=0.1,
-               viscosity_law="constant", initial_film=1e-6)
-RATE = 100.0 / (6 * math.sqrt(2) * math.pi * 0.1 * 0.01**1.5)         # of h^-1/2, exact (rigid cylinder)
-LONG = 2 / (math.sqrt(1e-6) * RATE)                                    # the film falls to a ninth
+SQUEEZE = dict(
+    load_per_width=100.0,
+    radius=0.01,
+    e_prime=2.2e17,
+    entrainment_speed=0.0,
+    viscosity=0.1,
+    viscosity_law="constant",
+    initial_film=1e-6,
+)
+RATE = 100.0 / (6 * math.sqrt(2) * math.pi * 0.1 * 0.01**1.5)  # of h^-1/2, exact (rigid cylinder)
+LONG = 2 / (math.sqrt(1e-6) * RATE)  # the film falls to a ninth
 
 
 def moes(M, L, density="constant"):
@@ -32,8 +39,15 @@ def moes(M, L, density="constant"):
     number = (L / (alpha * e)) ** 4
     speed = number * e * r / (2 * eta)
     problem = Problem(M * e * r * math.sqrt(number), r, e, speed, Lubricant(eta, alpha, "roelands", density))
-    keywords = dict(load_per_width=problem.load, radius=r, e_prime=e, entrainment_speed=speed, viscosity=eta,
-                    pressure_viscosity_coefficient=alpha, density=density)
+    keywords = dict(
+        load_per_width=problem.load,
+        radius=r,
+        e_prime=e,
+        entrainment_speed=speed,
+        viscosity=eta,
+        pressure_viscosity_coefficient=alpha,
+        density=density,
+    )
     return keywords, problem, problem.half_width * problem.length_unit / speed
 
 
@@ -51,8 +65,15 @@ def test_rigid_squeeze_follows_its_exact_law():
 
 
 def squeeze_setting(resolution):
-    contact = transient_problem.LineContact(*(Constant(v) for v in (100.0, 0.01)), 2.2e17, Constant(0.0), Constant(0.1),
-                                            Lubricant(0.1, 0.0, "constant"), LONG, 1e-6)
+    contact = transient_problem.LineContact(
+        *(Constant(v) for v in (100.0, 0.01)),
+        2.2e17,
+        Constant(0.0),
+        Constant(0.1),
+        Lubricant(0.1, 0.0, "constant"),
+        LONG,
+        1e-6,
+    )
     setting = transient_problem.make_setting(contact, 3e-3)
     edge = setting.problem.half_width
     x = symmetric_nodes(resolution, (edge, edge), (0.1, 1.0))
@@ -66,8 +87,14 @@ def test_second_order_in_time():
     for steps in (32, 64, 128, 512):
         march = March((Level(0.0, z[-1] + 0.5 * setting.grid.x**2, z),), 0.3 * LONG / steps)
         for k in range(steps):
-            step = advance(replace(march, step=LONG), 0.3 * LONG * (k + 1) / steps, lambda t, m, z, _: setting.step(t, m, z),
-                           lambda s, d: 0.0, 1.0, 0.0)
+            step = advance(
+                replace(march, step=LONG),
+                0.3 * LONG * (k + 1) / steps,
+                lambda t, m, z, _: setting.step(t, m, z),
+                lambda s, d: 0.0,
+                1.0,
+                0.0,
+            )
             march = step.march
         ends.append(march.levels[-1].film.min())
     errors = np.abs(np.array(ends[:3]) - ends[3])
@@ -80,7 +107,7 @@ def test_second_order_in_space():
     for resolution in (0.25, 0.5, 1.0):
         setting = squeeze_setting(resolution)
         z = transient_problem.parabola(setting, 1e-6)
-        step = 1e-2 * LONG                                    # backward Euler is exact in terms of the film at its end
+        step = 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
         found = setting.step(step, Memory(1 / step, z[-1] + 0.5 * setting.grid.x**2), z)
         h = found.terms.H.min() * setting.problem.film_unit
         errors.append((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
@@ -88,7 +115,9 @@ def test_second_order_in_space():
     assert np.all(orders > 1.7) and abs(errors[-1]) < 1e-3
 
 
-TABLE = np.array([[3.081, 2.567], [3.079, 2.301], [3.076, 2.119], [2.490, 1.982], [1.963, 1.939], [1.914, 1.621]])
+TABLE = np.array(
+    [[3.081, 2.567], [3.079, 2.301], [3.076, 2.119], [2.490, 1.982], [1.963, 1.939], [1.914, 1.621]]
+)
 
 
 @pytest.mark.parametrize("solver", [solve_transient_ehl, solve_differential_transient])
@@ -120,26 +149,41 @@ def test_direction_and_units_do_not_matter():
     keywords["tolerance"] = 3e-3
     base = solve_transient_ehl(**keywords | {"entrainment_speed": jump(speed, 0.3)}, times=times)
     back = solve_transient_ehl(**keywords | {"entrainment_speed": jump(-speed, 0.3)}, times=times)
-    np.testing.assert_allclose(back.pressure[:, ::-1], base.pressure, rtol=1e-6, atol=1e-8 * base.pressure.max())
+    np.testing.assert_allclose(
+        back.pressure[:, ::-1], base.pressure, rtol=1e-6, atol=1e-8 * base.pressure.max()
+    )
     np.testing.assert_allclose(back.min_film, base.min_film, rtol=1e-8)
     barus = keywords | {"viscosity_law": "barus"}
     one = solve_transient_ehl(**barus | {"entrainment_speed": jump(speed, 0.3)}, times=times)
-    fast = solve_transient_ehl(**barus | {"entrainment_speed": jump(2 * speed, 0.3), "viscosity": keywords["viscosity"] / 2},
-                               times=times / 2)
+    fast = solve_transient_ehl(
+        **barus | {"entrainment_speed": jump(2 * speed, 0.3), "viscosity": keywords["viscosity"] / 2},
+        times=times / 2,
+    )
     np.testing.assert_allclose(fast.min_film, one.min_film, rtol=1e-6)
-    thinned = jump(keywords["viscosity"], 0.5)           # halving the viscosity acts on a film as its own history
+    thinned = jump(keywords["viscosity"], 0.5)  # halving the viscosity acts on a film as its own history
     thin = solve_transient_ehl(**barus | {"viscosity": thinned}, times=30 * times)
     steady = solve_ehl(**barus | {"viscosity": keywords["viscosity"] / 2, "tolerance": 1e-3})
     assert thin.min_film[-1] == pytest.approx(steady.min_film, rel=3e-3)
 
 
-@pytest.mark.parametrize("name, factor", [("entrainment_speed", 0.1), ("entrainment_speed", 10.0),
-                                          ("load_per_width", 0.1), ("load_per_width", 10.0)])
+@pytest.mark.parametrize(
+    "name, factor",
+    [
+        ("entrainment_speed", 0.1),
+        ("entrainment_speed", 10.0),
+        ("load_per_width", 0.1),
+        ("load_per_width", 10.0),
+    ],
+)
 def test_jumps_end_in_the_steady_state(name, factor):
     M = 0.3 if factor == 10.0 else 3.0
     keywords, _, unit = moes(M, 5)
-    found = solve_transient_ehl(**keywords | {name: jump(keywords[name], factor, at=unit)}, times=unit * np.array([0.5, 1, 100]),
-                                tolerance=3e-3, time_tolerance=1e-4)
+    found = solve_transient_ehl(
+        **keywords | {name: jump(keywords[name], factor, at=unit)},
+        times=unit * np.array([0.5, 1, 100]),
+        tolerance=3e-3,
+        time_tolerance=1e-4,
+    )
     steady = solve_ehl(**keywords | {name: factor * keywords[name]}, tolerance=1e-3)
     before = solve_ehl(**keywords, tolerance=1e-3)
     assert found.report.converged and found.pressure.min() >= 0
@@ -168,29 +212,36 @@ def test_reversal_passes_with_the_film_trapped_by_squeeze(M, L):
     assert found.pressure.min() >= 0 and found.min_film.min() > 0.2 * found.min_film[0]
     np.testing.assert_allclose(found.load, problem.load, rtol=1e-6)
     half, whole = found.min_film[20:40], found.min_film[40:60]
-    np.testing.assert_allclose(whole, half, rtol=0.04)                   # each half cycle mirrors the one before
+    np.testing.assert_allclose(whole, half, rtol=0.04)  # each half cycle mirrors the one before
     wet = found.pressure > 0
-    assert not wet[0, -1] and not wet[20, 0]               # at full speed the outlet has ruptured, on either side in turn
-    assert wet[10].all()                                   # at U = 0 squeeze drives lubricant out on both sides
+    assert not wet[0, -1] and not wet[20, 0]  # at full speed the outlet has ruptured, on either side in turn
+    assert wet[10].all()  # at U = 0 squeeze drives lubricant out on both sides
 
 
 def test_a_radius_that_grows_ends_in_the_steady_state():
     keywords, _, unit = moes(3, 5)
     growing = Ramp(start=0.01, end=0.02, begin=0.0, until=10 * unit)
-    found = solve_transient_ehl(**keywords | {"radius": growing}, times=unit * np.array([1, 60]), tolerance=3e-3,
-                                time_tolerance=1e-4)
+    found = solve_transient_ehl(
+        **keywords | {"radius": growing}, times=unit * np.array([1, 60]), tolerance=3e-3, time_tolerance=1e-4
+    )
     steady = solve_ehl(**keywords | {"radius": 0.02}, tolerance=1e-3)
     assert found.min_film[-1] == pytest.approx(steady.min_film, rel=5e-3)
 
 
 def test_a_stopped_contact_decays_like_its_exact_squeeze():
     keywords, problem, unit = moes(0.05, 1)
-    keywords |= {"entrainment_speed": jump(keywords["entrainment_speed"], 0.0), "viscosity_law": "constant",
-                 "pressure_viscosity_coefficient": 0.0, "e_prime": 1e4 * keywords["e_prime"]}
+    keywords |= {
+        "entrainment_speed": jump(keywords["entrainment_speed"], 0.0),
+        "viscosity_law": "constant",
+        "pressure_viscosity_coefficient": 0.0,
+        "e_prime": 1e4 * keywords["e_prime"],
+    }
     unit *= 3 / problem.half_width
     found = solve_transient_ehl(**keywords, times=unit * np.array([4.0, 20.0, 40.0]), time_tolerance=1e-6)
     slope = np.diff(found.min_film**-0.5) / np.diff(found.time)
-    exact = keywords["load_per_width"] / (6 * math.sqrt(2) * math.pi * keywords["viscosity"] * keywords["radius"] ** 1.5)
+    exact = keywords["load_per_width"] / (
+        6 * math.sqrt(2) * math.pi * keywords["viscosity"] * keywords["radius"] ** 1.5
+    )
     np.testing.assert_allclose(slope[-1], exact, rtol=3e-3)
 
 
@@ -217,18 +268,22 @@ def test_the_jacobian_is_the_derivative():
         def both(step):
             t = evaluate(grid, problem, now, memory, spring, z + step * d)
             return np.append(t.r, t.balance)
+
         numerical = (both(1e-6) - both(-1e-6)) / 2e-6
         np.testing.assert_allclose(J @ d, numerical, rtol=2e-5, atol=2e-6 * np.abs(numerical).max())
 
 
 def test_the_tail_is_the_integral_of_reynolds_equation():
     from scipy.integrate import quad
+
     a, film, c, nu, speed, flow, rate = 12.0, 71.0, 0.9, 0.7, 0.8, 1.3, -0.2
-    h = lambda s: film + 0.5 * c * (s * s - a * a)                       # noqa: E731
-    slope = lambda s: 6 * nu * (flow + rate * (s - a) - speed * h(s)) / h(s) ** 3          # noqa: E731
+    h = lambda s: film + 0.5 * c * (s * s - a * a)  # noqa: E731
+    slope = lambda s: 6 * nu * (flow + rate * (s - a) - speed * h(s)) / h(s) ** 3  # noqa: E731
     pressure, load = outside(a, film, c, nu, speed, flow, rate)
     assert pressure.value == pytest.approx(-quad(slope, a, np.inf, epsrel=1e-11)[0], rel=1e-8)
-    assert load.value == pytest.approx(-quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8)
+    assert load.value == pytest.approx(
+        -quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8
+    )
     reach, shear = outside_shear(a, film, c, nu, speed, flow, rate)
     assert reach == pytest.approx(quad(lambda s: 1 / h(s), a, np.inf)[0], rel=1e-8)
     assert shear == pytest.approx(quad(lambda s: 0.5 * h(s) * slope(s), a, np.inf)[0], rel=1e-8)
@@ -236,14 +291,25 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
 
 def test_a_step_balances_mass_and_keeps_complementarity():
     keywords, _, unit = moes(20, 5)
-    contact = transient_problem.LineContact(Constant(keywords["load_per_width"]), Constant(0.01), keywords["e_prime"],
-                                            Constant(keywords["entrainment_speed"]), Constant(keywords["viscosity"]),
-                                            Lubricant(0.0358, 2.2e-8), 10 * unit)
+    contact = transient_problem.LineContact(
+        Constant(keywords["load_per_width"]),
+        Constant(0.01),
+        keywords["e_prime"],
+        Constant(keywords["entrainment_speed"]),
+        Constant(keywords["viscosity"]),
+        Lubricant(0.0358, 2.2e-8),
+        10 * unit,
+    )
     setting = transient_problem.make_setting(contact, 1e-3)
     start = transient_problem.steady_start(setting)
     step = 0.05 * unit
-    found = solve_step(setting.grid, setting.problem, replace(setting.conditions(0.0), speed=0.5),
-                       Memory(setting.time_unit / step, start.film), start.z)
+    found = solve_step(
+        setting.grid,
+        setting.problem,
+        replace(setting.conditions(0.0), speed=0.5),
+        Memory(setting.time_unit / step, start.film),
+        start.z,
+    )
     t = found.terms
     assert found.status == "converged" and np.all(t.P >= 0) and np.all(t.r[1:-1] >= -1e-6)
     assert np.max(np.abs((t.P * t.r)[1:-1])) < 1e-5 * t.P.max()
@@ -260,7 +326,11 @@ def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
 
     def failing(grid, problem, now, memory, z, **options):
         found = real(grid, problem, now, memory, z, **options)
-        return replace(found, status="diverged") if memory.rate and now.speed < 0.9 and failing.calls > 40 else count(found)
+        return (
+            replace(found, status="diverged")
+            if memory.rate and now.speed < 0.9 and failing.calls > 40
+            else count(found)
+        )
 
     def count(found):
         failing.calls += 1
@@ -275,12 +345,20 @@ def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
     assert not solve_transient_ehl(**keywords, times=times, raise_on_failure=False).report.converged
 
 
-@pytest.mark.parametrize("change, words", [
-    ({"times": [0.0, 2.0, 1.0]}, "increase"), ({"times": [-1.0, 1.0]}, "increase"), ({"times": [0.0, np.nan]}, "NaN"),
-    ({"load_per_width": Harmonic(mean=1.0, amplitude=2.0)}, "load_per_width"), ({"viscosity": -0.1}, "viscosity"),
-    ({"entrainment_speed": 0.0}, "initial_film"), ({"initial_film": -1e-6}, "initial_film"),
-    ({"entrainment_speed": Table(times=(0.0, 0.1), values=(1.0, 1.0))}, "table ends"), ({"tolerance": 1.0}, "tolerance"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"times": [0.0, 2.0, 1.0]}, "increase"),
+        ({"times": [-1.0, 1.0]}, "increase"),
+        ({"times": [0.0, np.nan]}, "NaN"),
+        ({"load_per_width": Harmonic(mean=1.0, amplitude=2.0)}, "load_per_width"),
+        ({"viscosity": -0.1}, "viscosity"),
+        ({"entrainment_speed": 0.0}, "initial_film"),
+        ({"initial_film": -1e-6}, "initial_film"),
+        ({"entrainment_speed": Table(times=(0.0, 0.1), values=(1.0, 1.0))}, "table ends"),
+        ({"tolerance": 1.0}, "tolerance"),
+    ],
+)
 def test_bad_input_is_refused(change, words):
     keywords, _, _ = moes(10, 5)
     with pytest.raises(lubfric.InputError, match=words):

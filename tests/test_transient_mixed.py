@@ -18,8 +18,11 @@ from lubfric.cli import main
 from lubfric.history import Harmonic, Ramp, Table, Transient
 from lubfric.mixed import prepare
 
-SCENE = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
-                                          surface={"correlation_length": 5e-6}, motion={"entrainment_speed": 0.02})
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 0.8e-6},
+    surface={"correlation_length": 5e-6},
+    motion={"entrainment_speed": 0.02},
+)
 MODEL = prepare(SCENE)
 
 
@@ -41,18 +44,21 @@ def test_a_slow_ramp_follows_the_stribeck_curve():
     curve = lubfric.stribeck(MODEL, [speed.at(t) for t in found.time])
     np.testing.assert_allclose(found.coefficient, curve.coefficient, rtol=0.01)
     np.testing.assert_allclose(found.contact_load, curve.contact_load, atol=0.01 * SCENE.bodies.load)
-    assert found.contact_load[0] > 1 and found.contact_load[-1] == 0      # through the lift-off
+    assert found.contact_load[0] > 1 and found.contact_load[-1] == 0  # through the lift-off
 
 
 def test_balances_hold_at_every_output():
     wave = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0)
-    found = run(Transient(0.02, speed=wave, load=Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)), np.linspace(0, 0.02, 21))
+    found = run(
+        Transient(0.02, speed=wave, load=Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)),
+        np.linspace(0, 0.02, 21),
+    )
     total = found.contact_load + found.film_load
     np.testing.assert_allclose(total, found.load, rtol=1e-6)
     touching = found.contact_load > 0
     np.testing.assert_allclose(found.mean_gap[touching], found.mean_film[touching], rtol=3e-4)
     nodal = np.trapezoid(found.pressure, found.x, axis=1) * SCENE.bodies.width
-    np.testing.assert_allclose(nodal, found.film_load, rtol=3e-3)         # without the tails
+    np.testing.assert_allclose(nodal, found.film_load, rtol=3e-3)  # without the tails
     assert np.all(found.mass_residual < 1e-3)
     parts = found.boundary_force + found.couette_force + found.rolling_force
     np.testing.assert_allclose(parts, found.friction_force, rtol=1e-12)
@@ -72,8 +78,10 @@ def test_a_reciprocating_contact_becomes_periodic_and_mirrors_itself():
     wave = Harmonic(amplitude=0.05, frequency=100.0, phase=np.pi / 2)
     found = run(Transient(0.025, speed=wave), np.arange(51) * 5e-4)
     f = found.coefficient
-    np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)             # one period later
-    np.testing.assert_allclose(f[20:41], f[10:31], rtol=5e-3)             # run backwards (the map itself is not symmetric)
+    np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)  # one period later
+    np.testing.assert_allclose(
+        f[20:41], f[10:31], rtol=5e-3
+    )  # run backwards (the map itself is not symmetric)
     assert f.max() > 1.5 * f.min()
 
 
@@ -101,11 +109,18 @@ def test_from_rest():
 
 
 def test_jumps_of_load_and_speed():
-    plan = Transient(0.02, speed=Table(times=(0, 5e-3, 5e-3, 0.02), values=(0.01, 0.01, 0.1, 0.1)),
-                     load=Table(times=(0, 0.01, 0.01, 0.02), values=(5.5, 5.5, 0.55, 0.55)))
+    plan = Transient(
+        0.02,
+        speed=Table(times=(0, 5e-3, 5e-3, 0.02), values=(0.01, 0.01, 0.1, 0.1)),
+        load=Table(times=(0, 0.01, 0.01, 0.02), values=(5.5, 5.5, 0.55, 0.55)),
+    )
     found = run(plan, [0.0, 5e-3, 0.01, 0.02])
     light = MODEL.scene.with_(bodies={"load": 0.55})
-    ends = [lubfric.friction(MODEL, 0.01), lubfric.friction(MODEL, 0.1), lubfric.friction(replace(MODEL, scene=light), 0.1)]
+    ends = [
+        lubfric.friction(MODEL, 0.01),
+        lubfric.friction(MODEL, 0.1),
+        lubfric.friction(replace(MODEL, scene=light), 0.1),
+    ]
     for index, steady in zip((1, 2, 3), ends):
         assert found.central_film[index] == pytest.approx(steady.central_film, rel=0.01)
         assert found.coefficient[index] == pytest.approx(steady.coefficient, rel=0.02)
@@ -113,7 +128,11 @@ def test_jumps_of_load_and_speed():
 
 def test_the_flat_contact_runs_in_time():
     flat = prepare(lubfric.load_scene("flat").with_(contact={"shape": (64, 64), "spacing": 8e-6}))
-    found = run(Transient(0.05, speed=Harmonic(mean=0.1, amplitude=0.05, frequency=20.0)), np.linspace(0, 0.05, 11), flat)
+    found = run(
+        Transient(0.05, speed=Harmonic(mean=0.1, amplitude=0.05, frequency=20.0)),
+        np.linspace(0, 0.05, 11),
+        flat,
+    )
     assert found.report.converged and 0 < found.contact_load.min() and np.ptp(found.coefficient) > 1e-3
 
 
@@ -127,15 +146,20 @@ def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
     monkeypatch.setattr(unsteady_start, "share_step", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
-    assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
+    assert (
+        caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
+    )
 
 
-@pytest.mark.parametrize("plan, words", [
-    (Transient(1.0, load=Ramp(start=5.5, end=6.0, until=1.0)), "bodies.load"),
-    (Transient(1.0, initial="steady", speed=Ramp(start=0.0, end=1.0, until=1.0)), "'rest'"),
-    (Transient(1.0, initial_film=1e-8), "initial_film"),
-    (None, r"\[transient\]"),
-])
+@pytest.mark.parametrize(
+    "plan, words",
+    [
+        (Transient(1.0, load=Ramp(start=5.5, end=6.0, until=1.0)), "bodies.load"),
+        (Transient(1.0, initial="steady", speed=Ramp(start=0.0, end=1.0, until=1.0)), "'rest'"),
+        (Transient(1.0, initial_film=1e-8), "initial_film"),
+        (None, r"\[transient\]"),
+    ],
+)
 def test_impossible_runs_are_refused(plan, words):
     with pytest.raises(lubfric.InputError, match=words):
         run(plan)
@@ -168,8 +192,11 @@ np.savez(sys.argv[2], calls=count[0], pressure=result.pressure, **result.columns
 def test_a_killed_run_goes_on_where_it_was(tmp_path):
     def start(folder, *more):
         environment = os.environ | {"OMP_NUM_THREADS": "1"}
-        return subprocess.run([sys.executable, "-c", SCRIPT, str(tmp_path / folder), str(tmp_path / f"{folder}.npz"), *more],
-                              env=environment, cwd=Path(__file__).parents[1]).returncode
+        return subprocess.run(
+            [sys.executable, "-c", SCRIPT, str(tmp_path / folder), str(tmp_path / f"{folder}.npz"), *more],
+            env=environment,
+            cwd=Path(__file__).parents[1],
+        ).returncode
 
     assert start("whole") == 0 and not (tmp_path / "whole").exists()
     assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / "state.npz").is_file()
@@ -195,7 +222,11 @@ def test_a_checkpoint_of_another_run_or_a_damaged_one_is_refused(tmp_path):
 def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
     text = (Path(__file__).parents[1] / "docs" / "examples" / "stop_and_start.toml").read_text()
     scene = tmp_path / "scene.toml"
-    scene.write_text(text.replace("[200, 200]", "[64, 64]").replace("0.45e-6", "0.8e-6").replace("outputs = 200", "outputs = 6"))
+    scene.write_text(
+        text.replace("[200, 200]", "[64, 64]")
+        .replace("0.45e-6", "0.8e-6")
+        .replace("outputs = 200", "outputs = 6")
+    )
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}
     assert names == {"history.csv", "history.png", "fields.npz", "result.json", "animation.gif"}
@@ -208,8 +239,9 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
-    scene = lubfric.load_scene("paper").with_(transient=Transient(
-        0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)))
+    scene = lubfric.load_scene("paper").with_(
+        transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2))
+    )
     begun = time.perf_counter()
     found = lubfric.transient(scene)
     assert found.report.iterations >= 300 and time.perf_counter() - begun < 30

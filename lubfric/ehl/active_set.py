@@ -11,14 +11,15 @@ from .fixed_grid import FixedGrid
 from .problem import Problem
 from .squeeze import Conditions, Memory, Spring, StepTerms, evaluate, jacobian
 
-VISCOSITY_STEP = 3.0     # largest change of ln(eta) in one step
-SMALLEST_STAGE = 0.01    # of the logarithm of a change of the load
-FILM_STEP = 0.7          # largest share of the film that one step may remove
+VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
+SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
+FILM_STEP = 0.7  # largest share of the film that one step may remove
 
 
 @dataclass(frozen=True)
 class StepSolution:
-    """Unknowns z with their `StepTerms`; cavitated (n + 1,): nodes held at P = 0; residuals: see `measure`."""
+    """Unknowns z with their `StepTerms`; cavitated (n + 1,): nodes held at P = 0; residuals: see
+    `measure`."""
 
     z: np.ndarray
     terms: StepTerms
@@ -34,8 +35,17 @@ class StepSolution:
         return self.terms.rho[0] * self.terms.H
 
 
-def solve_step(grid: FixedGrid, problem: Problem, now: Conditions, memory: Memory, z: np.ndarray, *,
-               spring: Spring | None = None, tolerance: float = 1e-7, max_steps: int = 25) -> StepSolution:
+def solve_step(
+    grid: FixedGrid,
+    problem: Problem,
+    now: Conditions,
+    memory: Memory,
+    z: np.ndarray,
+    *,
+    spring: Spring | None = None,
+    tolerance: float = 1e-7,
+    max_steps: int = 25,
+) -> StepSolution:
     """Solve the complementarity equations of `lubfric.ehl.squeeze` from z to max(residuals) <= tolerance.
 
     A node is taken as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is
@@ -98,9 +108,12 @@ def measure(grid: FixedGrid, now: Conditions, memory: Memory, t: StepTerms) -> d
     wet = t.P[1:-1] > 0.0
     ends = np.minimum(t.P, t.r)[[0, -1]] / top
     load = max(abs(now.load), 1e-300)
-    return {"mass": float(np.max(np.abs(mass[wet]), initial=0.0)),
-            "cavitation": max(float(np.max(-mass[~wet], initial=0.0)), -float(t.P.min()) / top),
-            "ends": float(np.max(np.abs(ends))), "load": abs(t.balance) / load}
+    return {
+        "mass": float(np.max(np.abs(mass[wet]), initial=0.0)),
+        "cavitation": max(float(np.max(-mass[~wet], initial=0.0)), -float(t.P.min()) / top),
+        "ends": float(np.max(np.abs(ends))),
+        "load": abs(t.balance) / load,
+    }
 
 
 def _solve(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | None:
@@ -113,7 +126,9 @@ def _solve(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | N
     moved = cavitated & (t.P != 0.0)
     if moved.any():
         right -= J[np.ix_(free, np.flatnonzero(moved))] @ delta[:-1][moved]
-    _, _, solution, info = dgesv(np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1)
+    _, _, solution, info = dgesv(
+        np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1
+    )
     if info != 0:
         return None
     delta[free] = solution

@@ -17,8 +17,8 @@ import numpy as np
 from ..report import CONVERGED
 from .squeeze import Memory
 
-SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0      # of the step; BDF2 is stable for growth below 2.41
-FAILED = 0.25                                # step after a solve that failed
+SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41
+FAILED = 0.25  # step after a solve that failed
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,8 @@ class March:
 
 @dataclass(frozen=True)
 class Advance:
-    """One accepted step: the march after it, its solution, error estimate [of the tolerance], solves rejected."""
+    """One accepted step: the march after it, its solution, error estimate [of the tolerance], solves
+    rejected."""
 
     march: March
     solution: object
@@ -55,9 +56,11 @@ class Advance:
     rejected: int
 
 
-def advance(march: March, until: float, solve: Callable, error_of: Callable, tolerance: float,
-            shortest: float) -> Advance | None:
-    """One step towards ``until`` [s], the step halved so that none is left tiny. None: even the shortest failed.
+def advance(
+    march: March, until: float, solve: Callable, error_of: Callable, tolerance: float, shortest: float
+) -> Advance | None:
+    """One step towards ``until`` [s], the step halved so that none is left tiny. None: even the shortest
+    failed.
 
     ``solve(time, memory, z, payload)`` returns an object with status, z, film, payload; the memory's rate is
     in 1/s. ``error_of(solution, difference)``: relative size of a difference of films."""
@@ -93,7 +96,9 @@ def _pair(march: March, end: float, solve, error_of):
     start = march.levels[-1]
     step = end - start.time
     whole = _solved(solve, end, Memory(1.0 / step, start.film), start.z, march.payload)
-    first = whole and _solved(solve, start.time + 0.5 * step, Memory(2.0 / step, start.film), start.z, march.payload)
+    first = whole and _solved(
+        solve, start.time + 0.5 * step, Memory(2.0 / step, start.film), start.z, march.payload
+    )
     second = first and _solved(solve, end, Memory(2.0 / step, first.film), first.z, first.payload)
     if second is None:
         return None
@@ -110,14 +115,18 @@ def _bdf2(march: March, end: float, solve, error_of):
     memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
     guess = last.z + ratio * (last.z - old.z)
     guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], 0.2 * last.z[:-1]), 0.0)
-    solution = _solved(solve, end, memory, guess, march.payload) or _solved(solve, end, memory, last.z, march.payload)
+    solution = _solved(solve, end, memory, guess, march.payload) or _solved(
+        solve, end, memory, last.z, march.payload
+    )
     if solution is None:
         return None
     levels = (*march.levels[-2:], Level(end, solution.film, solution.z))
     if len(march.levels) < 3:
         return March(levels, step, solution.payload), solution, 0.0, 2
-    curve = _divided([march.levels[-3].time, old.time, last.time, end],
-                     [march.levels[-3].film, old.film, last.film, solution.film])
+    curve = _divided(
+        [march.levels[-3].time, old.time, last.time, end],
+        [march.levels[-3].film, old.film, last.film, solution.film],
+    )
     error = error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
     return March(levels, step, solution.payload), solution, error, 2
 

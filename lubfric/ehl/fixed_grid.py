@@ -14,9 +14,9 @@ import numpy as np
 
 from .kernel import hat_kernel
 
-EDGE_CELL, EDGE_GROWTH = 0.16, 0.3     # smallest cell / length of the pressure rise; growth with distance
-CORE = 12.0                            # cells spread evenly over the contact, which fronts of the film travel through
-FAR = 40.0                             # reach in units of sqrt(2 R h), beyond three half-widths
+EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
+CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
+FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,15 @@ def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     weights[1:] += 0.5 * cells
     weights[:-1] += 0.5 * cells
     kernel = hat_kernel(x, x)
-    return FixedGrid(x, cells, weights, kernel, _faces(x, kernel, (-1, 0, 1)), _faces(x, kernel, (0, 1, 2)),
-                     _faces(x, kernel, (-1, 0, 1, 2)))
+    return FixedGrid(
+        x,
+        cells,
+        weights,
+        kernel,
+        _faces(x, kernel, (-1, 0, 1)),
+        _faces(x, kernel, (0, 1, 2)),
+        _faces(x, kernel, (-1, 0, 1, 2)),
+    )
 
 
 def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces:
@@ -80,8 +87,9 @@ def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces
     return Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns]))
 
 
-def symmetric_nodes(resolution: float, edges: tuple[float, float], films: tuple[float, float],
-                    reach: float = 0.0) -> np.ndarray:
+def symmetric_nodes(
+    resolution: float, edges: tuple[float, float], films: tuple[float, float], reach: float = 0.0
+) -> np.ndarray:
     """Nodes symmetric about 0; their number is ``resolution`` times the size of the task.
 
     ``edges``: smallest and largest Hertz half-width; ``films``: smallest and largest film, all in the units
@@ -101,8 +109,12 @@ def symmetric_nodes(resolution: float, edges: tuple[float, float], films: tuple[
         return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + CORE / np.hypot(scale, x)
 
     away = np.concatenate([[0.0], np.geomspace(1e-3 * fine, far + high, 3000)])
-    table = np.unique(np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far))
-    index = np.concatenate([[0.0], np.cumsum(0.5 * (density(table[1:]) + density(table[:-1])) * np.diff(table))])
+    table = np.unique(
+        np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far)
+    )
+    index = np.concatenate(
+        [[0.0], np.cumsum(0.5 * (density(table[1:]) + density(table[:-1])) * np.diff(table))]
+    )
     half = np.interp(np.linspace(0.0, index[-1], math.ceil(resolution * index[-1]) + 1), index, table)
     half[-1] = far
     return np.concatenate([-half[:0:-1], half])

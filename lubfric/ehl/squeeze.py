@@ -10,9 +10,9 @@ steady state. Unknowns z: the pressures at all nodes and H00 in H = H00 + c X²/
 Control volumes around the nodes; Couette flow with film and density interpolated third-order upwind,
 Poiseuille flow with a centred film and the logarithmic mean of the fluidity. At both end nodes P equals
 the pressure of the film outside (`lubfric.ehl.tail`). Every node's equation r holds in the sense
-``P >= 0, r >= 0, P r = 0``: in the cavitated zone r > 0 is the rate at which the gap outgrows the lubricant that
-flows in. The zone behind the rupture is taken as full again where the film reforms: mass is conserved
-in the pressurised film, not through cavitation.
+``P >= 0, r >= 0, P r = 0``: in the cavitated zone r > 0 is the rate at which the gap outgrows the
+lubricant that flows in. The zone behind the rupture is taken as full again where the film reforms: mass is
+conserved in the pressurised film, not through cavitation.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ from .tail import Tail, outside
 
 @dataclass(frozen=True)
 class Conditions:
-    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu, relative to the reference, at one time."""
+    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu, relative to the reference, at one
+    time."""
 
     speed: float
     load: float
@@ -72,21 +73,22 @@ class StepTerms:
     H: np.ndarray
     rho: tuple
     log_slope: np.ndarray
-    up: tuple                # rho, H of the Couette flow
-    centre: tuple            # rho, H of the Poiseuille flow
+    up: tuple  # rho, H of the Couette flow
+    centre: tuple  # rho, H of the Poiseuille flow
     fluidity: tuple
     gradient: np.ndarray
-    flux: np.ndarray         # towards +X, (n,)
-    stored: np.ndarray       # per unit time in each control volume
-    r: np.ndarray            # node equations
+    flux: np.ndarray  # towards +X, (n,)
+    stored: np.ndarray  # per unit time in each control volume
+    r: np.ndarray  # node equations
     ends: tuple[tuple[Tail, Tail], tuple[Tail, Tail]]
-    carried: float           # ∫ P dX with the tails of ends that are not cavitated
+    carried: float  # ∫ P dX with the tails of ends that are not cavitated
     spring: tuple[float, float]
-    balance: float           # carried + spring - load
+    balance: float  # carried + spring - load
 
 
-def evaluate(grid: FixedGrid, problem: Problem, now: Conditions, memory: Memory, spring: Spring | None,
-             z: np.ndarray) -> StepTerms:
+def evaluate(
+    grid: FixedGrid, problem: Problem, now: Conditions, memory: Memory, spring: Spring | None, z: np.ndarray
+) -> StepTerms:
     """All equations at z."""
     P = z[:-1]
     H = grid.kernel @ P + (z[-1] + 0.5 * now.curvature * grid.x**2)
@@ -102,17 +104,41 @@ def evaluate(grid: FixedGrid, problem: Problem, now: Conditions, memory: Memory,
     r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
     ends, carried = [], float(grid.weights @ P)
     for end, sign in ((0, 1.0), (-1, -1.0)):
-        pressure, load = outside(abs(grid.x[end]), H[end], now.curvature, now.viscosity, sign * now.speed,
-                                 sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end]))
+        pressure, load = outside(
+            abs(grid.x[end]),
+            H[end],
+            now.curvature,
+            now.viscosity,
+            sign * now.speed,
+            sign * flux[end] + stored[end],
+            memory.rate * (H[end] - memory.film[end]),
+        )
         r[end] = P[end] - pressure.value
         carried += load.value if pressure.value > 0.0 else 0.0
         ends.append((pressure, load))
     shared = spring.at(H) if spring else (0.0, 0.0)
-    return StepTerms(P, H, rho, log_slope, (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, flux, stored, r,
-                     tuple(ends), carried, shared, carried + shared[0] - now.load)
+    return StepTerms(
+        P,
+        H,
+        rho,
+        log_slope,
+        (up_rho, up_H),
+        (mid_rho, mid_H),
+        fluidity,
+        gradient,
+        flux,
+        stored,
+        r,
+        tuple(ends),
+        carried,
+        shared,
+        carried + shared[0] - now.load,
+    )
 
 
-def jacobian(grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | None, t: StepTerms) -> np.ndarray:
+def jacobian(
+    grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | None, t: StepTerms
+) -> np.ndarray:
     """Derivatives (n + 2, n + 2) of (r, balance) by z."""
     n = grid.n
     up, mid = grid.upwind(now.speed), grid.centred
@@ -160,4 +186,6 @@ def _local(grid: FixedGrid, now: Conditions, t: StepTerms, up, mid, G: np.ndarra
     if slope.any():
         rows = i[:, None]
         G[rows, up.columns] += (now.speed * t.up[1])[:, None] * up.values * slope[up.columns]
-        G[rows, mid.columns] -= (t.centre[1] ** 3 * mean * t.gradient)[:, None] * mid.values * slope[mid.columns]
+        G[rows, mid.columns] -= (
+            (t.centre[1] ** 3 * mean * t.gradient)[:, None] * mid.values * slope[mid.columns]
+        )

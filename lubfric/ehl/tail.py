@@ -27,12 +27,13 @@ class Tail:
     by_film: float
 
 
-def outside(a: float, film: float, curvature: float, nu: float, speed: float, flow: float,
-            rate: float) -> tuple[Tail, Tail]:
+def outside(
+    a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
+) -> tuple[Tail, Tail]:
     """(pressure at a, load beyond a)."""
     s = a / _POINTS
     h = film + 0.5 * curvature * (s * s - a * a)
-    weight = _WEIGHTS * s * s / a                     # ds
+    weight = _WEIGHTS * s * s / a  # ds
     d = s - a
 
     def moment(power, lever):
@@ -41,16 +42,23 @@ def outside(a: float, film: float, curvature: float, nu: float, speed: float, fl
     def tail(lever):
         two, three, lifted = moment(2, lever), moment(3, lever), moment(3, lever + 1)
         by_film = -2.0 * speed * three + 3.0 * (flow * moment(4, lever) + rate * moment(4, lever + 1))
-        return Tail(6.0 * nu * (speed * two - flow * three - rate * lifted), -6.0 * nu * three,
-                    -6.0 * nu * lifted, 6.0 * nu * by_film)
+        return Tail(
+            6.0 * nu * (speed * two - flow * three - rate * lifted),
+            -6.0 * nu * three,
+            -6.0 * nu * lifted,
+            6.0 * nu * by_film,
+        )
 
     return tail(0), tail(1)
 
 
-def outside_shear(a: float, film: float, curvature: float, nu: float, speed: float, flow: float,
-                  rate: float) -> tuple[float, float]:
+def outside_shear(
+    a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
+) -> tuple[float, float]:
     """(∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the same film."""
     s = a / _POINTS
     h = film + 0.5 * curvature * (s * s - a * a)
     weight = _WEIGHTS * s * s / a
-    return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))
+    return float(np.sum(weight / h)), 3.0 * nu * float(
+        np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2)
+    )

@@ -17,9 +17,15 @@ from .problem import Problem, expected_film
 from .solve import solve_ehl
 from .squeeze import Conditions, Memory, Spring
 
-RESOLUTION = 1.1        # nodes per unit of the grid's index at a tolerance of 3e-3
-SLOWEST = 0.03          # of the largest speed: slower passages are not resolved finer, squeeze rules there
-LIGHTEST = 0.3          # share of the load that the film is taken to carry at least, when it shares it
+FINER = (
+    1.0,
+    1.5,
+    2.25,
+    3.4,
+)  # factors of the number of nodes, tried until the steady start is accurate enough
+RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
+SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
+LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 
 
 @dataclass(frozen=True)
@@ -56,34 +62,62 @@ class Setting:
     def conditions(self, time: float) -> Conditions:
         """Just before ``time`` [s]."""
         c, p = self.contact, self.problem
-        return Conditions(c.speed.before(time) / p.speed, c.load.before(time) / (p.e_prime * p.film_unit),
-                          p.radius / c.radius.before(time), c.viscosity.before(time) / p.lubricant.viscosity)
+        return Conditions(
+            c.speed.before(time) / p.speed,
+            c.load.before(time) / (p.e_prime * p.film_unit),
+            p.radius / c.radius.before(time),
+            c.viscosity.before(time) / p.lubricant.viscosity,
+        )
 
-    def step(self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None,
-             tolerance: float = 1e-7) -> StepSolution:
+    def step(
+        self,
+        time: float,
+        memory: Memory,
+        z: np.ndarray,
+        spring: Spring | None = None,
+        tolerance: float = 1e-7,
+    ) -> StepSolution:
         """Solve for ``time`` [s] with a memory whose rate is in 1/s."""
-        return solve_step(self.grid, self.problem, self.conditions(time), Memory(memory.rate * self.time_unit, memory.film),
-                          z, spring=spring, tolerance=tolerance)
+        return solve_step(
+            self.grid,
+            self.problem,
+            self.conditions(time),
+            Memory(memory.rate * self.time_unit, memory.film),
+            z,
+            spring=spring,
+            tolerance=tolerance,
+        )
 
     def level(self, time: float, solution: StepSolution) -> Level:
         """What later steps need of a solution."""
         return Level(time, solution.film, solution.z)
 
 
-def make_setting(contact: LineContact, tolerance: float, *, shared: bool = False, reach: float = 0.0,
-                 film_range: tuple[float, float] = (math.inf, 0.0)) -> Setting:
+def make_setting(
+    contact: LineContact,
+    tolerance: float,
+    *,
+    shared: bool = False,
+    reach: float = 0.0,
+    film_range: tuple[float, float] = (math.inf, 0.0),
+    finer: float = 1.0,
+) -> Setting:
     """Units and grid for all that the histories ask for.
 
     ``shared``: the film carries only part of the load; ``reach`` [m]: the grid extends so far at least;
-    ``film_range`` [m]: films to resolve beside those of Moes' formula.
+    ``film_range`` [m]: films to resolve beside those of Moes' formula; ``finer``: more nodes by this factor.
     """
     problem, films = _reference(contact, film_range)
     load = contact.load.range(contact.duration)
     radius = contact.radius.range(contact.duration)
     share = LIGHTEST if shared else 1.0
-    edges = [math.sqrt(8.0 * w * r / (math.pi * contact.e_prime)) / problem.length_unit
-             for w, r in ((share * load[0], radius[0]), (load[1], radius[1]))]
-    x = symmetric_nodes(RESOLUTION * math.sqrt(3e-3 / tolerance), tuple(edges), films, reach / problem.length_unit)
+    edges = [
+        math.sqrt(8.0 * w * r / (math.pi * contact.e_prime)) / problem.length_unit
+        for w, r in ((share * load[0], radius[0]), (load[1], radius[1]))
+    ]
+    x = symmetric_nodes(
+        finer * RESOLUTION * math.sqrt(3e-3 / tolerance), tuple(edges), films, reach / problem.length_unit
+    )
     return Setting(contact, problem, make_fixed_grid(x))
 
 
@@ -97,20 +131,29 @@ def _reference(contact: LineContact, film_range) -> tuple[Problem, tuple[float, 
     if fastest:
         low, high = c.speed.range(T)
         slowest = 0.0 if low < 0.0 < high else min(abs(low), abs(high))
-        films += [_moes(reference, load[0], radius[1], eta[1], fastest),
-                  _moes(reference, load[1], radius[0], eta[0], max(slowest, SLOWEST * fastest))]
+        films += [
+            _moes(reference, load[0], radius[1], eta[1], fastest),
+            _moes(reference, load[1], radius[0], eta[0], max(slowest, SLOWEST * fastest)),
+        ]
     else:
         scale = math.sqrt(c.radius.at(0.0) * films[0])
         speed = scale**4 * c.e_prime / (2.0 * lubricant.viscosity * c.radius.at(0.0) ** 3)
         reference = replace(reference, speed=speed)
-        time = math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
+        time = (
+            math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
+        )
         films.append(films[0] / (1.0 + min(time, 10.0)) ** 2)
     return reference, (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
 def _moes(reference: Problem, load: float, radius: float, viscosity: float, speed: float) -> float:
-    p = replace(reference, load=load, radius=radius, speed=speed,
-                lubricant=replace(reference.lubricant, viscosity=viscosity))
+    p = replace(
+        reference,
+        load=load,
+        radius=radius,
+        speed=speed,
+        lubricant=replace(reference.lubricant, viscosity=viscosity),
+    )
     return expected_film(p.M, p.L) * p.film_unit
 
 
@@ -124,10 +167,17 @@ def steady_start(setting: Setting, load: float | None = None, spring: Spring | N
     c, p, grid = setting.contact, setting.problem, setting.grid
     now = setting.conditions(0.0)
     lubricant, speed = c.lubricant, c.speed.before(0.0)
-    found = solve_ehl(load_per_width=load or c.load.before(0.0), radius=c.radius.before(0.0), e_prime=c.e_prime,
-                      entrainment_speed=speed, viscosity=c.viscosity.before(0.0),
-                      pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-                      viscosity_law=lubricant.viscosity_law, density=lubricant.density_law, tolerance=0.01)
+    found = solve_ehl(
+        load_per_width=load or c.load.before(0.0),
+        radius=c.radius.before(0.0),
+        e_prime=c.e_prime,
+        entrainment_speed=speed,
+        viscosity=c.viscosity.before(0.0),
+        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+        viscosity_law=lubricant.viscosity_law,
+        density=lubricant.density_law,
+        tolerance=0.01,
+    )
     x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
     side = math.copysign(1.0, speed)
     guess = np.interp(grid.x, x, P, left=0.0, right=0.0)
@@ -145,10 +195,19 @@ def discretisation(setting: Setting, solution: StepSolution) -> float:
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
     z = np.append(solution.z[:-1:2], solution.z[-1])
     z[-1] += solution.terms.H[setting.grid.n // 2] - (coarse.grid.kernel[coarse.grid.n // 2] @ z[:-1] + z[-1])
-    other = solve_step(coarse.grid, coarse.problem, replace(setting.conditions(0.0), load=solution.terms.carried),
-                       Memory(0.0, np.zeros(coarse.grid.n + 1)), z, max_steps=40)
+    other = solve_step(
+        coarse.grid,
+        coarse.problem,
+        replace(setting.conditions(0.0), load=solution.terms.carried),
+        Memory(0.0, np.zeros(coarse.grid.n + 1)),
+        z,
+        max_steps=40,
+    )
     if other.status != CONVERGED:
         return math.inf
     fine = solution.terms.H
-    changes = (other.terms.H[coarse.grid.n // 2] / fine[setting.grid.n // 2] - 1.0, other.terms.H.min() / fine.min() - 1.0)
+    changes = (
+        other.terms.H[coarse.grid.n // 2] / fine[setting.grid.n // 2] - 1.0,
+        other.terms.H.min() / fine.min() - 1.0,
+    )
     return float(max(abs(c) for c in changes)) / 3.0

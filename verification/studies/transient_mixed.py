@@ -15,7 +15,7 @@ from lubfric.mixed import prepare
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check
 
-LARGEST = 0.05        # m/s
+LARGEST = 0.05  # m/s
 PERIODS = (2.5e-3, 1e-2, 0.2)
 CELLS = {"quick": 64, "default": 128, "full": 200}
 STEADY = "lubfric.friction, the steady solver"
@@ -24,14 +24,16 @@ STEADY = "lubfric.friction, the steady solver"
 def transient_mixed(level: str):
     """Film and rough contact share the load of the moment while the film remembers its past.
 
-    The paper's scene (a generated surface stands in for the measured one). Slow changes must follow the Stribeck
-    curve and a held scene its steady answer; fast ones leave it: slowing down drags a thick film along, speeding up a
-    thin one, so the friction loop opens with frequency. The error of friction against time is charted for the time
-    tolerance and for the film's grid, against the finest of each; so is the cost of a 300-step cycle.
+    The paper's scene (a generated surface stands in for the measured one). Slow changes must follow the
+    Stribeck curve and a held scene its steady answer; fast ones leave it: slowing down drags a thick film
+    along, speeding up a thin one, so the friction loop opens with frequency. The error of friction against
+    time is charted for the time tolerance and for the film's grid, against the finest of each; so is the
+    cost of a 300-step cycle.
     """
     n = CELLS[level]
-    scene = lubfric.load_scene("paper").with_(contact={"shape": (n, n), "spacing": 90e-6 / n},
-                                              motion={"entrainment_speed": LARGEST})
+    scene = lubfric.load_scene("paper").with_(
+        contact={"shape": (n, n), "spacing": 90e-6 / n}, motion={"entrainment_speed": LARGEST}
+    )
     model = prepare(scene)
     yield from steady(model)
     yield from loops(model)
@@ -43,7 +45,9 @@ def transient_mixed(level: str):
 def run(model, plan: Transient, times=None, **numerics):
     """`lubfric.transient` of a prepared model with another plan (and numerics)."""
     scene = replace(model.scene, transient=plan)
-    return lubfric.transient(replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times)
+    return lubfric.transient(
+        replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times
+    )
 
 
 def steady(model):
@@ -52,14 +56,33 @@ def steady(model):
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
     point = lubfric.friction(fine)
     yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
-    yield Check("held in time: drift", np.ptp(held.coefficient) / point.coefficient, 0.0, 5e-4, "a steady state", AT_MOST)
+    yield Check(
+        "held in time: drift",
+        np.ptp(held.coefficient) / point.coefficient,
+        0.0,
+        5e-4,
+        "a steady state",
+        AT_MOST,
+    )
     ramp = Ramp(start=0.005, end=0.15, until=4.0)
     slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
     curve = lubfric.stribeck(model, slow.entrainment_speed)
-    yield Check("slow ramp: largest departure from the Stribeck curve",
-                np.max(np.abs(slow.coefficient / curve.coefficient - 1)), 0.0, 0.01, STEADY, AT_MOST)
-    yield Check("mass of the pressurised film: largest residual", np.max(slow.mass_residual), 0.0, 1e-3,
-                "balance over the step", AT_MOST)
+    yield Check(
+        "slow ramp: largest departure from the Stribeck curve",
+        np.max(np.abs(slow.coefficient / curve.coefficient - 1)),
+        0.0,
+        0.01,
+        STEADY,
+        AT_MOST,
+    )
+    yield Check(
+        "mass of the pressurised film: largest residual",
+        np.max(slow.mass_residual),
+        0.0,
+        1e-3,
+        "balance over the step",
+        AT_MOST,
+    )
 
 
 def loops(model):
@@ -73,25 +96,57 @@ def loops(model):
         wave = Harmonic(mean=LARGEST, amplitude=0.94 * LARGEST, frequency=1 / period, phase=np.pi / 2)
         found = run(model, Transient(2 * period, speed=wave), period * np.linspace(0, 2, 81))
         left.plot(found.entrainment_speed[40:], found.coefficient[40:], label=f"period {1e3 * period:g} ms")
-        opening.append(found.coefficient[70] - found.coefficient[50])        # up minus down at the mean speed
+        opening.append(found.coefficient[70] - found.coefficient[50])  # up minus down at the mean speed
     left.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)")
     left.legend()
-    yield Check("hysteresis: f speeding up above f slowing down (shortest period)", opening[0], 1e-3, 0.0,
-                "the film lags behind the speed", AT_LEAST)
-    yield Check("hysteresis: longest period against shortest", abs(opening[-1] / opening[0]), 0.0, 0.1,
-                "slow loops close on the Stribeck curve", AT_MOST)
+    yield Check(
+        "hysteresis: f speeding up above f slowing down (shortest period)",
+        opening[0],
+        1e-3,
+        0.0,
+        "the film lags behind the speed",
+        AT_LEAST,
+    )
+    yield Check(
+        "hysteresis: longest period against shortest",
+        abs(opening[-1] / opening[0]),
+        0.0,
+        0.1,
+        "slow loops close on the Stribeck curve",
+        AT_MOST,
+    )
     period = PERIODS[1]
     wave = Harmonic(amplitude=LARGEST, frequency=1 / period, phase=np.pi / 2)
     found = run(model, Transient(2.5 * period, speed=wave), period * np.linspace(0, 2.5, 101))
     f = found.coefficient
-    yield Check("reciprocating: third cycle against the second", np.max(np.abs(f[60:101] / f[20:61] - 1)), 0.0, 5e-3,
-                "a periodic run becomes periodic", AT_MOST)
-    yield Check("reciprocating: lubricant held at U = 0 carries load", found.film_load[90] / found.load[90], 0.0, 0.0,
-                "squeeze", AT_LEAST)
+    yield Check(
+        "reciprocating: third cycle against the second",
+        np.max(np.abs(f[60:101] / f[20:61] - 1)),
+        0.0,
+        5e-3,
+        "a periodic run becomes periodic",
+        AT_MOST,
+    )
+    yield Check(
+        "reciprocating: lubricant held at U = 0 carries load",
+        found.film_load[90] / found.load[90],
+        0.05,
+        0.0,
+        "squeeze",
+        AT_LEAST,
+    )
     right.plot(found.entrainment_speed[40:], found.friction_force[40:] / found.load[40:])
-    right.set(xlabel="entrainment speed (m/s)", ylabel="friction force/load (-)", title=f"reversing, {1e3 * period:g} ms")
-    yield plotting.finish("loops", canvas, "Left: friction loops of a pulsating speed; the faster it changes the wider they open about "
-                          "the steady curve. Right: a reversing contact.")
+    right.set(
+        xlabel="entrainment speed (m/s)",
+        ylabel="friction force/load (-)",
+        title=f"reversing, {1e3 * period:g} ms",
+    )
+    yield plotting.finish(
+        "loops",
+        canvas,
+        "Left: friction loops of a pulsating speed; the faster it changes the wider they open about "
+        "the steady curve. Right: a reversing contact.",
+    )
 
 
 def stop_and_start(model):
@@ -109,15 +164,32 @@ def stop_and_start(model):
         right.plot(found.entrainment_speed[moving], found.coefficient[moving], label=name)
     right.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)")
     right.legend()
-    yield plotting.finish("stop_and_start", canvas, "Shut-down and start-up within 5 ms each. While the contact stands still the film "
-                          "is squeezed out until the surfaces carry the load; starting up it has to be built again.")
+    yield plotting.finish(
+        "stop_and_start",
+        canvas,
+        "Shut-down and start-up within 5 ms each. While the contact stands still the film "
+        "is squeezed out until the surfaces carry the load; starting up it has to be built again.",
+    )
     at = 0.04
     low = np.interp(at, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
     high = np.interp(at, found.entrainment_speed[up], found.coefficient[up])
-    yield Check("start-up friction over shut-down friction at 0.04 m/s", high / low, 1.1, 0.0, "the film lags", AT_LEAST)
+    yield Check(
+        "start-up friction over shut-down friction at 0.04 m/s",
+        high / low,
+        1.1,
+        0.0,
+        "the film lags",
+        AT_LEAST,
+    )
     rest = found.film_load[(found.time > 9e-3) & (found.time <= 1e-2)][-1] / found.load[0]
-    yield Check("after 5 ms of rest the contact carries the load: share left to the film", rest, 0.0, 5e-3,
-                "squeeze decays against the contact", AT_MOST)
+    yield Check(
+        "after 5 ms of rest the contact carries the load: share left to the film",
+        rest,
+        0.0,
+        5e-3,
+        "squeeze decays against the contact",
+        AT_MOST,
+    )
 
 
 def errors(model):
@@ -140,18 +212,38 @@ def errors(model):
     left.set(xlabel="time steps in a cycle", ylabel="largest error of f (-)")
     right.loglog([cells for *_, cells in grids], in_space, "o-")
     right.set(xlabel="cells of the film's grid")
-    yield plotting.finish("errors", canvas, "Largest error of the friction coefficient over a reciprocating cycle of 10 ms against the "
-                          "finest step and grid (outputs force at least 26 steps).")
-    yield Check("default step tolerance (3e-5): error of f", np.interp(np.log(3e-5), np.log([1e-5, 1e-4, 1e-3]),
-                in_time[::-1]), 0.0, 1e-3, "tolerance 1e-6", AT_MOST)
-    yield Check("default film tolerance (3e-3): error of f", in_space[2], 0.0, 1e-3, "film tolerance 1e-3", AT_MOST)
+    yield plotting.finish(
+        "errors",
+        canvas,
+        "Largest error of the friction coefficient over a reciprocating cycle of 10 ms against the "
+        "finest step and grid (outputs force at least 26 steps).",
+    )
+    yield Check(
+        "default step tolerance (3e-5): error of f",
+        np.interp(np.log(3e-5), np.log([1e-5, 1e-4, 1e-3]), in_time[::-1]),
+        0.0,
+        1e-3,
+        "tolerance 1e-6",
+        AT_MOST,
+    )
+    yield Check(
+        "default film tolerance (3e-3): error of f", in_space[2], 0.0, 1e-3, "film tolerance 1e-3", AT_MOST
+    )
 
 
 def cost():
     """The paper's own grid, 300 steps of a reciprocating cycle."""
-    scene = lubfric.load_scene("paper").with_(transient=Transient(
-        0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)))
+    scene = lubfric.load_scene("paper").with_(
+        transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2))
+    )
     begun = time.perf_counter()
     found = lubfric.transient(scene)
-    yield Check(f"paper scene, {found.report.iterations} steps of a cycle: time", time.perf_counter() - begun, 30.0, 0.0,
-                "asked for", AT_MOST, unit="s")
+    yield Check(
+        f"paper scene, {found.report.iterations} steps of a cycle: time",
+        time.perf_counter() - begun,
+        30.0,
+        0.0,
+        "asked for",
+        AT_MOST,
+        unit="s",
+    )
