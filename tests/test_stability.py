@@ -178,3 +178,14 @@ def test_table_and_figures(tmp_path):
     assert "reported failures of default methods inside the range promised: 0" in table(cells)
     (picture,) = save(cells, 1.0, "quick", tmp_path)
     assert picture.read_bytes()[:4] == b"\x89PNG" and (tmp_path / "stability.json").exists()
+
+
+@pytest.mark.parametrize("share", [0.3, 1.0])
+def test_badly_starved_light_contacts_are_solved(share):
+    case = film_map.case_of(1e-3, 10)
+    flooded = solve_ehl(**case)
+    case["inlet_length"] = flooded.half_width + share * np.sqrt(2 * case["radius"] * flooded.flow_film)
+    starved = solve_ehl(**case)
+    other = solve_differential_deflection(**case)
+    assert starved.flow_film < 0.6 * flooded.flow_film
+    assert starved.min_film == pytest.approx(other.min_film, rel=6e-3)

@@ -20,6 +20,9 @@ import numpy as np
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
 
 
+STARVED = 0.1       # film of a badly starved contact, relative to the square of the inlet length
+
+
 @dataclass(frozen=True)
 class Problem:
     """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units."""
@@ -67,6 +70,14 @@ class Problem:
     def half_width(self) -> float:
         """Hertz half-width in units of x."""
         return math.sqrt(8.0 * self.M / math.pi)
+
+    @property
+    def film_guess(self) -> float:
+        """`expected_film`, less where the lubricant begins within the length on which a flooded film builds up."""
+        film = expected_film(self.M, self.L)
+        if self.inlet_length is None:
+            return film
+        return min(film, STARVED * (self.inlet_length / self.length_unit) ** 2)
 
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""

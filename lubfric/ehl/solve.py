@@ -13,9 +13,9 @@ from ..validate import integer, number, positive
 from .assemble import assemble, grid_error
 from .grid import make_grid, node_positions
 from .newton import Solution, newton
-from .problem import Problem, expected_film
+from .problem import Problem
 from .result import EHLResult
-from .start import State, cold_start, expected_rupture, refined_start, solution_state, warm_start
+from .start import State, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, FINEST = 48, 3072
 COARSE_TOLERANCE = 0.01   # from here on two grids are enough for a cold start
@@ -119,7 +119,7 @@ def _cold(problem: Problem, tolerance: float, max_steps: int) -> tuple[list[Solu
 def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State, n: int,
             fewest: int) -> list[Solution]:
     """Solutions on grids of n, 2n, ... cells, at least ``fewest``, until the error is below ``tolerance``."""
-    rupture = expected_rupture(problem.M, problem.L)
+    rupture = rupture_guess(problem)
     levels: list[Solution] = []
     while True:
         grid = make_grid(_positions(problem, n, rupture))
@@ -138,7 +138,7 @@ def _first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[
     state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
-        grid = make_grid(_positions(stage, n, expected_rupture(stage.M, stage.L)))
+        grid = make_grid(_positions(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)
@@ -151,7 +151,7 @@ def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     distance = None
     if problem.inlet_length is not None:
         distance = problem.inlet_length / problem.length_unit + rupture
-    return node_positions(problem.half_width, expected_film(problem.M, problem.L), n, distance)
+    return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
 def _sound(levels: list[Solution]) -> bool:

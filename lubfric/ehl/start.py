@@ -35,10 +35,18 @@ def expected_rupture(M: float, L: float) -> float:
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
+def rupture_guess(problem: Problem) -> float:
+    """`expected_rupture`, nearer to the centre where a starved film is thin."""
+    expected = expected_rupture(problem.M, problem.L)
+    if problem.inlet_length is None:
+        return expected
+    return min(expected, problem.half_width + np.sqrt(2.0 * problem.film_guess))
+
+
 def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """A semi-ellipse of the right load that ends at the rupture point, over the expected film: (z, H)."""
-    film = expected_film(problem.M, problem.L)
-    e = expected_rupture(problem.M, problem.L)
+    film = problem.film_guess
+    e = rupture_guess(problem)
     width = np.hypot(problem.half_width, np.sqrt(2.0 * film))
     P = np.sqrt(np.maximum(0.0, 1.0 - (grid.xi / width + 1.0) ** 2))
     P[-1] = 0.0

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from .data import load, machine, save
-from .draw import growth, work_precision
+from .draw import compact, growth, work_precision
 
 CHARTS = {name: f"verification.charts.{name}" for name in ("contact", "film", "job", "growth")}
 
@@ -38,7 +38,7 @@ def main(argv: list[str]) -> int:
             else work_precision(f"performance-{name}", points, where)
         )
         path = options.out / f"{figure.name}.png"
-        path.write_bytes(figure.data)
+        path.write_bytes(compact(figure).data)
         print(path)
     return 0
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+from dataclasses import replace
+
 import numpy as np
 
 from .. import plotting
@@ -104,3 +107,12 @@ def growth(points: list[Point], machine: str) -> Figure:
         )
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish("performance-growth", canvas, "Cost growth", format="png")
+
+
+def compact(figure: Figure, colours: int = 64) -> Figure:
+    """The same picture with a palette, for files that are kept: a third of the size."""
+    from PIL import Image
+
+    stream = io.BytesIO()
+    Image.open(io.BytesIO(figure.data)).convert("RGB").quantize(colours).save(stream, format="png", optimize=True)
+    return replace(figure, data=stream.getvalue())

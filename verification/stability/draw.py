@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import plotting
+from ..charts.draw import compact
 from .cell import FAILED, RIGHT, VERDICTS, WRONG, Cell
 
 COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
@@ -81,7 +82,7 @@ def save(cells: list[Cell], seconds: float, level: str, out: Path) -> list[Path]
         if chosen:
             figure = draw(kind, chosen)
             files.append(out / f"stability-{kind}.png")
-            files[-1].write_bytes(figure.data)
+            files[-1].write_bytes(compact(figure).data)
     return files
 
 
@@ -122,6 +123,8 @@ def panel(ax, cells: list[Cell]) -> None:
             getattr(ax, f"set_{axis}scale")(
                 "symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12
             )
+    if name.startswith("sharing: speed"):
+        ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
     labels = AXES.get(name, ("", ""))
     ax.set(xlabel=labels[0], ylabel=labels[1])
     ax.set_title(
