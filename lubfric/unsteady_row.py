@@ -10,10 +10,12 @@ from .ehl.active_set import StepSolution
 from .ehl.bdf import Advance
 from .ehl.result import smallest
 from .ehl.tail import outside_shear
+from .ehl.transient import WET
 from .lubricant import shear_stress, viscosity
 from .patch import Closure
 from .unsteady_sharing import Contact, Sharing
 
+NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 UNITS = {
     "time": "s",
     "entrainment_speed": "m/s",
@@ -97,21 +99,23 @@ def moment(
 
 
 def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
-    """Lubricant per unit width and time [m²/s]: into the pressurised film, kept there, and the growth of
-    the gap in the cavitated zone that nothing fills; mass_residual: what is missing of it, of the largest
-    flow."""
+    """Lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of the
+    largest): into it, kept there; and the growth of the gap in the cavitated zone that nothing fills.
+    mass_residual: what is missing in the balance, of the larger of the flow and of ``NO_FLOW``."""
     t, p = solution.terms, sharing.setting.problem
     unit = p.film_unit * p.speed
-    wet = t.P[1:-1] > 0.0
-    stored = float(np.sum(t.stored[1:-1][wet]))
-    inflow = -float(np.sum(np.diff(t.flux)[wet]))
-    inside = np.abs(t.flux)[1:-1][wet[1:] & wet[:-1]]
-    through = max(float(np.median(inside, axis=0)) if inside.size else 0.0, abs(stored), 1e-300)
+    film = t.P[1:-1] > WET * t.P.max()
+    stored = float(np.sum(t.stored[1:-1][film]))
+    inflow = -float(np.sum(np.diff(t.flux)[film]))
+    inside = np.abs(t.flux)[1:-1][film[1:] & film[:-1]]
+    through = float(np.median(inside)) if inside.size else 0.0
+    through = max(through, abs(stored), NO_FLOW * t.H[t.H.size // 2])
+    dry = t.P[1:-1] <= 0.0
     return {
         "net_inflow": inflow * unit,
         "stored": stored * unit,
         "mass_residual": abs(stored - inflow) / through,
-        "cavity_growth": float(np.sum(t.r[1:-1][~wet])) * unit,
+        "cavity_growth": float(np.sum(t.r[1:-1][dry])) * unit,
     }
 
 
