@@ -45,7 +45,7 @@ def loosest(solve, load, reference, target, first):
 
 def compare(solvers, load, reference, target, repeats):
     """Rows (name, tolerance, error, quartiles of seconds), repeats interleaved."""
-    first = {"lubfric": 1e-4, "aspher": 1e-3, "tamaas": 1e-6}
+    first = {"lubfric": 1e-4, "aspher": 1e-3, "tamaas": 1e-4}
     found = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
     seconds = {name: [] for name in solvers}
     for repeat in range(repeats):
