@@ -9,6 +9,9 @@ import sys
 import time
 from pathlib import Path
 
+from . import threads  # noqa: F401  before anything that loads numpy
+
+# isort: split
 from . import report as reports
 from .check import Check
 from .run import run

@@ -11,7 +11,6 @@ import argparse
 import contextlib
 import json
 import multiprocessing
-import os
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -80,7 +79,6 @@ def words(check: Check) -> tuple[str, str, str]:
 
 def trials(names: list[str], thorough: bool, workers: int):
     """Trials in the order they end, each in a fresh process."""
-    os.environ.setdefault("OMP_NUM_THREADS", "1")  # one thread to a process, read as it starts
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, mp_context=context, max_tasks_per_child=1) as pool:
         waiting = [pool.submit(trial, name, thorough) for name in names]

@@ -259,8 +259,8 @@ def area_of_the_balance():
     canvas, ax = plotting.axes(height=3.4)
     for found, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
         ax.plot(np.array(WIDTHS) * 1e6, found, "o-", label=label)
-    ax.set(xlabel="width of the patch (µm)", ylabel="F_H (N)", ylim=(0, None))
-    ax.legend()
+    ax.set(xlabel="width of the patch (µm)", ylabel="F_H (N)", ylim=(0, 1.2 * max(*strip, *box)))
+    ax.legend(loc="lower right")
     yield plotting.finish(
         "area",
         canvas,

@@ -288,12 +288,8 @@ def pressure_figure(p: Point):
     left.set_ylabel("y (µm)")
     canvas.colorbar(image, ax=(left, middle), label="contact pressure (GPa)", shrink=0.85)
     film, line = p.fem.film, p.main.balance.film
-    order = np.argsort(film.body.x)
-    right.plot(
-        film.body.x[order] * film.contact.half_width * 1e6,
-        film.P[order] * film.contact.hertz_pressure / 1e6,
-        label="finite elements",
-    )
+    x = np.linspace(-60e-6, 40e-6, 400)
+    right.plot(x * 1e6, film.at(x)[0] / 1e6, label="finite elements")
     right.plot(line.x * 1e6, line.pressure / 1e6, "--", label="lubfric")
     right.set(xlim=(-60, 40), xlabel="x (µm)", ylabel="film pressure (MPa)", title="film")
     right.legend()
