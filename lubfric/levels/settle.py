@@ -234,6 +234,8 @@ def _needed(model, speed, settings, balance, found: Forces, error: FilmError) ->
     level, allowed = settings.level, _allowed_error(numerics, sensitivity)
     if numerics.forced_film_level == "auto" and not error.total <= allowed:
         level = higher(level, lowest_level(model.scene, speed, balance.film_load, allowed)[0])
+        if level != settings.level:                       # the sensitivity found without it is no guide to tolerances
+            return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
     if not balance.report.converged and level == settings.level:
         return None
     enough = film >= settings.film_tolerance / SLACK or level != EHL

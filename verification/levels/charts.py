@@ -40,7 +40,7 @@ def error_against_saving(rows: list[dict], path: Path) -> None:
 
 
 def continuity(rows: list[dict], path: Path) -> None:
-    """f over speed with each level in its colour, and below the deviation from the full model."""
+    """f over speed with each level in its colour, and below the deviation from the full model, the tolerance in grey."""
     scenes = list(dict.fromkeys(r["scene"] for r in rows))
     levels = sorted({r["level"] for r in rows})
     figure, axes = _axes(2, len(scenes), (13, 6))
@@ -53,12 +53,13 @@ def continuity(rows: list[dict], path: Path) -> None:
                 axes[1, column].semilogx(speed, [100 * (r["f"] / r["full"] - 1) for r in mine], ".", color=colour)
         line = [r for r in rows if r["scene"] == name]
         axes[0, column].semilogx([r["speed"] for r in line], [r["full"] for r in line], "-", color="black", lw=0.6)
-        axes[1, column].set(xlabel="entrainment speed U (m/s)", ylim=(-1.1, 1.1))
+        axes[1, column].set(xlabel="entrainment speed U (m/s)", ylim=(-1.3, 1.3))
         axes[1, column].axhline(0, color="black", lw=0.6)
+        axes[1, column].axhspan(-1, 1, color="#dddddd", lw=0, zorder=0)
         axes[0, column].set_title(name)
         axes[0, column].legend(frameon=False, fontsize=6)
-    axes[0, 0].set_ylabel("friction coefficient (-), line: full model")
-    axes[1, 0].set_ylabel("deviation from the full model (%), tolerance 1 %")
+    axes[0, 0].set_ylabel("f (-); line: full model")
+    axes[1, 0].set_ylabel("deviation from full model (%)")
     figure.savefig(path, dpi=130)
 
 
