@@ -79,6 +79,11 @@ class Shared:
     report: SolveReport
 
     @property
+    def split(self) -> float:
+        """ln(F_H/F_C)."""
+        return math.log(self.film_load / self.contact_load)
+
+    @property
     def residual(self) -> float:
         """(gap - film)/(gap + film), 0 in balance; grows with the load on the film."""
         return (self.mean_gap - self.mean_film) / (self.mean_gap + self.mean_film)
@@ -88,13 +93,14 @@ def share_load(
     bodies: Bodies,
     *,
     guess: float = 0.0,
+    step: float = 1.0,
     refinements: int = 1,
     tolerance: float = 1e-5,
     max_evaluations: int = 40,
     raise_on_failure: bool = True,
 ) -> Shared:
-    """The division at which |residual| <= ``tolerance``; ``guess`` of ln(F_H/F_C), ``refinements`` of the
-    film's mesh.
+    """The division at which |residual| <= ``tolerance``; ``guess`` of ln(F_H/F_C), ``step`` first taken from
+    it, ``refinements`` of the film's mesh.
 
     Raises `SolveError` with report and last division when the root is not found, or what film and contact
     raise.
@@ -108,7 +114,7 @@ def share_load(
     def done() -> bool:
         return abs(best(tried).residual) <= tolerance or len(tried) >= max_evaluations
 
-    root(at, done, guess)
+    root(at, done, guess, step)
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
     report = SolveReport(
@@ -132,12 +138,12 @@ def best(tried: dict) -> Shared:
     return min(tried.values(), key=lambda s: abs(s.residual))
 
 
-def root(f: Callable[[float], float], done: Callable[[], bool], guess: float) -> None:
+def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, step: float = 1.0) -> None:
     """Close in on the root of an increasing f: steps outward, then regula falsi in the Illinois form.
 
     M. Dowell & P. Jarratt, BIT 11 (1971) 168-174, doi:10.1007/BF01934364. Ends when ``done()``.
     """
-    a, step = guess, 1.0
+    a = guess
     fa = f(a)
     while not done():
         b = a - math.copysign(step, fa)

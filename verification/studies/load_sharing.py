@@ -134,10 +134,13 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) 
         b.boundary_friction_coefficient,
         s.motion.slide_roll_ratio * speed,
     )
+    found = share_load(bodies, refinements=min(refinements, 1))
+    if refinements > 1:
+        found = share_load(bodies, refinements=refinements, guess=found.split, step=0.01)
     return Point(
         heights.shape[0],
         speed,
-        share_load(bodies, refinements=refinements),
+        found,
         lubfric.friction(prepare(s, lubfric.Surface(heights, (cell, cell))), speed, fields=True),
     )
 
