@@ -61,22 +61,30 @@ work, size = r.report.iterations, nodes"""
 NEWTON = (
     START
     + """
-from lubfric import solve_ehl
+from lubfric.ehl.grid import make_grid
 from lubfric.ehl.newton import newton
-from lubfric.ehl.solve import _ascend
+from lubfric.ehl.solve import _positions
+from lubfric.ehl.start import rupture_guess, warm_start
 from verification.charts.growth import newton_problem
 problem, state = newton_problem()
-n = int(sys.argv[1])
-_ascend(problem, 1.0, 60, state, 48, 1)
+
+
+def solve(n):
+    grid = make_grid(_positions(problem, n, rupture_guess(problem)))
+    return newton(grid, problem, *warm_start(grid, problem, state), 1e-6, 60)
+
+
+solve(48)
 """
     + BEFORE
     + """
+n = int(sys.argv[1])
 times = []
 for _ in range(5 if n < 1600 else 1):
     begun = time.perf_counter()
-    levels = _ascend(problem, 1.0, 60, state, n, 1)
+    solution = solve(n)
     times.append(time.perf_counter() - begun)
-work, size = len(levels[-1].history) - 1, n"""
+work, size = len(solution.history) - 1, n"""
     + REPORT
 )
 SWEEP = (
