@@ -80,7 +80,7 @@ def sphere_array(quick: bool) -> PaperFigure:
     for ax, title in (
         (asperities, "asperity model (any spacing)"),
         (left_out, "half-space, mean deflection left out"),
-        (kept, "half-space, mean of the 230 µm box kept"),
+        (kept, "half-space, mean of the box kept"),
     ):
         a = np.linspace(0, ax.get_xlim()[1] * 1e-9, 60)
         ax.plot(a * 1e9, hertz_load(a) * 1e3, "k:", lw=1, label="one sphere (Hertz)")
