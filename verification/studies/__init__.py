@@ -48,5 +48,6 @@ STUDIES: tuple[Study, ...] = (
     Study("formulations", "verification.studies.formulations:formulations",
           "Contact formulations of the paper against the default"),
     Study("transient", "verification.studies.transient:transient", "Smooth contact in time: squeeze, stops, jumps"),
-    Study("transient_mixed", "verification.studies.transient_mixed:transient_mixed", "Load sharing in time"),
+    Study("transient_mixed", "verification.studies.transient_mixed:transient_mixed", "Load sharing in time",
+          ("default", "full")),
 )
