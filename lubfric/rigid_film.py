@@ -60,7 +60,7 @@ def isoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubri
     """
     h0 = rigid.isoviscous_min_film(load_per_width=load_per_width, radius=radius,
                                    entrainment_speed=abs(entrainment_speed), viscosity=lubricant.viscosity)
-    return _film(h0, lambda q: q, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film")
+    return _film(h0, np.positive, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film")
 
 
 def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
@@ -72,8 +72,7 @@ def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lub
     given = dict(load_per_width=load_per_width, radius=radius, entrainment_speed=abs(entrainment_speed))
     thinnest = rigid.isoviscous_min_film(viscosity=lubricant.viscosity, **given)
     if lubricant.viscosity_law == "constant":
-        law = lambda q: q
-        h0 = thinnest
+        law, h0 = np.positive, thinnest
     else:
         law = true_pressure(lubricant)
         nodes = unit_nodes()

@@ -1,6 +1,5 @@
 """Film levels against closed forms and the numerical film, their error estimates, grids, and the knob as a whole."""
 
-from dataclasses import replace
 
 import numpy as np
 import pytest

@@ -53,7 +53,7 @@ class Stage:
 
 def settle(model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> tuple[Balance, Decision]:
     """Balance of ``model`` at ``speed`` [m/s], and how far it was modelled. ``given_grid``: on the scene's own."""
-    scene, numerics = model.scene, model.scene.numerics
+    numerics = model.scene.numerics
     decision = Decision(film="none", contact="", tolerance=numerics.tolerance, forced=_forced(numerics))
     if speed == 0 or numerics.film_level == "none":
         balance = dry(model, model.patch)

@@ -22,7 +22,7 @@ def _axes(rows: int, columns: int, size):
 
 def error_against_saving(rows: list[dict], path: Path) -> None:
     """One panel a tolerance: |f - f_full|/f_full over the time of the full solve in that of the scene."""
-    figure, axes = _axes(1, len(TOLERANCES), (12, 4.2))
+    figure, axes = _axes(1, len(TOLERANCES), (12, 4.8))
     for axis, tolerance in zip(axes[0], TOLERANCES):
         good = [r for r in rows if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]]
         kinds = sorted({(r[f"{tolerance:g}"]["film"], r[f"{tolerance:g}"]["contact"]) for r in good})
@@ -35,7 +35,8 @@ def error_against_saving(rows: list[dict], path: Path) -> None:
         axis.axvline(1, color="black", lw=0.5, ls=":")
         axis.set(title=f"tolerance {100 * tolerance:g} %", xlabel="time of the reference / time (-)", ylim=(0.5 * LEAST, 0.2))
     axes[0, 0].set_ylabel("|f − f_full| / f_full (-)")
-    axes[0, 1].legend(frameon=False, fontsize=7, loc="lower right")
+    handles = {label: dot for axis in axes[0] for dot, label in zip(*axis.get_legend_handles_labels())}
+    figure.legend(handles.values(), handles, frameon=False, fontsize=8, loc="outside lower center", ncols=3)
     figure.savefig(path, dpi=130)
 
 
