@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import multiprocessing
 import os
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from .data import load, machine, save
+from .data import Point, load, machine, save
 from .draw import compact, growth, work_precision
 
 CHARTS = {name: f"verification.charts.{name}" for name in ("contact", "film", "job", "growth")}
@@ -25,7 +27,7 @@ def main(argv: list[str]) -> int:
             where, points = load(options.out / f"{name}.json")
         else:
             begun = time.perf_counter()
-            points, where = list(importlib.import_module(CHARTS[name]).points(options.level)), machine()
+            points, where = measured(name, options.level), machine()
             save(points, options.out, name)
             print(
                 f"{name}: {len(points)} points in {time.perf_counter() - begun:.0f} s",
@@ -41,6 +43,17 @@ def main(argv: list[str]) -> int:
         path.write_bytes(compact(figure).data)
         print(path)
     return 0
+
+
+def measured(name: str, level: str) -> list[Point]:
+    """All points of one chart, from a new process: the number of threads is read once, when NumPy is loaded."""
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(points_of, name, level).result()
+
+
+def points_of(name: str, level: str) -> list[Point]:
+    """All points of one chart, measured here."""
+    return list(importlib.import_module(CHARTS[name]).points(level))
 
 
 def parser() -> argparse.ArgumentParser:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import multiprocessing
 import os
 import sys
 import time
@@ -56,9 +57,8 @@ def parser() -> argparse.ArgumentParser:
 
 def run_maps(names: list[str], level: str, workers: int = 1) -> list[Cell]:
     """Cells of the maps named, in their order."""
-    if workers == 1:
-        return [cell for name in names for cell in run_map(name, level)]
-    with ProcessPoolExecutor(workers) as pool:
+    fresh = multiprocessing.get_context("spawn")  # the number of BLAS threads is read once, when NumPy is loaded
+    with ProcessPoolExecutor(workers, mp_context=fresh) as pool:
         return [cell for part in pool.map(run_map, names, [level] * len(names)) for cell in part]
 
 
