@@ -174,7 +174,7 @@ def test_jacobian_matches_differences(density, inlet_length):
         for sign in (1, -1):
             moved = z.copy()
             moved[k] += sign * step
-            sides.append(reynolds.residual(g, p, moved, reynolds.elastic_film(g, moved))[0])
+            sides.append(reynolds.residual(g, p, moved, reynolds.elastic_film(g, p, moved)[0])[0])
         difference = (sides[0] - sides[1]) / (2 * step)
         assert np.max(np.abs(difference - J[:, k])) < 1e-5 * max(1.0, np.max(np.abs(J[:, k])))
 

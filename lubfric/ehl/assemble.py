@@ -48,11 +48,13 @@ def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
 def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """Nodes behind the rupture point, graded like those before it, and the film there."""
     xi = solution.grid.xi
-    reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
+    reach = 2.0 * problem.flat_half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
     mirrored = -xi[-2::-1]
     behind = mirrored[: max(8, int(np.searchsorted(mirrored, reach)) + 1)][1::2]
     X = behind + solution.z[-1]
     H = solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
+    if problem.imposed is not None:
+        H += problem.imposed_deflection(X)[0]
     return X, H
 
 
@@ -64,7 +66,7 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     status = last.status
     if status == CONVERGED and not residual <= tolerance:
         status = ITERATION_LIMIT
-    inlet = last.terms.X[0] / problem.half_width
+    inlet = last.terms.X[0] / problem.flat_half_width
     centre = abs(_at_centre(levels[-2]) / _at_centre(last) - 1.0) if len(levels) > 1 else 0.0
     if centre > 2.0 * tolerance:
         notes += (f"central_film changed by {centre:.1e} between the last two grids",)
@@ -89,7 +91,9 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
                  "complementarity": complementarity(last, H_out)}
     report = _report(problem, levels, first, tolerance, residuals, notes)
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
-    nodal_load = last.grid.weights @ t.P
+    deflecting = last.grid.weights @ t.P
+    if problem.imposed is not None:
+        deflecting += problem.M * (1.0 / problem.film_share - 1.0)
     bend = H - 0.5 * X * X
     with np.errstate(over="ignore"):        # Barus far above its range: infinite beyond e^709
         viscosity = problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
@@ -101,7 +105,8 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
         density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
         central_film=float(cubic(X, bend, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
         flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
-        approach=(float(last.z[-3]) - 4.0 / math.pi * nodal_load * math.log(b)) * film, half_width=b * length,
+        approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film, half_width=b * length,
         hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit, load=problem.load,
         radius=problem.radius, e_prime=problem.e_prime, entrainment_speed=sign * problem.speed,
-        load_number=M, material_number=problem.L, report=report, state=solution_state(problem, last, error))
+        load_number=M, material_number=problem.L, report=report, state=solution_state(problem, last, error),
+        imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored())

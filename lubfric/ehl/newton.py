@@ -53,7 +53,7 @@ def _iterate(grid, problem, z, H, tolerance, max_steps) -> Solution:
         _, _, delta, info = dgesv(J, -(R + shift), overwrite_a=1, overwrite_b=1)
         if info != 0:
             break
-        dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.X * delta[-1])
+        dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.by_rupture * delta[-1])
         length = _step_length(grid.n, terms, delta, dH)
         z = z + length * delta
         H = H + length * dH

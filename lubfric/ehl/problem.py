@@ -3,7 +3,7 @@
 With U1 = 2 eta0 U/(E' R) and the units x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
 
     d/dX( rho H^3/(6 eta) dP/dX ) = d(rho H)/dX                  Reynolds
-    H = H00 + X^2/2 - (4/pi) ∫ P(X') ln|X - X'| dX'              elastic film
+    H = H00 + X^2/2 - (4/pi) ∫ (P + Pi)(X') ln|X - X'| dX'       elastic film, Pi imposed
     ∫ P dX = M                                                   load
 
 rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure
@@ -18,14 +18,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
-
+from .imposed import LinePressure, line_deflection
 
 STARVED = 0.1       # film of a badly starved contact, relative to the square of the inlet length
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units."""
+    """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units.
+
+    imposed: a pressure that deflects the film beside its own and carries none of the load.
+    """
 
     load: float
     radius: float
@@ -33,6 +36,7 @@ class Problem:
     speed: float
     lubricant: Lubricant
     inlet_length: float | None = None
+    imposed: LinePressure | None = None
 
     @property
     def speed_number(self) -> float:
@@ -72,9 +76,27 @@ class Problem:
         return math.sqrt(8.0 * self.M / math.pi)
 
     @property
+    def film_share(self) -> float:
+        """Load over the load of own and imposed pressure together; 1 where none is imposed."""
+        return 1.0 if self.imposed is None else self.load / (self.load + self.imposed.load)
+
+    @property
+    def flat_half_width(self) -> float:
+        """Hertz half-width, in units of x, of own and imposed load together."""
+        return self.half_width if self.imposed is None else math.sqrt(8.0 * self.M / (math.pi * self.film_share))
+
+    def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of the imposed pressure at ``X`` (n,), with its derivative by X."""
+        return line_deflection(X, self.imposed.x / self.length_unit, self.imposed.pressure / self.pressure_unit)
+
+    def scaled(self) -> Problem:
+        """Johnson's problem in place of an imposed pressure: the modulus E' times `film_share`."""
+        return replace(self, e_prime=self.e_prime * self.film_share, imposed=None)
+
+    @property
     def film_guess(self) -> float:
         """`expected_film`, less where the lubricant begins within the length on which a flooded film builds up."""
-        film = expected_film(self.M, self.L)
+        film = shared_film(self.M, self.L, self.film_share)
         if self.inlet_length is None:
             return film
         return min(film, STARVED * (self.inlet_length / self.length_unit) ** 2)
@@ -95,6 +117,12 @@ class Problem:
         """rho/rho0 and its derivative with respect to P."""
         value, slope = density_ratio(self.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
+
+
+def shared_film(M: float, L: float, share: float) -> float:
+    """`expected_film` of Johnson's modulus E' times ``share``, in the units of E'."""
+    root = math.sqrt(share)
+    return expected_film(M / root, L * share**0.75) / root
 
 
 def expected_film(M: float, L: float) -> float:

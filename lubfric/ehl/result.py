@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..report import Report
+from .imposed import LinePressure, line_deflection
 from .start import State
 
 
@@ -22,9 +23,9 @@ class EHLResult:
     flow_film [m]: mass flux/(rho0 |U|). It is the film at the rupture point, where dp/dx = 0 and
     rho = rho0; with constant density also the film at every other point where dp/dx = 0.
     flux [m²/s]: mass flux/rho0, along +x when positive.
-    approach [m]: h0 in h = h0 + x²/2R - (4/(pi E')) ∫ p ln(|x - x'|/half_width) dx'.
+    approach [m]: h0 in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'.
     half_width [m], hertz_pressure [Pa]: Hertz values of the load; load [N/m];
-    load_number, material_number: Moes' M and L.
+    load_number, material_number: Moes' M and L; imposed: the pressure, if any, that deflects the film beside its own.
     """
 
     x: np.ndarray
@@ -48,6 +49,7 @@ class EHLResult:
     material_number: float
     report: Report
     state: State = field(repr=False)
+    imposed: LinePressure | None = field(default=None, repr=False)
 
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.
@@ -56,6 +58,15 @@ class EHLResult:
         of the pressure lumped in groups of nodes.
         """
         return film_at(self, x)
+
+    def imposed_deflection(self, x) -> np.ndarray:
+        """Part of the film [m] at ``x`` [m], any shape, that the imposed pressure makes, up to a constant."""
+        x = np.asarray(x, dtype=float)
+        if self.imposed is None:
+            return np.zeros(x.shape)
+        b, imposed = self.half_width, self.imposed
+        found, _ = line_deflection(x.ravel() / b, imposed.x / b, imposed.pressure)
+        return (b / self.e_prime * found).reshape(x.shape)
 
 
 def film_at(result: EHLResult, x) -> np.ndarray:
@@ -68,7 +79,8 @@ def film_at(result: EHLResult, x) -> np.ndarray:
     film = np.empty_like(flat)
     bend = result.film_thickness - nodes**2 / (2.0 * result.radius)
     film[inside] = cubic(nodes, bend, flat[inside])
-    film[~inside] = result.approach + _far_deflection(result, flat[~inside])
+    outside = flat[~inside]
+    film[~inside] = result.approach + _far_deflection(result, outside) + result.imposed_deflection(outside)
     return (film + parabola).reshape(x.shape)
 
 

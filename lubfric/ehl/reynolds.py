@@ -12,6 +12,8 @@ start than the film of an interpolated pressure. Equations, each made dimensionl
   P = |X|/3 dP/dX; or P = 0 where the lubricant begins (starved inlet).
 * load, with the tail upstream of the inlet.
 * rupture (Swift-Stieber): P = 0 is built in, dP/dX = 0 means rho H = q at the last node.
+
+An imposed pressure adds its deflection, a function of X alone, which the nodes travel through as e moves.
 """
 
 from __future__ import annotations
@@ -31,7 +33,8 @@ class Terms:
     P: np.ndarray
     H: np.ndarray
     X: np.ndarray
-    defect: np.ndarray       # H00 + X²/2 + K P - H
+    defect: np.ndarray       # H00 + X²/2 + K P + imposed deflection - H
+    by_rupture: np.ndarray   # d(H00 + X²/2 + imposed deflection)/de
     q: float
     slope: np.ndarray        # d ln(eta)/dP at the nodes
     density: tuple           # rho and d rho/dP at the nodes
@@ -54,10 +57,14 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
     return left * mean, -left * (mean + by_d), left * by_d
 
 
-def elastic_film(grid: Grid, z: np.ndarray) -> np.ndarray:
-    """H00 + X²/2 + K P at the nodes."""
+def elastic_film(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """H00 + X²/2 + K P + imposed deflection at the nodes, and its derivative by e."""
     X = grid.xi + z[-1]
-    return grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X)
+    film = grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X)
+    if problem.imposed is None:
+        return film, X
+    deflection, slope = problem.imposed_deflection(X)
+    return film + deflection, X + slope
 
 
 def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:
@@ -83,8 +90,9 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
         R[n] = P[0] * a / problem.M
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
-    return R, Terms(P, H, X, elastic_film(grid, z) - H, q, slope, (rho, rho_slope), face_rho, face_H,
-                    fluidity, gradient, flux)
+    film, by_rupture = elastic_film(grid, problem, z)
+    return R, Terms(P, H, X, film - H, by_rupture, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient,
+                    flux)
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
@@ -119,7 +127,7 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
         J[:n, :n] += by_rho[:, None] * grid.face_film[:, :n] * rho_slope
     J[:n, n] = by_H
     J[:n, n + 1] = t.flux / q**2
-    J[:n, n + 2] = by_H * (grid.face_film @ t.X)
+    J[:n, n + 2] = by_H * (grid.face_film @ t.by_rupture)
     return by_H
 
 
@@ -137,7 +145,7 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tupl
         J[n, 0] += a / M
         J[n, n] = by_h
         J[n, n + 1] = 2.0 * a / h**3 * a / M
-        J[n, n + 2] = by_h * t.X[0] + (4.0 * a * (h - q) / h**3 - t.P[0]) / M
+        J[n, n + 2] = by_h * t.by_rupture[0] + (4.0 * a * (h - q) / h**3 - t.P[0]) / M
         J[n + 1, 0] += 0.5 * a / M
         J[n + 1, n + 2] = -0.5 * t.P[0] / M
     else:
@@ -145,5 +153,5 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tupl
         J[n, n + 2] = -t.P[0] / M
     rho = t.density[0][-1]
     J[n + 2, :n] = grid.kernel[-1, :n] * rho / q
-    J[n + 2, n:] = rho / q, -rho * t.H[-1] / q**2, rho * t.X[-1] / q
+    J[n + 2, n:] = rho / q, -rho * t.H[-1] / q**2, rho * t.by_rupture[-1] / q
     return by_h, rho / q

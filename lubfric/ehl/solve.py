@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from ..report import CONVERGED
 from ..validate import integer, number, positive
 from .assemble import assemble, grid_error
 from .grid import make_grid, node_positions
+from .imposed import line_pressure
 from .newton import Solution, newton
 from .problem import Problem
 from .result import EHLResult
-from .start import State, cold_start, refined_start, rupture_guess, solution_state, warm_start
+from .start import State, cold_start, from_scaled, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, FINEST = 48, 3072
 COARSE_TOLERANCE = 0.01   # from here on two grids are enough for a cold start
@@ -25,7 +27,7 @@ EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may gr
 def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float,
               viscosity: float, pressure_viscosity_coefficient: float, viscosity_law: str = "roelands",
               density: str = "constant", tolerance: float = 3e-3, inlet_length: float | None = None,
-              start: EHLResult | None = None, max_iterations: int = 60,
+              imposed_pressure=None, start: EHLResult | None = None, max_iterations: int = 60,
               raise_on_failure: bool = True) -> EHLResult:
     """Film of a smooth line contact: Reynolds, elastic half-spaces, load.
 
@@ -43,6 +45,9 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m]
         upstream of the line of centres at which the lubricant begins (starved)
+    imposed_pressure : None, or (x [m], pressure [Pa]), arrays (m,), x ascending, pressure >= 0: a line pressure, linear
+        between the x and zero outside, that deflects the film as p does, h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed)
+        ln|x - x'| dx', and carries none of the load. Kinks that the grid has to resolve cost cells
     start : the result of a neighbouring load or speed. A start that does not lead to a solution is dropped
         for a cold one, which report.notes tells.
     max_iterations : Newton steps per grid
@@ -71,9 +76,12 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     problem = Problem(positive("load_per_width", load_per_width, "N/m"), positive("radius", radius, "m"),
                       positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
                       None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
-    if inlet_length is not None and inlet_length <= problem.half_width * problem.length_unit:
+    imposed = line_pressure(imposed_pressure)
+    if imposed is not None:
+        problem = replace(problem, imposed=imposed if speed > 0 else imposed.mirrored())
+    if inlet_length is not None and inlet_length <= problem.flat_half_width * problem.length_unit:
         raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
-                         f"its half-width {problem.half_width * problem.length_unit:.4g} m")
+                         f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m")
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     if start is not None and not isinstance(start, EHLResult):
@@ -134,7 +142,12 @@ def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State, n:
 
 
 def _first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[Solution]]:
-    """From nothing: rough solutions on n cells while alpha rises from where L = EASY."""
+    """From nothing: rough solutions on n cells while alpha rises from where L = EASY.
+
+    In place of an imposed pressure: Johnson's modulus, which lets the film's own deflect it as both do."""
+    if problem.imposed is not None:
+        state, solutions = _first_state(problem.scaled(), n, max_steps)
+        return from_scaled(problem, state), solutions
     state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
@@ -151,7 +164,7 @@ def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     distance = None
     if problem.inlet_length is not None:
         distance = problem.inlet_length / problem.length_unit + rupture
-    return node_positions(problem.half_width, problem.film_guess, n, distance)
+    return node_positions(problem.flat_half_width, problem.film_guess, n, distance)
 
 
 def _sound(levels: list[Solution]) -> bool:

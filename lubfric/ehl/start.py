@@ -8,7 +8,7 @@ import numpy as np
 
 from .grid import Grid
 from .newton import Solution
-from .problem import Problem, expected_film
+from .problem import Problem, shared_film
 from .reynolds import elastic_film
 
 
@@ -17,7 +17,7 @@ class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
     pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux, rupture: q and e;
-    grid_error: estimated relative discretisation error on these n cells.
+    grid_error: estimated relative discretisation error on these n cells; film_share: of `Problem`.
     """
 
     M: float
@@ -27,20 +27,21 @@ class State:
     flux: float
     rupture: float
     grid_error: float
+    film_share: float = 1.0
 
 
-def expected_rupture(M: float, L: float) -> float:
-    """Rupture point of the guess, in units of x."""
-    film, b = expected_film(M, L), np.sqrt(8.0 * M / np.pi)
+def expected_rupture(M: float, L: float, share: float = 1.0) -> float:
+    """Rupture point of the guess, in units of x, of a film that carries ``share`` of the load that deflects it."""
+    film, b = shared_film(M, L, share), np.sqrt(8.0 * M / (np.pi * share))
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
 def rupture_guess(problem: Problem) -> float:
     """`expected_rupture`, nearer to the centre where a starved film is thin."""
-    expected = expected_rupture(problem.M, problem.L)
+    expected = expected_rupture(problem.M, problem.L, problem.film_share)
     if problem.inlet_length is None:
         return expected
-    return min(expected, problem.half_width + np.sqrt(2.0 * problem.film_guess))
+    return min(expected, problem.flat_half_width + np.sqrt(2.0 * problem.film_guess))
 
 
 def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
@@ -52,7 +53,7 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     P[-1] = 0.0
     P *= problem.M / (grid.weights @ P)
     z = np.append(P[:-1], [0.0, film, e])
-    gap = elastic_film(grid, z)
+    gap, _ = elastic_film(grid, problem, z)
     z[-3] = film - gap.min()
     return z, gap + z[-3]
 
@@ -60,7 +61,15 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
     t = solution.terms
-    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), float(solution.z[-1]), error)
+    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), float(solution.z[-1]), error, problem.film_share)
+
+
+def from_scaled(problem: Problem, state: State) -> State:
+    """A state of ``problem.scaled()`` in the units of ``problem``, as the same state of this one."""
+    share = problem.film_share
+    film = share**-0.5
+    return State(problem.M, problem.L, state.pressure * share**0.75, state.film * film, state.flux * film,
+                 state.rupture * share**-0.25, state.grid_error, share)
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
@@ -78,11 +87,12 @@ def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, 
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
         P, H = refine(P), refine(H)
-    ratio = expected_film(problem.M, problem.L) / expected_film(state.M, state.L)
-    e = state.rupture * (expected_rupture(problem.M, problem.L) / expected_rupture(state.M, state.L))
+    new, old = (problem.M, problem.L, problem.film_share), (state.M, state.L, state.film_share)
+    ratio = shared_film(*new) / shared_film(*old)
+    e = state.rupture * (expected_rupture(*new) / expected_rupture(*old))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
-    gap = elastic_film(grid, z)
+    gap, _ = elastic_film(grid, problem, z)
     z[-3] = state.film.min() * ratio - gap.min()
     return z, H * ratio
 
