@@ -20,14 +20,14 @@ from .result import EHLResult
 from .start import State, cold_start, from_scaled, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, FINEST = 48, 3072
-COARSE_TOLERANCE = 0.01   # from here on two grids are enough for a cold start
+COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
 EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
 
 def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float,
               viscosity: float, pressure_viscosity_coefficient: float, viscosity_law: str = "roelands",
               density: str = "constant", tolerance: float = 3e-3, inlet_length: float | None = None,
-              imposed_pressure=None, start: EHLResult | None = None, max_iterations: int = 60,
+              imposed_pressure=None, start: EHLResult | None = None, least_cells: int = 0, max_iterations: int = 60,
               raise_on_failure: bool = True) -> EHLResult:
     """Film of a smooth line contact: Reynolds, elastic half-spaces, load.
 
@@ -50,6 +50,7 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
         ln|x - x'| dx', and carries none of the load. Kinks that the grid has to resolve cost cells
     start : the result of a neighbouring load or speed. A start that does not lead to a solution is dropped
         for a cold one, which report.notes tells.
+    least_cells : cells before rupture, to be reached even where the films need fewer (0 to 3072)
     max_iterations : Newton steps per grid
 
     The cells are doubled until ``discretisation`` <= tolerance. report.residuals, all relative:
@@ -83,17 +84,18 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
         raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
                          f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m")
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
+    least_cells = min(integer("least_cells", least_cells, minimum=0), FINEST)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
 
     levels, first, notes = [], [], ()
     if start is not None:
-        levels = _warm(problem, tolerance, max_iterations, start.state)
+        levels = _warm(problem, tolerance, least_cells, max_iterations, start.state)
         if not _sound(levels):
             notes = ("the warm start failed; solved again from a cold start",)
     if not _sound(levels):
-        levels, first, retries = _cold(problem, tolerance, max_iterations)
+        levels, first, retries = _cold(problem, tolerance, least_cells, max_iterations)
         notes += retries
     result = assemble(problem, levels, first, tolerance, math.copysign(1.0, speed), notes)
     if raise_on_failure:
@@ -101,21 +103,21 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     return result
 
 
-def _warm(problem: Problem, tolerance: float, max_steps: int, state: State) -> list[Solution]:
+def _warm(problem: Problem, tolerance: float, least: int, max_steps: int, state: State) -> list[Solution]:
     """Two grids, the finer one as fine as the error of ``state`` says is needed, or more."""
     n = COARSEST
-    needed = state.pressure.size * min(4.0, math.sqrt(state.grid_error / tolerance))
+    needed = max(least, state.pressure.size * min(4.0, math.sqrt(state.grid_error / tolerance)))
     while 2 * n < min(needed, FINEST):
         n *= 2
-    return _ascend(problem, tolerance, max_steps, state, n, 2)
+    return _ascend(problem, tolerance, least, max_steps, state, n, 2)
 
 
-def _cold(problem: Problem, tolerance: float, max_steps: int) -> tuple[list[Solution], list[Solution], tuple]:
+def _cold(problem: Problem, tolerance: float, least: int, max_steps: int) -> tuple[list[Solution], list[Solution], tuple]:
     """Grids from the coarsest up, from a finer one if that fails; the solutions that led there, and notes."""
     spent, notes, n = [], (), COARSEST
     while True:
         state, first = _first_state(problem, n, max_steps)
-        levels = _ascend(problem, tolerance, max_steps, state, n, 2 if tolerance >= COARSE_TOLERANCE else 3)
+        levels = _ascend(problem, tolerance, least, max_steps, state, n, 2 if tolerance >= COARSE_TOLERANCE else 3)
         spent += first
         if _sound(levels) or n >= 4 * COARSEST:
             return levels, spent, notes
@@ -124,9 +126,9 @@ def _cold(problem: Problem, tolerance: float, max_steps: int) -> tuple[list[Solu
         notes += (f"the cold start failed; tried again from {n} cells",)
 
 
-def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State, n: int,
+def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int,
             fewest: int) -> list[Solution]:
-    """Solutions on grids of n, 2n, ... cells, at least ``fewest``, until the error is below ``tolerance``."""
+    """Solutions on ``fewest`` or more grids of n, 2n, ... cells until there are ``least`` and the error is below ``tolerance``."""
     rupture = rupture_guess(problem)
     levels: list[Solution] = []
     while True:
@@ -135,7 +137,7 @@ def _ascend(problem: Problem, tolerance: float, max_steps: int, state: State, n:
         levels.append(newton(grid, problem, z, H, 1e-3 * tolerance, max_steps))
         if levels[-1].status != CONVERGED or n >= FINEST:
             return levels
-        if len(levels) >= fewest and grid_error(levels) <= tolerance:
+        if len(levels) >= fewest and n >= least and grid_error(levels) <= tolerance:
             return levels
         rupture = levels[-1].z[-1]
         n *= 2
