@@ -13,7 +13,7 @@ from ..report import CONVERGED, Report
 from ..rigid_film import RigidFilm
 from ..shear import ShearForce, shear_force
 from .film_level import film_at_level
-from .total_deflection import film_and_contact, mismatch
+from .total_deflection import film_and_contact, told
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,7 @@ def balance_at(model, patch, speed: float, settings: Settings, start: Balance | 
             return film_and_contact(scene, patch, solve_film, close, film_load, contact_load, film, contact,
                                     0.5 * min(settings.volume_tolerance, settings.film_tolerance))
         found = sharing.share_load(bodies.load, solve_film, close, joint=joint, **options)
-        apart = {"deflection": mismatch(scene, found.film, found.closure)}
-        return replace(found, report=replace(found.report, residuals=found.report.residuals | apart))
+        return told(scene, found)
     if numerics.closure == "load":
         return sharing.share_load(bodies.load, solve_film, close, **options)
     return sharing.share_by_separation(bodies.load, solve_film, close, carry, **options)

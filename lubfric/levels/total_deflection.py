@@ -13,7 +13,7 @@ Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.3213
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,6 +70,18 @@ def film_and_contact(scene, patch, solve_film, close, film_load, contact_load, f
     report = Report("film and contact under each other's pressure", ITERATION_LIMIT, MOST, history[-1], tolerance,
                     {"deflection": history[-1]}, tuple(history), MOST)
     raise ConvergenceError(report.message, report, (film, closure))
+
+
+def told(scene, balance):
+    """``balance`` with `mismatch` among the residuals of its report, and `departure` among its notes."""
+    report, line_load = balance.report, balance.contact_load / scene.bodies.width
+    apart = {"deflection": mismatch(scene, balance.film, balance.closure)}
+    notes = report.notes
+    if balance.closure.contact is not None:
+        left_out = 100 * departure(scene, balance.closure, line_load)
+        notes += (f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
+                  "mean film more than its semi-ellipse does",)
+    return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
 
 
 def mismatch(scene, film, closure) -> float:
