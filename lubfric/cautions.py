@@ -25,7 +25,7 @@ def cautions(scene, balance, shear) -> tuple[str, ...]:
             and rise > STRIP_SHARE * balance.closure.mean_gap):
         notes.append(f"caution: over the Hertz strip the undeformed cylinder rises {rise:.2g} m on average, not small against "
                      f"the mean gap {balance.closure.mean_gap:.2g} m; a film flattened by its own pressure alone then takes too "
-                     "much of the load (f does not tend to f_b): see numerics.film_deflection = 'scaled'")
+                     "much of the load (f does not tend to f_b): see numerics.film_deflection = 'scaled' or 'total'")
     if film.central_film > 0.1 * bodies.radius:
         notes.append(f"caution: film {film.central_film:.2g} m is not thin against the radius {bodies.radius:.2g} m")
     return tuple(notes)

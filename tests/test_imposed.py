@@ -195,6 +195,15 @@ def test_converges_for_other_widths_and_off_the_centre(width, shift, share):
             assert r.film_thickness.min() > 0 and r.report.residual <= 0.01
 
 
+def test_a_gap_with_two_bottoms_has_no_film_that_ruptures_once_and_says_so():
+    imposed = semi_ellipse(9e4, 0.9 * hertz.line_half_width(1e5, R, E))
+    case = OIL | {"load_per_width": 1e4, "entrainment_speed": 1e-3, "imposed_pressure": imposed}
+    with pytest.raises(ConvergenceError, match="line-contact EHL"):
+        solve_ehl(**case)
+    found = solve_ehl(**case, raise_on_failure=False)
+    assert not found.report.converged and found.report.residual > found.report.tolerance
+
+
 @pytest.mark.parametrize("bad", [3, ([0.0], [1.0]), ([0.0, 1.0], [1.0]), ([1.0, 0.0], [1.0, 1.0]), ([0.0, 1.0], [1.0, -1.0]),
                                  ([0.0, 1.0], [1.0, float("nan")])])
 def test_bad_input(bad):

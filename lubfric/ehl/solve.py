@@ -150,7 +150,7 @@ def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, stat
         grid = make_grid(_positions(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * tolerance, max_steps))
-        if levels[-1].status != CONVERGED or n >= FINEST:
+        if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
             return levels
         if len(levels) >= fewest and n >= least and grid_error(levels) <= tolerance:
             return levels
