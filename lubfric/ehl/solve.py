@@ -19,7 +19,7 @@ from .problem import Problem
 from .result import EHLResult
 from .start import State, cold_start, from_scaled, refined_start, rupture_guess, solution_state, warm_start
 
-COARSEST, FINEST = 48, 3072
+COARSEST, LAST_START, FINEST = 48, 768, 3072
 COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
 EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
@@ -119,7 +119,7 @@ def _cold(problem: Problem, tolerance: float, least: int, max_steps: int) -> tup
         state, first = _first_state(problem, n, max_steps)
         levels = _ascend(problem, tolerance, least, max_steps, state, n, 2 if tolerance >= COARSE_TOLERANCE else 3)
         spent += first
-        if _sound(levels) or n >= 4 * COARSEST:
+        if _sound(levels) or n >= LAST_START:
             return levels, spent, notes
         spent += levels
         n *= 2

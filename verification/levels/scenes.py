@@ -24,7 +24,7 @@ from lubfric.lubricant import Lubricant
 from lubfric.scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 
 E_PRIME, WIDTH, EYRING, LIMITING = 231e9, 10e-3, 5e6, 0.05
-CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 12, 12, 1.33
+CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 24, 12, 1.33
 SEED = 7
 LOG_RANGES = {"load": (1e2, 1e6), "speed": (1e-5, 10.0), "radius": (1e-3, 50e-3), "viscosity": (0.005, 1.0),
               "sq": (10e-9, 1e-6), "correlation_length": (2e-6, 50e-6)}
