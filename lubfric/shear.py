@@ -33,8 +33,9 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
                 cavitated="none") -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film`` is an `EHLResult` (x, pressure, film_thickness); ``contact_fraction(x)`` is the
-    share of the width at x that is in contact and carries no fluid shear. The Couette term reaches from
+    ``film`` is an `EHLResult` (x, pressure, film_thickness); ``contact_fraction(x)``, for nodes x (n,) [m], is the
+    share of the width that is in contact and carries no fluid shear, averaged over each of the n - 1 cells between them
+    (`Closure.touching`). The Couette term reaches from
     far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
     cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
     width. The lubricant's shear law (Newtonian by default) acts on the Couette term.
@@ -45,14 +46,13 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
-    face_wet = 0.5 * (wet[1:] + wet[:-1])
 
-    rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * face_wet)
-    tau = shear_stress(lubricant, p, sliding / h) * wet
-    face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x)
+    rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet)
+    tau = shear_stress(lubricant, p, sliding / h)
+    face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction               # the rupture point is a node
     couette = np.sum(face_tau[full])
-    middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * face_wet * np.diff(x)
+    middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet

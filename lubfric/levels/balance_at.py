@@ -104,7 +104,7 @@ def _shear(scene, speed, balance: Balance) -> ShearForce:
         return shear_force(film, scene.lubricant, entrainment_speed=speed, radius=scene.bodies.radius,
                            width=scene.bodies.width, slide_roll_ratio=scene.motion.slide_roll_ratio,
                            cavitated=scene.numerics.cavitated_shear,
-                           contact_fraction=lambda x: np.interp(x, closure.x, closure.contact_fraction, 0.0, 0.0))
+                           contact_fraction=closure.touching)
 
 
 def carried_over(start: Balance, patch) -> Balance:
