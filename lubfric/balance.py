@@ -38,7 +38,8 @@ class Balance:
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
 
-def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, shift=0.0, touching=False) -> Balance:
+def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, shift=0.0, touching=False,
+               joint=None) -> Balance:
     """Divide ``total_load`` [N] between film and contact.
 
     ``solve_film(load, start)`` gives the film at a load [N]; ``close(film, contact_load, start)`` the
@@ -46,6 +47,8 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, s
     with the film's share, so ln(F_H/F_C) has one root; the load balance holds by construction.
     Stops at |residual| <= tolerance. ``guess``: of ln(F_H/F_C); ``start``: a neighbouring Balance, its ln(F_H/F_C)
     moved by ``shift``; ``touching``: it is known that the film of the whole load does not clear the summits.
+    ``joint(film_load, contact_load, film, contact)`` gives film and closure, started from a film and a contact, where
+    the film depends on the contact as well.
     """
     whole, notes = _whole(total_load, solve_film, close, tolerance, start, touching)
     if whole is not None and whole.closure.volume_residual <= 0:
@@ -56,8 +59,11 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, s
     def residual(split):
         film_load = total_load / (1 + math.exp(-split))
         contact_load = total_load / (1 + math.exp(split))
-        film = solve_film(film_load, last["film"])
-        closure = close(film, contact_load, last["contact"])
+        if joint:
+            film, closure = joint(film_load, contact_load, last["film"], last["contact"])
+        else:
+            film = solve_film(film_load, last["film"])
+            closure = close(film, contact_load, last["contact"])
         last.update(film=film, contact=closure.contact)
         seen.append((split, closure.volume_residual))
         return closure.volume_residual, (film_load, contact_load, film, closure)

@@ -150,6 +150,9 @@ def _cylinder_patch(scene: Scene, heights, spacing, operator=None) -> CylinderPa
     x = centred_axis(heights.shape[0], spacing[0])
     weight = np.ones(x.size) if contact.region == "box" else strip_weight(x, spacing[0], bodies.half_width)
     if contact.model != "half-space":
+        if numerics.film_deflection == "total":
+            raise InputError(f"contact.model = {contact.model!r} under a cylinder has no deflection for film_deflection = "
+                             "'total'; allowed: 'half-space'")
         return AsperityPatch(heights, spacing, x, weight, bodies.e_prime, bodies.width, bodies.hardness, contact.model,
                              contact.asperity_separation, numerics.pressure_tolerance)
     if operator is None:

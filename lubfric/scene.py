@@ -18,7 +18,7 @@ CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 CLOSURES = ("load", "separation")
-FILM_DEFLECTIONS = ("hydrodynamic", "scaled")
+FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
@@ -169,7 +169,7 @@ class Numerics:
 
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled").
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
     scene's own grid. film_level, contact_level, grid: a level given by name instead.
@@ -194,6 +194,11 @@ class Numerics:
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
         validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
+        if self.film_deflection == "total":
+            for name, allowed in (("closure", ("load",)), ("film_level", ("auto", "none", "ehl"))):
+                if getattr(self, name) not in allowed:
+                    raise InputError(f"numerics.{name} = {getattr(self, name)!r} does not go with film_deflection = 'total'; "
+                                     f"allowed: {', '.join(map(repr, allowed))}")
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
@@ -203,8 +208,10 @@ class Numerics:
 
     @property
     def forced_film_level(self) -> str:
-        """Film level given by name or by ``model = "full"``; "auto" where it is to be chosen."""
-        return "ehl" if self.model == "full" and self.film_level == "auto" else self.film_level
+        """Film level given by name, by ``model = "full"`` or by the total deflection, which rigid films have none of;
+        "auto" where it is to be chosen."""
+        numerical = self.model == "full" or self.film_deflection == "total"
+        return "ehl" if numerical and self.film_level == "auto" else self.film_level
 
     @property
     def film_tolerance(self) -> float:

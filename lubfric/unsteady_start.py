@@ -78,7 +78,8 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     base = scene.scene if isinstance(scene, Model) else scene
     if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
         raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic' and cavitated_shear = 'none'"
+            f"a transient needs numerics.film_deflection = 'hydrodynamic', found {base.numerics.film_deflection!r}, and "
+            f"cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
         )
     load = plan.load or Constant(base.bodies.load)
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):

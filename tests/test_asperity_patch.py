@@ -177,7 +177,7 @@ def test_oversize_cuts_the_middle_of_a_longer_map():
         ("contact", "model", "summit"),
         ("contact", "asperity_separation", "plane"),
         ("numerics", "closure", "film"),
-        ("numerics", "film_deflection", "total"),
+        ("numerics", "film_deflection", "totel"),
         ("surface", "oversize", 0),
     ],
 )

@@ -23,9 +23,17 @@ def grid_error(levels: list[Solution]) -> float:
     return float(changes[0] / 1.5 if changes.size == 1 else max(changes[1], changes[0] / 3.0) / 2.0)
 
 
-def _at_centre(solution: Solution) -> float:
+def _at_centre(problem: Problem, solution: Solution) -> float:
     t = solution.terms
-    return float(cubic(t.X, t.H - 0.5 * t.X**2, np.zeros(1))[0])
+    return float(_interpolated(problem, t.X, t.H, np.zeros(1))[0])
+
+
+def _interpolated(problem: Problem, X: np.ndarray, H: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Film at ``points``: the deflection by its own pressure is interpolated, the rest is known."""
+    bend, rest = H - 0.5 * X * X, 0.5 * points * points
+    if problem.imposed is not None:
+        bend, rest = bend - problem.imposed_deflection(X)[0], rest + problem.imposed_deflection(points)[0]
+    return cubic(X, bend, points) + rest
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
@@ -67,7 +75,7 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     if status == CONVERGED and not residual <= tolerance:
         status = ITERATION_LIMIT
     inlet = last.terms.X[0] / problem.flat_half_width
-    centre = abs(_at_centre(levels[-2]) / _at_centre(last) - 1.0) if len(levels) > 1 else 0.0
+    centre = abs(_at_centre(problem, levels[-2]) / _at_centre(problem, last) - 1.0) if len(levels) > 1 else 0.0
     if centre > 2.0 * tolerance:
         notes += (f"central_film changed by {centre:.1e} between the last two grids",)
     notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
@@ -93,8 +101,7 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
     deflecting = last.grid.weights @ t.P
     if problem.imposed is not None:
-        deflecting += problem.M * (1.0 / problem.film_share - 1.0)
-    bend = H - 0.5 * X * X
+        deflecting += problem.imposed_load
     with np.errstate(over="ignore"):        # Barus far above its range: infinite beyond e^709
         viscosity = problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -103,7 +110,7 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
         film_thickness=(H * film)[order],
         viscosity=viscosity[order],
         density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
-        central_film=float(cubic(X, bend, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
+        central_film=float(_interpolated(problem, X, H, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
         flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
         approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film, half_width=b * length,
         hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit, load=problem.load,

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import InputError
 from ..validate import array
+
+FLATTEST = 1e8      # radius of a seat, in radii of the cylinder
+FLAT_WINDOW = 0.8   # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,61 @@ class LinePressure:
     def mirrored(self) -> LinePressure:
         """The same seen from the other side."""
         return LinePressure(-self.x[::-1], self.pressure[::-1])
+
+
+@dataclass(frozen=True)
+class Seat:
+    """What film and contact of the own load on the gap that an imposed pressure leaves are like: those about ``centre`` [m]
+    of a cylinder of ``radius`` R and ``modulus`` E' (ratios). Only grids and starts are made from it."""
+
+    centre: float = 0.0
+    radius: float = 1.0
+    modulus: float = 1.0
+
+
+def find_seats(problem) -> tuple[Seat, ...]:
+    """Seats of a `Problem`, the likelier one first; just one where no pressure is imposed.
+
+    One is flat: Johnson's modulus, E' times the own share of the load. One is curved: over a window |x - x0| <= s the gap
+    G = x²/2R + imposed deflection is as good as a parabola where the Chebyshev mean of G' is zero, and of the curvature
+    k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt: a dry contact of the half-width s then carries what a cylinder of the radius
+    1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact and film, s² = b² + 2 h/k.
+    """
+    if problem.imposed is None:
+        return (Seat(),)
+    from scipy.optimize import brentq
+
+    imposed, radius = problem.imposed, problem.radius
+    wide = problem.flat_half_width * problem.length_unit
+    reach = max(2.0 * wide + math.hypot(*_window(problem, 1.0)), float(np.abs(imposed.x).max()))
+    x = reach * np.sinh(np.linspace(-6.0, 6.0, 1201)) / 50.0
+    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.e_prime
+    sine = np.sin((np.arange(64) + 0.5) * (math.pi / 64) - math.pi / 2)
+
+    def slopes(centre, window):
+        return np.interp(centre + window * sine, x, slope)
+
+    def centre_of(window):
+        return brentq(lambda centre: slopes(centre, window).sum(), -reach, reach, xtol=1e-6 * wide)
+
+    def ratio_of(window):
+        curvature = float(slopes(centre_of(window), window) @ sine) / 32.0 / window
+        return min(1.0 / (radius * curvature), FLATTEST) if curvature > 0 else FLATTEST
+
+    def surplus(log_window):
+        return log_window - math.log(math.hypot(*_window(problem, ratio_of(math.exp(log_window)))))
+
+    window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
+    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, problem.load / (problem.load + imposed.load))
+    curved = Seat(centre_of(window), ratio_of(window))
+    return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
+
+
+def _window(problem, ratio: float) -> tuple[float, float]:
+    """Half-width [m] of the dry contact and length [m] of the film on a cylinder of ``ratio`` radii."""
+    seated = replace(problem, seat=Seat(0.0, ratio))
+    return (seated.seat_half_width * problem.length_unit,
+            math.sqrt(2.0 * seated.film_guess * ratio) * problem.length_unit)
 
 
 def line_pressure(value) -> LinePressure | None:

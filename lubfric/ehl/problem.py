@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
-from .imposed import LinePressure, line_deflection
+from .imposed import LinePressure, Seat, line_deflection
 
 STARVED = 0.1       # film of a badly starved contact, relative to the square of the inlet length
 
@@ -27,7 +27,8 @@ STARVED = 0.1       # film of a badly starved contact, relative to the square of
 class Problem:
     """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units.
 
-    imposed: a pressure that deflects the film beside its own and carries none of the load.
+    imposed: a pressure that deflects the film beside its own and carries none of the load; seat: what the film is like
+    then, for grids and starts.
     """
 
     load: float
@@ -37,6 +38,7 @@ class Problem:
     lubricant: Lubricant
     inlet_length: float | None = None
     imposed: LinePressure | None = None
+    seat: Seat = Seat()
 
     @property
     def speed_number(self) -> float:
@@ -76,27 +78,38 @@ class Problem:
         return math.sqrt(8.0 * self.M / math.pi)
 
     @property
-    def film_share(self) -> float:
-        """Load over the load of own and imposed pressure together; 1 where none is imposed."""
-        return 1.0 if self.imposed is None else self.load / (self.load + self.imposed.load)
+    def imposed_load(self) -> float:
+        """Of the imposed pressure, in the units of M."""
+        return 0.0 if self.imposed is None else self.M * self.imposed.load / self.load
 
     @property
     def flat_half_width(self) -> float:
         """Hertz half-width, in units of x, of own and imposed load together."""
-        return self.half_width if self.imposed is None else math.sqrt(8.0 * self.M / (math.pi * self.film_share))
+        return math.sqrt(8.0 * (self.M + self.imposed_load) / math.pi)
+
+    @property
+    def seat_centre(self) -> float:
+        """In units of x."""
+        return self.seat.centre / self.length_unit
+
+    @property
+    def seat_half_width(self) -> float:
+        """Dry half-width, in units of x, of the own load over the gap that the imposed pressure leaves."""
+        return math.sqrt(8.0 * self.M * self.seat.radius / (math.pi * self.seat.modulus))
 
     def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of the imposed pressure at ``X`` (n,), with its derivative by X."""
         return line_deflection(X, self.imposed.x / self.length_unit, self.imposed.pressure / self.pressure_unit)
 
-    def scaled(self) -> Problem:
-        """Johnson's problem in place of an imposed pressure: the modulus E' times `film_share`."""
-        return replace(self, e_prime=self.e_prime * self.film_share, imposed=None)
+    def alone(self) -> Problem:
+        """The cylinder of the seat, without imposed pressure."""
+        return replace(self, radius=self.radius * self.seat.radius, e_prime=self.e_prime * self.seat.modulus,
+                       imposed=None, seat=Seat())
 
     @property
     def film_guess(self) -> float:
         """`expected_film`, less where the lubricant begins within the length on which a flooded film builds up."""
-        film = shared_film(self.M, self.L, self.film_share)
+        film = seated_film(self.M, self.L, self.seat)
         if self.inlet_length is None:
             return film
         return min(film, STARVED * (self.inlet_length / self.length_unit) ** 2)
@@ -119,10 +132,10 @@ class Problem:
         return value, slope * self.pressure_unit
 
 
-def shared_film(M: float, L: float, share: float) -> float:
-    """`expected_film` of Johnson's modulus E' times ``share``, in the units of E'."""
-    root = math.sqrt(share)
-    return expected_film(M / root, L * share**0.75) / root
+def seated_film(M: float, L: float, seat: Seat) -> float:
+    """`expected_film` of the cylinder of the seat, in the units of the real one."""
+    root = math.sqrt(seat.radius * seat.modulus)
+    return expected_film(M / root, L * seat.modulus / math.sqrt(root)) * seat.radius / root
 
 
 def expected_film(M: float, L: float) -> float:

@@ -54,7 +54,7 @@ class EHLResult:
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.
 
-        Between the nodes the deflection is interpolated by cubics; outside it is the line kernel
+        Between the nodes the deflection by the own pressure is interpolated by cubics; outside it is the line kernel
         of the pressure lumped in groups of nodes.
         """
         return film_at(self, x)
@@ -78,9 +78,11 @@ def film_at(result: EHLResult, x) -> np.ndarray:
     inside = (flat >= nodes[0]) & (flat <= nodes[-1])
     film = np.empty_like(flat)
     bend = result.film_thickness - nodes**2 / (2.0 * result.radius)
+    if result.imposed is not None:
+        bend -= result.imposed_deflection(nodes)
+        parabola += result.imposed_deflection(flat)
     film[inside] = cubic(nodes, bend, flat[inside])
-    outside = flat[~inside]
-    film[~inside] = result.approach + _far_deflection(result, outside) + result.imposed_deflection(outside)
+    film[~inside] = result.approach + _far_deflection(result, flat[~inside])
     return (film + parabola).reshape(x.shape)
 
 

@@ -12,15 +12,16 @@ from ..lubricant import Lubricant
 from ..report import CONVERGED
 from ..validate import integer, number, positive
 from .assemble import assemble, grid_error
-from .grid import make_grid, node_positions
-from .imposed import line_pressure
+from .grid import FAR_INLET, make_grid, node_positions
+from .imposed import find_seats, line_pressure
 from .newton import Solution, newton
 from .problem import Problem
 from .result import EHLResult
-from .start import State, cold_start, from_scaled, refined_start, rupture_guess, solution_state, warm_start
+from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, LAST_START, FINEST = 48, 768, 3072
 COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
+DOUBLINGS = 8             # of the speed, to begin with a film too thick to feel an imposed pressure
 EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
 
@@ -79,7 +80,8 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
                       None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
     imposed = line_pressure(imposed_pressure)
     if imposed is not None:
-        problem = replace(problem, imposed=imposed if speed > 0 else imposed.mirrored())
+        imposed = imposed if speed > 0 else imposed.mirrored()
+        problem = replace(problem, imposed=imposed)
     if inlet_length is not None and inlet_length <= problem.flat_half_width * problem.length_unit:
         raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
                          f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m")
@@ -89,13 +91,15 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
 
-    levels, first, notes = [], [], ()
+    levels, first, notes, seats = [], [], (), find_seats(problem)
     if start is not None:
+        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
+        problem = replace(problem, seat=(alike or seats)[0])
         levels = _warm(problem, tolerance, least_cells, max_iterations, start.state)
         if not _sound(levels):
             notes = ("the warm start failed; solved again from a cold start",)
     if not _sound(levels):
-        levels, first, retries = _cold(problem, tolerance, least_cells, max_iterations)
+        problem, levels, first, retries = _cold(problem, seats, tolerance, least_cells, max_iterations)
         notes += retries
     result = assemble(problem, levels, first, tolerance, math.copysign(1.0, speed), notes)
     if raise_on_failure:
@@ -112,18 +116,29 @@ def _warm(problem: Problem, tolerance: float, least: int, max_steps: int, state:
     return _ascend(problem, tolerance, least, max_steps, state, n, 2)
 
 
-def _cold(problem: Problem, tolerance: float, least: int, max_steps: int) -> tuple[list[Solution], list[Solution], tuple]:
-    """Grids from the coarsest up, from a finer one if that fails; the solutions that led there, and notes."""
-    spent, notes, n = [], (), COARSEST
-    while True:
-        state, first = _first_state(problem, n, max_steps)
+def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
+          max_steps: int) -> tuple[Problem, list[Solution], list[Solution], tuple]:
+    """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
+    solutions; the solutions that led there, and notes."""
+    spent, notes = [], ()
+    for n, seat, doublings in _attempts(seats):
+        if spent:
+            notes += (f"the cold start failed; tried again from {n} cells",)
+        problem = replace(problem, seat=seat)
+        state, first = _first_state(problem, n, max_steps, doublings)
         levels = _ascend(problem, tolerance, least, max_steps, state, n, 2 if tolerance >= COARSE_TOLERANCE else 3)
-        spent += first
-        if _sound(levels) or n >= LAST_START:
-            return levels, spent, notes
-        spent += levels
-        n *= 2
-        notes += (f"the cold start failed; tried again from {n} cells",)
+        if _sound(levels):
+            return problem, levels, spent + first, notes
+        spent += first + levels
+    return problem, levels, spent[:-len(levels)], notes
+
+
+def _attempts(seats: tuple) -> list[tuple]:
+    """(cells, seat, doublings of the speed) of one cold start after the other."""
+    finer = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
+    if len(seats) == 1:
+        return [(n, seats[0], 0) for n in finer]
+    return [(n, seat, doublings) for n in finer for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))]
 
 
 def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int,
@@ -143,13 +158,15 @@ def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, stat
         n *= 2
 
 
-def _first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[Solution]]:
+def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
     """From nothing: rough solutions on n cells while alpha rises from where L = EASY.
 
-    In place of an imposed pressure: Johnson's modulus, which lets the film's own deflect it as both do."""
+    In place of an imposed pressure: the cylinder of the seat, or a film of a speed doubled so many times."""
+    if doublings:
+        return _descent(problem, n, max_steps, doublings)
     if problem.imposed is not None:
-        state, solutions = _first_state(problem.scaled(), n, max_steps)
-        return from_scaled(problem, state), solutions
+        state, solutions = _first_state(problem.alone(), n, max_steps)
+        return from_alone(problem, state), solutions
     state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
@@ -162,11 +179,29 @@ def _first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[
         share = min(1.0, STAGE * share)
 
 
+def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
+    """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
+    state, solutions = None, []
+    for k in range(doublings, 0, -1):
+        stage = replace(problem, speed=problem.speed * 2.0**k)
+        stage = replace(stage, seat=find_seats(stage)[0])
+        if state is None:
+            state, solutions = _first_state(stage, n, max_steps)
+        grid = make_grid(_positions(stage, n, rupture_guess(stage)))
+        solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
+        state = solution_state(stage, solutions[-1], 0.0)
+        if solutions[-1].status != CONVERGED:
+            break
+    return state, solutions
+
+
 def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
     distance = None
     if problem.inlet_length is not None:
         distance = problem.inlet_length / problem.length_unit + rupture
-    return node_positions(problem.flat_half_width, problem.film_guess, n, distance)
+    elif problem.imposed is not None:
+        distance = 3.0 * problem.flat_half_width + FAR_INLET * math.sqrt(2.0 * problem.film_guess) + rupture
+    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat.radius, n, distance)
 
 
 def _sound(levels: list[Solution]) -> bool:

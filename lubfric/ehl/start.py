@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .grid import Grid
+from .imposed import Seat
 from .newton import Solution
-from .problem import Problem, shared_film
+from .problem import Problem, seated_film
 from .reynolds import elastic_film
 
 
@@ -16,8 +17,8 @@ from .reynolds import elastic_film
 class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
-    pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux, rupture: q and e;
-    grid_error: estimated relative discretisation error on these n cells; film_share: of `Problem`.
+    pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q; rupture: e, from the centre of the seat;
+    grid_error: estimated relative discretisation error on these n cells; seat: of `Problem`.
     """
 
     M: float
@@ -27,21 +28,21 @@ class State:
     flux: float
     rupture: float
     grid_error: float
-    film_share: float = 1.0
+    seat: Seat = Seat()
 
 
-def expected_rupture(M: float, L: float, share: float = 1.0) -> float:
-    """Rupture point of the guess, in units of x, of a film that carries ``share`` of the load that deflects it."""
-    film, b = shared_film(M, L, share), np.sqrt(8.0 * M / (np.pi * share))
+def expected_rupture(M: float, L: float, seat: Seat = Seat()) -> float:
+    """Rupture point of the guess, in units of x, from the centre of the seat."""
+    film, b = seated_film(M, L, seat) * seat.radius, np.sqrt(8.0 * M * seat.radius / (np.pi * seat.modulus))
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
 def rupture_guess(problem: Problem) -> float:
     """`expected_rupture`, nearer to the centre where a starved film is thin."""
-    expected = expected_rupture(problem.M, problem.L, problem.film_share)
+    expected = problem.seat_centre + expected_rupture(problem.M, problem.L, problem.seat)
     if problem.inlet_length is None:
         return expected
-    return min(expected, problem.flat_half_width + np.sqrt(2.0 * problem.film_guess))
+    return min(expected, problem.seat_centre + problem.seat_half_width + np.sqrt(2.0 * problem.film_guess))
 
 
 def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
@@ -61,15 +62,16 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
     t = solution.terms
-    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), float(solution.z[-1]), error, problem.film_share)
+    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), float(solution.z[-1]) - problem.seat_centre, error,
+                 problem.seat)
 
 
-def from_scaled(problem: Problem, state: State) -> State:
-    """A state of ``problem.scaled()`` in the units of ``problem``, as the same state of this one."""
-    share = problem.film_share
-    film = share**-0.5
-    return State(problem.M, problem.L, state.pressure * share**0.75, state.film * film, state.flux * film,
-                 state.rupture * share**-0.25, state.grid_error, share)
+def from_alone(problem: Problem, state: State) -> State:
+    """A state of ``problem.alone()`` in the units of ``problem``, as one of this one."""
+    other = problem.alone()
+    pressure, film = other.pressure_unit / problem.pressure_unit, other.film_unit / problem.film_unit
+    return State(problem.M, problem.L, state.pressure * pressure, state.film * film, state.flux * film,
+                 state.rupture * (other.length_unit / problem.length_unit), state.grid_error, problem.seat)
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
@@ -87,9 +89,9 @@ def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, 
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
         P, H = refine(P), refine(H)
-    new, old = (problem.M, problem.L, problem.film_share), (state.M, state.L, state.film_share)
-    ratio = shared_film(*new) / shared_film(*old)
-    e = state.rupture * (expected_rupture(*new) / expected_rupture(*old))
+    new, old = (problem.M, problem.L, problem.seat), (state.M, state.L, state.seat)
+    ratio = seated_film(*new) / seated_film(*old)
+    e = problem.seat_centre + state.rupture * (expected_rupture(*new) / expected_rupture(*old))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
     gap, _ = elastic_film(grid, problem, z)

@@ -13,6 +13,7 @@ from ..report import CONVERGED, Report
 from ..rigid_film import RigidFilm
 from ..shear import ShearForce, shear_force
 from .film_level import film_at_level
+from .total_deflection import film_and_contact, told
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,12 @@ def balance_at(model, patch, speed: float, settings: Settings, start: Balance | 
                "touching": settings.touching}
     if start is not None:
         options |= {"start": carried_over(start, patch), "shift": _shift(start, speed)}
+    if numerics.film_deflection == "total":
+        def joint(film_load, contact_load, film, contact):
+            return film_and_contact(scene, patch, solve_film, close, film_load, contact_load, film, contact,
+                                    0.5 * min(settings.volume_tolerance, settings.film_tolerance))
+        found = sharing.share_load(bodies.load, solve_film, close, joint=joint, **options)
+        return told(scene, found)
     if numerics.closure == "load":
         return sharing.share_load(bodies.load, solve_film, close, **options)
     return sharing.share_by_separation(bodies.load, solve_film, close, carry, **options)
@@ -139,9 +146,9 @@ def _parts(model, patch, speed, settings):
     scene = model.scene
     cells = []               # of the films so far: one and the same grid from the second on, or the root has a jump
 
-    def solve_film(load, start):
+    def solve_film(load, start, imposed=None):
         film = film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance,
-                             cells=max([settings.film_cells, *cells[1:]]), start=start)
+                             cells=max([settings.film_cells, *cells[1:]]), imposed=imposed, start=start)
         cells.append(0 if isinstance(film, RigidFilm) else film.state.pressure.size)
         return film
 
@@ -158,10 +165,13 @@ def _parts(model, patch, speed, settings):
 def film_shape(scene, patch, film) -> np.ndarray:
     """What the surface is pressed under, up to a constant, at the ``x`` of ``patch``: the film, or less of it.
 
-    With Johnson's modulus the film holds the deflection of the whole load; the contact adds its own share itself.
+    With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact adds
+    its own share itself.
     """
     on_patch = film.film_at(patch.x)
     if scene.numerics.film_deflection == "hydrodynamic":
         return on_patch
+    if scene.numerics.film_deflection == "total":
+        return on_patch if isinstance(film, RigidFilm) else on_patch - film.imposed_deflection(patch.x)
     parabola = patch.x**2 / (2 * film.radius)
     return parabola + film.e_prime / scene.bodies.e_prime * (on_patch - parabola)

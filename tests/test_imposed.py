@@ -1,0 +1,304 @@
+"""A line pressure imposed on a film, and load sharing with the film deflected by the total pressure."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import lubfric
+from lubfric import ConvergenceError, InputError, solve_ehl
+from lubfric.analytic import hertz
+from lubfric.ehl import grid, kernel, problem, reynolds, solve, start
+from lubfric.ehl.imposed import LinePressure, find_seats, line_deflection
+from lubfric.ehl.kernel import hat_kernel
+from lubfric.levels import total_deflection
+from lubfric.levels.total_deflection import mismatch, spread_of
+from lubfric.lubricant import Lubricant
+
+E, R = 231e9, 10e-3
+OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}
+
+
+def semi_ellipse(load, width=None, centre=0.0, count=65):
+    """(x, pressure) of ``load`` over ``width`` (Hertz's)."""
+    width = width or hertz.line_half_width(load, R, E)
+    angle = np.linspace(-math.pi / 2, math.pi / 2, count)
+    p = np.cos(angle)
+    p[[0, -1]] = 0.0
+    x = centre + width * np.sin(angle)
+    return x, p * (load / np.trapezoid(p, x))
+
+
+def make_problem(load, speed, imposed, law="roelands"):
+    found = problem.Problem(load, R, E, speed, Lubricant(0.1, 2e-8, law), imposed=LinePressure(*imposed))
+    return replace(found, seat=find_seats(found)[0])
+
+
+# ------------------------------------------------------------------ the deflection
+
+def test_deflection_and_its_slope_are_exact():
+    nodes, values = np.array([-1.0, -0.3, 0.2, 0.9]), np.array([0.4, 1.0, 0.7, 0.0])
+    points = np.array([-2.0, -0.6, 0.2, 0.5, 3.0])
+    found, slope = line_deflection(points, nodes, values)
+    for x, u in zip(points, found):
+        breaks = [b for b in (*nodes[1:-1], x) if -1 < b < 0.9]
+        integral, _ = quad(lambda s, x=x: np.interp(s, nodes, values) * math.log(abs(x - s)), -1.0, 0.9, points=breaks)
+        assert u == pytest.approx(-4 / math.pi * integral, abs=1e-7)
+    np.testing.assert_allclose(found, kernel.hat_kernel(points, nodes) @ values, rtol=1e-12)
+    both = [line_deflection(points + d, nodes, values)[0] for d in (1e-5, -1e-5)]
+    np.testing.assert_allclose(slope, (both[0] - both[1]) / 2e-5, rtol=1e-4, atol=1e-4)
+
+
+def test_jacobian_matches_differences_as_the_rupture_moves_through_the_deflection():
+    p = make_problem(2e4, 0.1, semi_ellipse(5e4, centre=2e-5))
+    g = grid.make_grid(solve._positions(p, 24, start.rupture_guess(p)))
+    z, _ = start.cold_start(g, p)
+    _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])
+    J, _ = reynolds.linearise(g, p, terms)
+    for k in range(z.size):
+        step = 1e-6 * max(abs(z[k]), 1e-3)
+        sides = []
+        for sign in (1, -1):
+            moved = z.copy()
+            moved[k] += sign * step
+            sides.append(reynolds.residual(g, p, moved, reynolds.elastic_film(g, p, moved)[0])[0])
+        difference = (sides[0] - sides[1]) / (2 * step)
+        assert np.max(np.abs(difference - J[:, k])) < 1e-4 * max(1.0, np.max(np.abs(J[:, k])))
+
+
+# ------------------------------------------------------------------ limits
+
+@pytest.mark.parametrize("speed", [1e-3, 0.3])
+def test_no_pressure_imposed_is_none_imposed(speed):
+    case = OIL | {"load_per_width": 3e4, "entrainment_speed": speed}
+    alone, zero = solve_ehl(**case), solve_ehl(**case, imposed_pressure=([-1e-3, 1e-3], [0.0, 0.0]))
+    assert np.array_equal(alone.film_thickness, zero.film_thickness) and zero.imposed is None
+    assert np.array_equal(alone.pressure, zero.pressure) and alone.approach == zero.approach
+    little = solve_ehl(**case, imposed_pressure=semi_ellipse(3e-3))
+    assert little.min_film == pytest.approx(alone.min_film, rel=2e-3)
+
+
+def rigid_film(gap, film, speed, viscosity, ends):
+    """Load over a rigid gap + film with Swift-Stieber rupture, by quadrature of Reynolds' equation."""
+    from scipy.optimize import brentq
+    x = np.linspace(*ends, 40001)
+    h = gap(x) + film
+
+    def pressure(rupture):
+        slope = 12 * viscosity * speed * (h - (gap(rupture) + film)) / h**3
+        slope[x > rupture] = 0.0
+        return np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(x))])
+
+    rupture = brentq(lambda e: pressure(e)[-1], 1e-9, ends[1])
+    return np.trapezoid(np.where(x <= rupture, pressure(rupture), 0.0), x), rupture
+
+
+@pytest.mark.parametrize("relative", [0.1, 0.4, 2.0])
+def test_a_tiny_own_load_rides_on_the_flattened_cylinder(relative):
+    """Hertz pressure imposed, isoviscous oil, little load: Reynolds in the known gap of the dry contact."""
+    total, b = 1e5, hertz.line_half_width(1e5, R, E)
+    film, speed = relative * b**2 / R * 0.05, 1e-7
+    load, rupture = rigid_film(lambda x: hertz.line_gap(x, total, R, E), film, speed, 0.1, (-12 * b, 6 * b))
+    found = solve_ehl(**OIL | {"viscosity_law": "constant"}, load_per_width=load, entrainment_speed=speed,
+                      imposed_pressure=semi_ellipse(total, count=257))
+    assert load < 1e-4 * total
+    assert found.central_film == pytest.approx(film, rel=0.02)
+    assert found.rupture == pytest.approx(rupture, rel=0.01)
+    x = np.linspace(-4, 3, 30) * b
+    np.testing.assert_allclose(found.film_at(x), film + hertz.line_gap(x, total, R, E), rtol=0.02)
+
+
+@pytest.mark.parametrize("share", [0.8, 0.5])
+def test_the_inlet_of_a_heavy_piezoviscous_contact_sees_the_total_pressure(share):
+    """Grubin: the inlet gap is Hertz's of the total pressure, and of the own one it matters only that it is high."""
+    total = 1e6
+    x, p = semi_ellipse(total, count=129)
+    case = OIL | {"entrainment_speed": 0.1, "viscosity_law": "barus"}
+    found = solve_ehl(**case, load_per_width=share * total, imposed_pressure=(x, (1 - share) * p))
+    whole = solve_ehl(**case, load_per_width=total)
+    assert found.flow_film == pytest.approx(whole.flow_film, rel=0.08)
+    inside = np.abs(x) < 0.8 * x[-1]
+    np.testing.assert_allclose(np.interp(x, found.x, found.pressure)[inside], share * p[inside], rtol=0.05)
+
+
+def test_a_heavy_isoviscous_film_grows_as_its_share_to_the_power_of_minus_three_fifths():
+    """Inlet of Hertz's gap ~ s^(3/2), pressure share s^(1/2) = eta U s/h² at s ~ h^(2/3): h ~ share^(-3/5)."""
+    x, p = semi_ellipse(1e6, count=129)
+    case = OIL | {"entrainment_speed": 1e-3, "viscosity_law": "constant"}
+    films = [solve_ehl(**case, load_per_width=f * 1e6, imposed_pressure=(x, (1 - f) * p)).flow_film for f in (0.8, 0.4, 0.2)]
+    np.testing.assert_allclose(np.diff(np.log(films)), 0.6 * math.log(2), rtol=0.12)
+
+
+def test_more_of_the_pressure_imposed_never_thins_the_film():
+    case = OIL | {"entrainment_speed": 0.01, "load_per_width": 5e3}
+    films = [solve_ehl(**case, imposed_pressure=semi_ellipse(w, 5e-5)).flow_film for w in (1.0, 1e3, 4e3, 8e3)]
+    assert np.all(np.diff(films) > 0)
+
+
+# ------------------------------------------------------------------ numerics
+
+@pytest.mark.parametrize("load, imposed", [(2e4, 2e4), (2e3, 6e4)])
+def test_second_order(load, imposed):
+    p = make_problem(load, 0.05, semi_ellipse(imposed, count=513))
+    state, _ = solve._first_state(p, 96, 60)
+    flow = np.array([level.terms.q for level in solve._ascend(p, 1e-5, 0, 60, state, 96, 5)])[:5]
+    changes = np.abs(np.diff(flow))
+    assert changes[-1] < 2e-4 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
+
+
+def test_reversal_mirrors():
+    x, p = semi_ellipse(5e4, centre=1e-5)
+    p = p * (1 + x / (4 * np.abs(x).max()))
+    case = OIL | {"load_per_width": 3e4}
+    forth = solve_ehl(**case, entrainment_speed=0.05, imposed_pressure=(x, p))
+    back = solve_ehl(**case, entrainment_speed=-0.05, imposed_pressure=(-x[::-1], p[::-1]))
+    assert np.array_equal(back.x, -forth.x[::-1]) and np.array_equal(back.film_thickness, forth.film_thickness[::-1])
+    places = np.linspace(-10, 10, 51) * forth.half_width
+    np.testing.assert_allclose(back.film_at(places), forth.film_at(-places), rtol=1e-12)
+    np.testing.assert_allclose(back.imposed_deflection(places), forth.imposed_deflection(-places), rtol=1e-9)
+
+
+def test_film_at_any_position():
+    r = solve_ehl(**OIL, load_per_width=3e4, entrainment_speed=0.05, imposed_pressure=semi_ellipse(5e4, centre=1e-5))
+    b = r.half_width
+    middles = r.x[:-1] + 0.37 * np.diff(r.x)
+    x = np.concatenate([np.linspace(-25, 25, 101) * b, middles])
+    own = kernel.hat_kernel(x / b, r.x / b) @ r.pressure * b / E
+    exact = r.approach + x**2 / (2 * R) + own + r.imposed_deflection(x)
+    np.testing.assert_allclose(r.film_at(x), exact, rtol=4e-3)
+    np.testing.assert_allclose(r.film_at(r.x), r.film_thickness, rtol=1e-9)
+    assert float(r.film_at(0.0)) == pytest.approx(r.central_film, rel=1e-9)
+
+
+def test_warm_start_finds_the_same_film_in_fewer_steps():
+    case = OIL | {"load_per_width": 3e4, "entrainment_speed": 0.05}
+    first = solve_ehl(**case, imposed_pressure=semi_ellipse(5e4))
+    for change, load in (({"load_per_width": 2.5e4}, 5.5e4), ({"entrainment_speed": 0.04}, 5e4), ({}, 3e4)):
+        changed = case | change | {"imposed_pressure": semi_ellipse(load, centre=2e-6)}
+        cold, warm = solve_ehl(**changed), solve_ehl(**changed, start=first)
+        assert warm.min_film == pytest.approx(cold.min_film, rel=3e-3)
+        assert warm.report.iterations < cold.report.iterations and not any("failed" in n for n in warm.report.notes)
+
+
+@pytest.mark.parametrize("width, shift", [(0.9, 0.0), (1.0, -0.02), (1.1, 0.02), (1.5, 0.02)])
+@pytest.mark.parametrize("share", [1e-3, 0.03, 0.3, 0.9])
+def test_converges_for_other_widths_and_off_the_centre(width, shift, share):
+    """As long as the gap that is left has one bottom, or one that the film bridges."""
+    for total in (1e4, 1e5):
+        b = hertz.line_half_width(total, R, E)
+        for speed in (1e-3, 1e-2, 0.3) if width >= 1 else (0.3,):
+            r = solve_ehl(**OIL, load_per_width=share * total, entrainment_speed=speed, tolerance=0.01,
+                          imposed_pressure=semi_ellipse((1 - share) * total, width * b, shift * b))
+            assert r.film_thickness.min() > 0 and r.report.residual <= 0.01
+
+
+@pytest.mark.parametrize("bad", [3, ([0.0], [1.0]), ([0.0, 1.0], [1.0]), ([1.0, 0.0], [1.0, 1.0]), ([0.0, 1.0], [1.0, -1.0]),
+                                 ([0.0, 1.0], [1.0, float("nan")])])
+def test_bad_input(bad):
+    with pytest.raises(InputError, match="imposed_pressure"):
+        solve_ehl(**OIL, load_per_width=1e4, entrainment_speed=0.1, imposed_pressure=bad)
+
+
+# ------------------------------------------------------------------ load sharing
+
+PAPER = lubfric.load_scene("paper")
+HEAVY = PAPER.with_(bodies={"load": 550.0, "hardness": None}, contact={"spacing": 1.5e-6, "shape": (256, 96)},
+                    surface={"sq": 2e-7, "correlation_length": 8e-6},
+                    lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05})
+
+
+def deflected(scene, name, **numerics):
+    return scene.with_(numerics={"film_deflection": name} | numerics)
+
+
+def test_semi_ellipse_of_a_contact():
+    """Of Hertz pressures narrower and wider than the strip, on and off its centre: themselves."""
+    b = PAPER.bodies.half_width
+    x = np.linspace(-6, 6, 2400) * b
+    for width, centre in ((0.5, 0.3), (0.9, 0.0), (1.0, 0.0), (1.02, 0.01), (1.4, 0.05), (2.0, -0.1)):
+        pressure = np.sqrt(np.maximum(1 - ((x / b - centre) / width) ** 2, 0.0))[:, None]
+        closure = SimpleNamespace(x=x, contact=SimpleNamespace(pressure=pressure))
+        found = spread_of(PAPER, closure, 1.0)
+        assert found.half_width == pytest.approx(width * b, rel=3e-3 if abs(centre) < 0.2 and width < 1.9 else 2e-2)
+        assert found.centre == pytest.approx(centre * b, rel=2e-2, abs=1e-6 * b)
+        assert np.trapezoid(found.nodes[1], found.nodes[0]) == pytest.approx(1.0)
+
+
+def test_the_film_is_deflected_by_what_the_contact_presses_and_the_contact_by_itself_once():
+    scene = deflected(PAPER, "total")
+    point = lubfric.friction(scene, 1e-2, fields=True)
+    film, closure, b = point.balance.film, point.balance.closure, scene.bodies
+    assert film.imposed.load == pytest.approx(point.contact_load / b.width, rel=1e-9)
+    assert point.report.residuals["deflection"] < 1e-3 and mismatch(scene, film, closure) < 1e-3
+    patch = lubfric.prepare(scene).patch
+    shape = film.film_at(patch.x) - film.imposed_deflection(patch.x)
+    own = hat_kernel(patch.x / film.half_width, film.x / film.half_width) @ film.pressure * film.half_width / b.e_prime
+    assert np.ptp(shape - patch.x**2 / (2 * b.radius) - own) < 0.02 * point.mean_gap
+    again = patch.close(film.film_at(patch.x), point.contact_load, None, shape)
+    assert again.mean_gap == pytest.approx(point.mean_gap, rel=1e-3)
+    assert any("asperities bend" in note for note in point.report.notes)
+
+
+def test_all_deflections_agree_where_one_pressure_is_all_there_is():
+    for speed in (0.0, 1.0):
+        f = [lubfric.friction(deflected(PAPER, name), speed, model="full").coefficient
+             for name in ("hydrodynamic", "scaled", "total")]
+        assert np.ptp(f) < 1e-6 * f[0]
+
+
+def test_at_a_heavy_load_friction_tends_to_that_of_the_boundary():
+    speeds = [1e-5, 1e-4, 1e-3]
+    total, own = (lubfric.stribeck(deflected(HEAVY, name), speeds) for name in ("total", "hydrodynamic"))
+    assert np.all(np.diff(total.film_load) > 0)
+    assert total.coefficient[0] == pytest.approx(0.09, rel=2e-3) and own.coefficient[0] < 0.09 * 0.97
+    assert np.all(own.film_load > total.film_load)
+
+
+def test_reversal_and_a_warm_start_change_nothing():
+    scene = deflected(PAPER, "total", tolerance=2e-3)
+    model = lubfric.prepare(scene)
+    cold = lubfric.friction(model, 0.02)
+    warm = lubfric.friction(model, 0.02, start=lubfric.friction(model, 0.03))
+    assert warm.coefficient == pytest.approx(cold.coefficient, rel=2e-3)
+    mirrored = lubfric.prepare(scene, replace(model.surface, heights=model.surface.heights[::-1].copy()))
+    assert lubfric.friction(mirrored, -0.02).coefficient == pytest.approx(cold.coefficient, rel=2e-3)
+
+
+def test_a_flat_contact_takes_the_semi_ellipse_of_the_strip():
+    scene = deflected(lubfric.load_scene("flat"), "total").with_(contact={"shape": (128, 128), "spacing": 8e-6})
+    point = lubfric.friction(scene, 1e-2)
+    imposed = point.balance.film.imposed
+    assert imposed.x[-1] == pytest.approx(scene.bodies.half_width) and imposed.x[0] == -imposed.x[-1]
+    assert 0 < point.film_load < scene.bodies.load and point.report.converged
+
+
+def test_fixed_point_that_does_not_close_is_an_error(monkeypatch):
+    monkeypatch.setattr(total_deflection, "MOST", 1)
+    with pytest.raises(ConvergenceError, match="under each other's pressure") as caught:
+        lubfric.friction(deflected(PAPER, "total"), 0.03)
+    assert caught.value.report.residuals["deflection"] > caught.value.report.tolerance
+
+
+@pytest.mark.parametrize("numerics, name", [({"closure": "separation"}, "closure"), ({"film_level": "isoviscous"}, "film_level")])
+def test_what_does_not_go_with_the_total_pressure(numerics, name):
+    with pytest.raises(InputError, match=f"numerics.{name}.*allowed"):
+        deflected(PAPER, "total", **numerics)
+    with pytest.raises(InputError, match="half-space"):
+        lubfric.prepare(deflected(PAPER, "total").with_(contact={"model": "summits"}))
+
+
+def test_a_transient_takes_the_own_pressure_only():
+    run = lubfric.Transient(duration=1e-3)
+    with pytest.raises(InputError, match="hydrodynamic.*'total'"):
+        lubfric.transient(deflected(PAPER, "total").with_(transient=run))
+
+
+@pytest.mark.parametrize("speed", [0.0079, 0.032])
+def test_a_rough_exponential_surface_solves_at_both_models(speed):
+    rough = PAPER.with_(surface={"acf": "exponential", "correlation_length": 8e-6, "seed": 1})
+    found = [lubfric.friction(rough, speed, model=model) for model in ("auto", "full")]
+    assert all(point.report.converged for point in found)
+    assert found[0].coefficient == pytest.approx(found[1].coefficient, rel=1e-2)
