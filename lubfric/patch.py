@@ -38,6 +38,14 @@ class Closure:
         """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
 
+    def touching(self, x) -> np.ndarray:
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either way:
+        the columns of the patch are finer than the cells of a film, and vary from one to the next."""
+        step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
+        edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
+        touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
+        return np.diff(np.interp(x, edges, touched)) / np.diff(x)
+
 
 @dataclass(frozen=True)
 class CylinderPatch:

@@ -12,7 +12,6 @@ from .ehl.result import smallest
 from .ehl.tail import outside_shear
 from .ehl.transient import WET
 from .lubricant import shear_stress, viscosity
-from .patch import Closure
 from .unsteady_sharing import Contact, Sharing
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
@@ -128,7 +127,7 @@ def _shear(
     setting, t, closure = sharing.setting, solution.terms, contact.closure
     p, grid, now = setting.problem, setting.grid, setting.conditions(time)
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
-    free = 1.0 - _touching(x, closure)
+    free = 1.0 - closure.touching(x)
     rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
     lubricant = setting.contact.lubricant
     rate = sliding * now.viscosity * p.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta
@@ -166,12 +165,3 @@ def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
             reach = root[last] * (x[last] - x[before]) / (root[before] - root[last])
             part[i] = min(abs(reach / (x[i + 1] - x[i])), 1.0)
     return part
-
-
-def _touching(x: np.ndarray, closure: Closure) -> np.ndarray:
-    """Share of the width in contact, averaged over each cell between neighbouring ``x``: the columns of
-    the patch are finer than the cells of the film, and vary from one to the next."""
-    step = closure.x[1] - closure.x[0] if closure.x.size > 1 else 0.0
-    edges = np.append(closure.x - 0.5 * step, closure.x[-1] + 0.5 * step)
-    touched = np.append(0.0, np.cumsum(closure.contact_fraction) * step)
-    return np.diff(np.interp(x, edges, touched)) / np.diff(x)

@@ -6,6 +6,7 @@ import pytest
 import lubfric
 from lubfric.analytic import rigid
 from lubfric.lubricant import Lubricant
+from lubfric.patch import Closure
 from lubfric.shear import _upstream, shear_force
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
@@ -17,7 +18,11 @@ def film(speed=U, tolerance=1e-4):
                              pressure_viscosity_coefficient=1e-13, viscosity_law="barus", tolerance=tolerance)
 
 
-def force(result, slide_roll_ratio=2.0, contact_fraction=np.zeros_like, lubricant=OIL, **kw):
+def evenly(share):
+    return lambda x: np.full(x.size - 1, share)
+
+
+def force(result, slide_roll_ratio=2.0, contact_fraction=evenly(0.0), lubricant=OIL, **kw):
     return shear_force(result, lubricant, entrainment_speed=result.entrainment_speed, radius=R, width=B,
                        slide_roll_ratio=slide_roll_ratio, contact_fraction=contact_fraction, **kw)
 
@@ -49,12 +54,12 @@ def test_reversed_motion_gives_the_same_force():
 
 def test_contact_spots_carry_no_shear():
     result = film()
-    full, half = force(result), force(result, contact_fraction=lambda x: np.full_like(x, 0.5))
+    full, half = force(result), force(result, contact_fraction=evenly(0.5))
     inlet_share = half.couette / full.couette - 0.5            # only the far inlet is left whole
     assert 0 <= inlet_share < 0.15
-    one_sided = force(result, contact_fraction=lambda x: np.where(x < 0, 0.0, 1.0))
-    other = force(result, contact_fraction=lambda x: np.where(x < 0, 1.0, 0.0))
-    tail = force(result, contact_fraction=np.ones_like)
+    one_sided = force(result, contact_fraction=lambda x: np.where(x[1:] < 0, 0.0, 1.0))
+    other = force(result, contact_fraction=lambda x: np.where(x[1:] < 0, 1.0, 0.0))
+    tail = force(result, contact_fraction=evenly(1.0))
     assert one_sided.couette + other.couette == pytest.approx(full.couette + tail.couette)
 
 
@@ -78,3 +83,14 @@ def test_upstream_integrals_against_quadrature(floor):
     for power, value in ((1, first), (2, second)):
         exact = quad(lambda t: (floor + 1 / t**2 / (2 * radius)) ** -power / t**2, 0, 1 / distance)[0]
         assert value == pytest.approx(exact, rel=1e-6)
+
+
+def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
+    """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that column."""
+    x = np.linspace(-1.5, 1.5, 4)
+    closure = Closure(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
+    nodes = np.array([-3.0, -1.7, -0.4, -0.2, 0.7, 5.0])
+    share = closure.touching(nodes)
+    assert share @ np.diff(nodes) == pytest.approx(closure.contact_fraction.sum())
+    assert share[2] == pytest.approx(0.9)
+    np.testing.assert_allclose(closure.touching(nodes[::-1]), share[::-1])

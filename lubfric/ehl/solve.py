@@ -19,7 +19,7 @@ from .problem import Problem
 from .result import EHLResult
 from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
-COARSEST, LAST_START, FINEST = 48, 192, 3072
+COARSEST, LAST_START, FINEST = 48, 768, 3072
 COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
 DOUBLINGS = 8             # of the speed, to begin with a film too thick to feel an imposed pressure
 EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions

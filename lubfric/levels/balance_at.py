@@ -18,12 +18,15 @@ from .total_deflection import film_and_contact, told
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain."""
+    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain; how many
+    cells a numerical film has at least; tolerance of the contact (None: that of the patch)."""
 
     level: str
     film_tolerance: float
     volume_tolerance: float
     touching: bool = False
+    film_cells: int = 0
+    contact_tolerance: float | None = None
 
 
 @dataclass(frozen=True)
@@ -32,9 +35,8 @@ class Forces:
 
     sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). a is what a change of
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
-    the slope that the balance was found with. quadrature: what F_sh changes by when only every second node of the film
-    is used, a third of it, relative to f F_T: the error of a second-order sum. A pressure spike that the grid does not
-    hold shows here and not in the film.
+    the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
+    (`lubfric.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
     """
 
     coefficient: float
@@ -48,6 +50,8 @@ def balance_at(model, patch, speed: float, settings: Settings, start: Balance | 
     """Divide the load of ``model.scene`` between a film of ``settings.level`` and ``patch``, by the scene's closure."""
     scene = model.scene
     bodies, numerics, lubricant = scene.bodies, scene.numerics, scene.lubricant
+    if settings.contact_tolerance is not None:
+        patch = replace(patch, tolerance=settings.contact_tolerance)
     solve_film, close, carry = _parts(model, patch, speed, settings)
     reference = max(2 * model.surface.sq, 1e-12)
     film_share = 4.895 * lubricant.viscosity * abs(speed) * bodies.radius * bodies.width / (reference * bodies.load)
@@ -86,7 +90,7 @@ def dry(model, patch) -> Balance:
 def forces(scene, speed: float, balance: Balance) -> Forces:
     """Boundary and viscous friction of a balance (paper, Eqs. 9-12)."""
     bodies, motion = scene.bodies, scene.motion
-    shear, coarse = _shear(scene, speed, balance, 1), _shear(scene, speed, balance, 2)
+    shear = _shear(scene, speed, balance)
     sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
     boundary = sliding * balance.contact_load
     total = abs(boundary + shear.total)
@@ -96,21 +100,18 @@ def forces(scene, speed: float, balance: Balance) -> Forces:
         gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))
     known = 0 < total < math.inf
     return Forces((boundary + shear.total) / bodies.load, boundary, shear, gain * moved / total if known else 1.0,
-                  abs(shear.total - coarse.total) / (3 * total) if known else 0.0)
+                  shear.quadrature / total if known else 0.0)
 
 
-def _shear(scene, speed, balance: Balance, stride: int) -> ShearForce:
+def _shear(scene, speed, balance: Balance) -> ShearForce:
     film, closure = balance.film, balance.closure
     if film is None:
         return ShearForce(0.0, 0.0)
-    if stride > 1:
-        first = int(np.argmin(np.abs(film.x - film.rupture))) % stride          # the rupture point stays a node
-        film = replace(film, **{name: getattr(film, name)[first::stride] for name in ("x", "pressure", "film_thickness")})
     with np.errstate(over="ignore", invalid="ignore"):                          # a rigid film far above its range
         return shear_force(film, scene.lubricant, entrainment_speed=speed, radius=scene.bodies.radius,
                            width=scene.bodies.width, slide_roll_ratio=scene.motion.slide_roll_ratio,
                            cavitated=scene.numerics.cavitated_shear,
-                           contact_fraction=lambda x: np.interp(x, closure.x, closure.contact_fraction, 0.0, 0.0))
+                           contact_fraction=closure.touching)
 
 
 def carried_over(start: Balance, patch) -> Balance:
@@ -143,10 +144,13 @@ def _shift(start: Balance, speed: float) -> float:
 
 def _parts(model, patch, speed, settings):
     scene = model.scene
+    cells = []               # of the films so far: one and the same grid from the second on, or the root has a jump
 
     def solve_film(load, start, imposed=None):
-        return film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance, imposed=imposed,
-                             start=start)
+        film = film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance,
+                             cells=max([settings.film_cells, *cells[1:]]), imposed=imposed, start=start)
+        cells.append(0 if isinstance(film, RigidFilm) else film.state.pressure.size)
+        return film
 
     def close(film, contact_load, start):
         return patch.close(film.film_at(patch.x), contact_load, start, film_shape(scene, patch, film))

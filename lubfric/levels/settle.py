@@ -1,7 +1,8 @@
 """The loop that spends no more than the tolerance needs: levels, grids and inner tolerances of one operating point.
 
-Error budget, as shares of the tolerance on f: 0.2 what the film level leaves out, 0.3 the grid of the film, 0.4 the
-grid of the contact, 0.05 the volume balance, 0.01 the contact solver. An error of the film reaches f by the factor
+Error budget, as shares of the tolerance on f: 0.2 what the film level leaves out, 0.3 the grid of the film (0.6 where
+there is no contact), 0.3 the sum of its shear stress, 0.4 the grid of the contact, 0.05 the volume balance, 0.01 the
+contact solver. They are bounds that are hardly ever reached together. An error of the film reaches f by the factor
 ``sensitivity`` (`lubfric.levels.balance_at.Forces`): tolerances of the film are divided by it.
 """
 
@@ -31,7 +32,8 @@ from .film_error import FilmError
 from .film_level import EHL, ISOVISCOUS, higher, level_error, lowest_level
 
 LOOSEST_FILM, LOOSEST_VOLUME = 0.03, 0.02
-TIGHTEST_FILM, TIGHTEST_SHEAR, TIGHTEST_VOLUME = 2e-4, 3e-4, 1e-7
+TIGHTEST_FILM, TIGHTEST_VOLUME, TIGHTEST_CONTACT, MOST_CELLS = 2e-4, 1e-7, 1e-9, 1536
+SEPARATED_SHARE, SHEAR_SHARE = 0.6, 0.3    # of the tolerance: the grid of a film without contact; the sum of its shear
 LARGEST_ERROR = 0.3        # of a film to first order: beyond it the estimate is none
 ROUNDS = 8                 # of one balance, each with a higher level or tighter tolerances
 SLACK = 1.5                # a tolerance off by less is not worth another solve
@@ -75,23 +77,23 @@ def _separated(model, speed, start) -> Stage:
     level, error = numerics.forced_film_level, FilmError()
     if level == "auto":
         level, error = lowest_level(model.scene, speed, load, FILM_SHARE * numerics.tolerance)
-    settings = Settings(level, numerics.film_tolerance, numerics.volume_tolerance)
+    alone = numerics.ehl_tolerance or min(SEPARATED_SHARE * numerics.tolerance, LOOSEST_FILM)
+    settings = Settings(level, alone if numerics.model == "auto" else numerics.film_tolerance, numerics.volume_tolerance)
     while True:
         balance = separated_at(model, model.patch, speed, settings, start)
         found = forces(model.scene, speed, balance)
         stage = Stage(balance, found, model.patch, settings, FilmError() if level == EHL else error)
-        finer = _finer_film(numerics, settings, found, settings.film_tolerance)
-        if finer >= settings.film_tolerance / SLACK:
+        cells = _cells(numerics, settings, found, balance.film)
+        if cells == settings.film_cells:
             return stage
-        settings, start = replace(settings, film_tolerance=finer), balance
+        settings, start = replace(settings, film_cells=cells), balance
 
 
-def _finer_film(numerics, settings, found: Forces, film_tolerance: float) -> float:
-    """Tolerance of the film at which also the sum of its shear stress should be good enough."""
-    if settings.level != EHL or numerics.ehl_tolerance is not None or settings.film_tolerance <= TIGHTEST_SHEAR:
-        return film_tolerance
-    excess = found.quadrature / (0.3 * numerics.tolerance)
-    return film_tolerance if excess <= 1 else max(min(film_tolerance, settings.film_tolerance / 4), TIGHTEST_SHEAR)
+def _cells(numerics, settings, found: Forces, film) -> int:
+    """Least number of cells of the film: twice as many where the sum of its shear stress is not good enough."""
+    if settings.level != EHL or numerics.ehl_tolerance is not None or found.quadrature <= SHEAR_SHARE * numerics.tolerance:
+        return settings.film_cells
+    return min(2 * film.state.pressure.size, max(MOST_CELLS, settings.film_cells))
 
 
 def _certainly_touching(model, patch, speed) -> bool:
@@ -130,7 +132,7 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
 def _described(decision: Decision, stage: Stage) -> Decision:
     """``decision`` with what is known of the film of a stage."""
     notes = ()
-    if stage.settings.level == EHL and stage.forces.quadrature > 0.3 * decision.tolerance:
+    if stage.settings.level == EHL and stage.forces.quadrature > SHEAR_SHARE * decision.tolerance:
         notes = (f"the film's friction is not resolved (a pressure spike?): estimated error "
                  f"{100 * stage.forces.quadrature:.1g} % of f",)
     return replace(decision, film=stage.settings.level, film_error=stage.film_error, notes=notes,
@@ -228,7 +230,7 @@ def _needed(model, speed, settings, balance, found: Forces, error: FilmError) ->
     film, volume = numerics.film_tolerance, numerics.volume_tolerance
     if numerics.ehl_tolerance is None:
         film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
-    film = _finer_film(numerics, settings, found, film)
+    cells = _cells(numerics, settings, found, balance.film)
     if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
         volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
     level, allowed = settings.level, _allowed_error(numerics, sensitivity)
@@ -236,13 +238,26 @@ def _needed(model, speed, settings, balance, found: Forces, error: FilmError) ->
         level = higher(level, lowest_level(model.scene, speed, balance.film_load, allowed)[0])
         if level != settings.level:                       # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
-    if not balance.report.converged and level == settings.level:
+    contact = _contact_tolerance(model, settings, balance.closure, volume)
+    if not balance.report.converged and level == settings.level and contact == settings.contact_tolerance:
         return None
-    enough = film >= settings.film_tolerance / SLACK or level != EHL
+    enough = film >= settings.film_tolerance / SLACK and cells == settings.film_cells or level != EHL
+    enough = enough and contact == settings.contact_tolerance
     if level == settings.level and enough and abs(balance.closure.volume_residual) <= SLACK * volume:
         return None
     return replace(settings, level=level, film_tolerance=min(film, settings.film_tolerance),
-                   volume_tolerance=min(volume, SLACK * settings.volume_tolerance))
+                   volume_tolerance=min(volume, SLACK * settings.volume_tolerance), film_cells=cells,
+                   contact_tolerance=contact)
+
+
+def _contact_tolerance(model, settings, closure, volume: float) -> float | None:
+    """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap is
+    a small part of Sq the patch's own is too loose."""
+    if closure.contact is None or model.scene.numerics.contact_tolerance is not None:
+        return settings.contact_tolerance
+    enough = max(volume * closure.mean_gap / model.surface.sq, TIGHTEST_CONTACT)
+    given = settings.contact_tolerance or model.patch.tolerance
+    return settings.contact_tolerance if given <= SLACK * enough else 0.5 * enough
 
 
 def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:

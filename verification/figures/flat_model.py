@@ -130,7 +130,7 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
                     contact_fraction=fraction,
                 ).total
                 / b.load
-                for fraction in (np.zeros_like, lambda x: (np.abs(x) <= half).astype(float))
+                for fraction in (lambda x: 0 * x[1:], lambda x: np.diff(np.clip(x, -half, half)) / np.diff(x))
             ]
             for film in films
         ]

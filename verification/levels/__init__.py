@@ -13,16 +13,18 @@ def main(argv: list[str]) -> int:
     Exit code 0: at least 99 % within each tolerance, none beyond three times it, and every switch continuous.
     """
     from . import charts, measure, switches
+    from .scenes import SEED
     parser = argparse.ArgumentParser("python -m verification levels", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="16 scenes instead of 200")
     parser.add_argument("--out", type=Path, default=Path("out/levels"), help="folder of results (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=SEED, help="of the scenes (default: %(default)s; others are other scenes)")
     options = parser.parse_args(argv)
     count = 16 if options.quick else 200
-    rows = measure.run(count, options.out / "scenes.jsonl", tell=_tell)
+    rows = measure.run(count, options.out / f"scenes-{options.seed}.jsonl", seed=options.seed, tell=_tell)
     passed = [_verdict(rows, tolerance) for tolerance in measure.TOLERANCES]
     print(measure.savings(rows))
     for index in range(0, count, max(count // 10, 4)):
-        coarse, fine = measure.finer_reference(index, measure.points(count)[index])
+        coarse, fine = measure.finer_reference(index, measure.points(count, options.seed)[index])
         print(f"reference {index}: f = {coarse:.6f}, on cells half as long {fine:.6f} ({coarse / fine - 1:+.1e})")
     scan = switches.scan(points=60 if options.quick else 240)
     print(f"switches: largest |f - f_full|/f_full along {len(scan)} speeds {max(r['error'] for r in scan):.1e}")

@@ -11,7 +11,7 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.mixed import prepare
 
-from .scenes import cells, points, scene
+from .scenes import SEED, cells, points, scene
 
 TOLERANCES = (5e-2, 1e-2, 2e-3)
 REFERENCE = 2e-4
@@ -40,8 +40,8 @@ def row(index: int, values: dict) -> dict:
     return found | {"full": solve(model, 1e-2, "full"), "reference": solve(model, REFERENCE, "full")}
 
 
-def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), tell=None) -> list[dict]:
-    """Rows of the scenes, kept in ``file`` as they come (one line each): those found there are not solved again.
+def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = SEED, tell=None) -> list[dict]:
+    """Rows of the scenes drawn from ``seed``, kept in ``file`` as they come (one line each): those found there are not solved again.
 
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """
@@ -49,7 +49,7 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), tell=None) ->
     rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
     known = {r["index"] for r in rows}
     file.parent.mkdir(parents=True, exist_ok=True)
-    for index, values in enumerate(points(count)):
+    for index, values in enumerate(points(count, seed)):
         if index % part[1] != part[0] or index in known:
             continue
         rows.append(row(index, values))

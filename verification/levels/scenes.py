@@ -7,7 +7,7 @@ What a scene leaves open is chosen so that a full solve is both possible and tru
   plus 5 % of the pressure: the Newtonian law of the paper gives friction far above 1 at gigapascals, and a relative
   error of such a number says nothing;
 - half of the scenes elastic, half with a plastic limit of 3 GPa, or 1.5 times the mean Hertz pressure where that is more;
-- a Gaussian autocorrelation, 12 cells to the correlation length (and 4 to the Hertz strip): its contact converges with the grid, so the error of
+- a Gaussian autocorrelation, 24 cells to the correlation length (and 4 to the Hertz strip): its contact converges with the grid, so the error of
   the reference can be checked against a finer one (an exponential one has detail at every scale and no limit);
 - a patch of 12 correlation lengths along the line, and as long as contact may reach across it: the Hertz strip and
   where the gap of the undeformed cylinder is below three standard deviations of the heights, and a third more.
@@ -24,17 +24,17 @@ from lubfric.lubricant import Lubricant
 from lubfric.scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 
 E_PRIME, WIDTH, EYRING, LIMITING = 231e9, 10e-3, 5e6, 0.05
-CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 12, 12, 1.33
+CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 24, 12, 1.33
 SEED = 7
 LOG_RANGES = {"load": (1e2, 1e6), "speed": (1e-5, 10.0), "radius": (1e-3, 50e-3), "viscosity": (0.005, 1.0),
               "sq": (10e-9, 1e-6), "correlation_length": (2e-6, 50e-6)}
 LARGEST_ALPHA, CONSTANT_BELOW = 30e-9, 1.5e-9
 
 
-def points(count: int) -> list[dict]:
+def points(count: int, seed: int = SEED) -> list[dict]:
     """The first ``count`` points (a power of two is drawn): values by name, load in N/m."""
     from scipy.stats import qmc
-    unit = qmc.Sobol(len(LOG_RANGES) + 2, seed=SEED).random_base2(math.ceil(math.log2(count)))[:count]
+    unit = qmc.Sobol(len(LOG_RANGES) + 2, seed=seed).random_base2(math.ceil(math.log2(count)))[:count]
     table = []
     for row in unit:
         values = {name: float(low * (high / low) ** u) for u, (name, (low, high)) in zip(row, LOG_RANGES.items())}
