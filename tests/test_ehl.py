@@ -429,3 +429,21 @@ def test_a_warm_start_from_a_far_heavier_load_does_not_end_in_a_root_without_an_
     warm = solve_ehl(load_per_width=3112.280250301359, start=heavy, **contact)
     cold = solve_ehl(load_per_width=3112.280250301359, **contact)
     assert warm.min_film == pytest.approx(cold.min_film, rel=6e-3)
+
+
+def test_no_fewer_cells_than_asked():
+    """The film is the same within its tolerance, on the grid that was asked for, cold and warm."""
+    arguments, _ = contact(20, 5, tolerance=0.02)
+    loose = solve_ehl(**arguments)
+    fine = solve_ehl(**arguments, least_cells=300)
+    warm = solve_ehl(**arguments, least_cells=300, start=loose)
+    assert loose.state.pressure.size < 300 <= fine.state.pressure.size == warm.state.pressure.size
+    assert fine.flow_film == pytest.approx(loose.flow_film, rel=0.02)
+    assert fine.flow_film == pytest.approx(warm.flow_film, rel=1e-4)
+
+
+@pytest.mark.parametrize("M", [1e4, 3e4])
+def test_cold_start_far_beyond_the_range(M):
+    """Begun on a finer grid; the elastic isoviscous asymptote of Moes (1992) there."""
+    *_, flow, result = moes_film(M, 0.0)
+    assert result.report.converged and flow == pytest.approx(2.621 * M**-0.2, rel=0.1)

@@ -169,3 +169,29 @@ def test_scenes_of_the_study_keep_the_tolerance():
         row = measure.row(index, measure.points(64)[index])
         for tolerance in measure.TOLERANCES:
             assert measure.errors([row], tolerance)[0] <= tolerance, row
+
+
+def test_a_gap_of_a_fiftieth_of_the_roughness_asks_for_a_tighter_contact():
+    """683 N/mm on 20 nm of roughness: at the patch's own tolerance the gap is noise, and the balance did not close."""
+    bodies = {"load": 6834.0, "width": 10e-3, "radius": 2.67e-3, "e_prime": E, "hardness": 1.5e10}
+    scene = PAPER.with_(bodies=bodies, lubricant={"viscosity": 0.065, "pressure_viscosity_coefficient": 18e-9},
+                        surface={"sq": 24e-9, "correlation_length": 46e-6, "acf": "gaussian", "seed": 1},
+                        contact={"shape": (192, 96), "spacing": (4e-6, 4e-6)})
+    model = prepare(scene)
+    loose, full = lubfric.friction(model, 2.1e-5), lubfric.friction(model, 2.1e-5, tolerance=1e-3, model="full")
+    assert loose.mean_gap < 0.05 * 24e-9
+    assert loose.coefficient == pytest.approx(full.coefficient, rel=1e-2)
+
+
+def test_a_spike_that_the_grid_does_not_hold_is_found_by_the_sum_of_the_shear_stress():
+    """At L = 23 the film needs 96 cells, its friction ten times as many; with fewer, that is said."""
+    lubricant = {"viscosity": 0.0943, "pressure_viscosity_coefficient": 21.2e-9, "eyring_stress": 5e6,
+                 "limiting_stress_coefficient": 0.05}
+    scene = PAPER.with_(bodies={"load": 495.0, "width": 10e-3, "radius": 5.87e-3}, lubricant=lubricant,
+                        surface={"sq": 1e-9, "seed": 1}, contact={"shape": (128, 32), "spacing": (1.2e-6, 1.2e-6)})
+    model = prepare(scene)
+    found = lubfric.friction(model, 3.57)
+    assert found.decision.contact == "none" and found.balance.film.state.pressure.size > 300
+    coarse = lubfric.friction(prepare(scene.with_(numerics={"ehl_tolerance": 6e-3}), like=model), 3.57)
+    assert any("not resolved" in note for note in coarse.decision.notes)
+    assert found.coefficient == pytest.approx(lubfric.friction(model, 3.57, tolerance=2e-3).coefficient, rel=5e-3)

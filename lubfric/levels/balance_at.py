@@ -12,6 +12,7 @@ from ..balance import Balance
 from ..report import CONVERGED, Report
 from ..rigid_film import RigidFilm
 from ..shear import ShearForce, shear_force
+from .film_error import FilmError
 from .film_level import film_at_level
 from .total_deflection import film_and_contact, told
 
@@ -44,6 +45,17 @@ class Forces:
     shear: ShearForce
     sensitivity: float
     quadrature: float = 0.0
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One balance, the friction of it, and the patch and settings it was found with."""
+
+    balance: Balance
+    forces: Forces
+    patch: object
+    settings: Settings
+    film_error: FilmError
 
 
 def balance_at(model, patch, speed: float, settings: Settings, start: Balance | None = None) -> Balance:

@@ -1,56 +1,26 @@
-"""The loop that spends no more than the tolerance needs: levels, grids and inner tolerances of one operating point.
-
-Error budget, as shares of the tolerance on f: 0.2 what the film level leaves out, 0.3 the grid of the film (0.6 where
-there is no contact), 0.3 the sum of its shear stress, 0.4 the grid of the contact, 0.05 the volume balance, 0.01 the
-contact solver. They are bounds that are hardly ever reached together. An error of the film reaches f by the factor
-``sensitivity`` (`lubfric.levels.balance_at.Forces`): tolerances of the film are divided by it.
-"""
+"""The loop that spends no more than the tolerance needs: levels, grids and inner tolerances of one operating point."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ..analytic.film import moes_flow_film
 from ..balance import Balance
 from ..flat_patch import FlatPatch
 from ..patch import CylinderPatch
-from .balance_at import (
-    Forces,
-    Settings,
-    balance_at,
-    carried_over,
-    dry,
-    film_shape,
-    forces,
-    moved_split,
-    separated_at,
-)
-from .contact_grid import cut, grids, holds, in_contact
+from .balance_at import Settings, Stage, balance_at, dry, film_shape, forces, separated_at
+from .contact_grid import grids, holds
 from .decision import FILM_SHARE, GRID_SHARE, Decision
 from .film_error import FilmError
-from .film_level import EHL, ISOVISCOUS, higher, level_error, lowest_level
+from .film_level import EHL, ISOVISCOUS, level_error, lowest_level
+from .finer_contact import finer_contact, grid_error
+from .needed import LOOSEST_FILM, SHEAR_SHARE, allowed_error, least_cells, needed_settings
 
-LOOSEST_FILM, LOOSEST_VOLUME = 0.03, 0.02
-TIGHTEST_FILM, TIGHTEST_VOLUME, TIGHTEST_CONTACT, MOST_CELLS = 2e-4, 1e-7, 1e-9, 1536
-SEPARATED_SHARE, SHEAR_SHARE = 0.6, 0.3    # of the tolerance: the grid of a film without contact; the sum of its shear
-LARGEST_ERROR = 0.3        # of a film to first order: beyond it the estimate is none
 ROUNDS = 8                 # of one balance, each with a higher level or tighter tolerances
-SLACK = 1.5                # a tolerance off by less is not worth another solve
+SEPARATED_SHARE = 0.6      # of the tolerance: the grid of a film without contact
 LEAST_CONTACT = 1e-6       # of the load: less is next to separation on this grid
-WORST_GRID = 2.0           # relative error of the film's load that the coarsest grid may make
 SAFE_FILM = 2.0            # times Moes' film: more than any film has
-
-
-@dataclass(frozen=True)
-class Stage:
-    """One balance, the friction of it, and the patch and settings it was found with."""
-
-    balance: Balance
-    forces: Forces
-    patch: object
-    settings: Settings
-    film_error: FilmError
 
 
 def settle(model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> tuple[Balance, Decision]:
@@ -83,17 +53,10 @@ def _separated(model, speed, start) -> Stage:
         balance = separated_at(model, model.patch, speed, settings, start)
         found = forces(model.scene, speed, balance)
         stage = Stage(balance, found, model.patch, settings, FilmError() if level == EHL else error)
-        cells = _cells(numerics, settings, found, balance.film)
+        cells = least_cells(numerics, settings, found, balance.film)
         if cells == settings.film_cells:
             return stage
         settings, start = replace(settings, film_cells=cells), balance
-
-
-def _cells(numerics, settings, found: Forces, film) -> int:
-    """Least number of cells of the film: twice as many where the sum of its shear stress is not good enough."""
-    if settings.level != EHL or numerics.ehl_tolerance is not None or found.quadrature <= SHEAR_SHARE * numerics.tolerance:
-        return settings.film_cells
-    return min(2 * film.state.pressure.size, max(MOST_CELLS, settings.film_cells))
 
 
 def _certainly_touching(model, patch, speed) -> bool:
@@ -115,10 +78,10 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
             index += 1
             stage = _stage(model, ladder[index], speed, None, stage.settings)
             continue
-        index, changes, moved = _finer(model, ladder, index, changes, stage, limit)
+        index, changes, moved = finer_contact(model, ladder, index, changes, stage, limit)
         if index > 0:
             stage = _stage(model, moved.patch, speed, moved.balance, moved.settings, ladder[index])
-        error = _grid_error(changes, stage, limit)
+        error = grid_error(changes, stage, limit)
     decision = replace(_described(decision, stage), contact=_contact_name(model), shape=_shape(stage.patch),
                        coarsening=_coarsening(model.patch, stage.patch))
     if index < last:
@@ -150,7 +113,7 @@ def _begin(model, speed, start: Balance | None) -> tuple[Balance | None, Setting
         return start, settings
     if level == "auto":
         share = forces(model.scene, start.film.entrainment_speed, start).sensitivity
-        level = lowest_level(model.scene, speed, start.film_load, _allowed_error(numerics, share))[0]
+        level = lowest_level(model.scene, speed, start.film_load, allowed_error(numerics, share))[0]
     return start, replace(settings, level=level)
 
 
@@ -164,7 +127,7 @@ def _stage(model, patch, speed, begun: Balance | None, settings: Settings, whole
             continue
         found = forces(model.scene, speed, balance)
         error = level_error(balance.film, model.scene, speed)
-        better = _needed(model, speed, settings, balance, found, error)
+        better = needed_settings(model, speed, settings, balance, found, error)
         if better is None:
             break
         used, settings, begun = settings, better, balance
@@ -172,112 +135,6 @@ def _stage(model, patch, speed, begun: Balance | None, settings: Settings, whole
         settings = used
     whole.check(balance.closure)
     return Stage(balance, found, patch, settings, error)
-
-
-@dataclass(frozen=True)
-class Moved:
-    """A patch, the balance of a coarser one moved to where this one should have its own, and the settings."""
-
-    patch: object
-    balance: Balance
-    settings: Settings
-
-
-def _finer(model, ladder, index, changes, stage: Stage, limit) -> tuple[int, list, Moved]:
-    """Contact on finer and finer grids under the film and load of ``stage``, until the rest is within ``limit``.
-
-    What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
-    load would: no film is solved. Returns the grid, all changes, and where its balance is to be expected.
-    """
-    closure, balance, total = stage.balance.closure, stage.balance, 0.0
-    changes, patch = list(changes), stage.patch
-    while index < len(ladder) - 1:
-        index += 1
-        whole = ladder[index]
-        finer = cut(whole, in_contact(patch, closure.contact.pressure)) if _cut_allowed(model) else whole
-        found = _closed(model, finer, balance, closure)
-        if not holds(finer, whole, film_shape(model.scene, whole, balance.film), found.contact):
-            finer = whole
-            found = _closed(model, finer, balance, found)
-        change = found.volume_residual - closure.volume_residual
-        changes, total, closure, patch = [*changes, change], total + change, found, finer
-        if _grid_error(changes, stage, limit) <= limit:
-            break
-    step = 0.0 if not balance.slope else min(max(-total / balance.slope, -1.0), 1.0)
-    return index, changes, Moved(patch, moved_split(replace(balance, closure=closure), step), stage.settings)
-
-
-def _closed(model, patch, balance: Balance, closure):
-    """Contact on ``patch`` under the film and load of ``balance``, begun from the pressure of ``closure``."""
-    film = balance.film
-    start = carried_over(replace(balance, closure=closure), patch).closure.contact
-    return patch.close(film.film_at(patch.x), balance.contact_load, start, film_shape(model.scene, patch, film))
-
-
-def _cut_allowed(model) -> bool:
-    return isinstance(model.patch, CylinderPatch) and model.scene.contact.region == "hertz"
-
-
-def _allowed_error(numerics, sensitivity: float) -> float:
-    """Of the film level, relative to the film."""
-    return min(FILM_SHARE * numerics.tolerance / max(sensitivity, 1e-12), LARGEST_ERROR)
-
-
-def _needed(model, speed, settings, balance, found: Forces, error: FilmError) -> Settings | None:
-    """Settings that the balance shows to be needed; None where its own will do."""
-    numerics = model.scene.numerics
-    sensitivity = max(found.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
-    film, volume = numerics.film_tolerance, numerics.volume_tolerance
-    if numerics.ehl_tolerance is None:
-        film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
-    cells = _cells(numerics, settings, found, balance.film)
-    if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
-        volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
-    level, allowed = settings.level, _allowed_error(numerics, sensitivity)
-    if numerics.forced_film_level == "auto" and not error.total <= allowed:
-        level = higher(level, lowest_level(model.scene, speed, balance.film_load, allowed)[0])
-        if level != settings.level:                       # the sensitivity found without it is no guide to tolerances
-            return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
-    contact = _contact_tolerance(model, settings, balance.closure, volume)
-    if not balance.report.converged and level == settings.level and contact == settings.contact_tolerance:
-        return None
-    enough = film >= settings.film_tolerance / SLACK and cells == settings.film_cells or level != EHL
-    enough = enough and contact == settings.contact_tolerance
-    if level == settings.level and enough and abs(balance.closure.volume_residual) <= SLACK * volume:
-        return None
-    return replace(settings, level=level, film_tolerance=min(film, settings.film_tolerance),
-                   volume_tolerance=min(volume, SLACK * settings.volume_tolerance), film_cells=cells,
-                   contact_tolerance=contact)
-
-
-def _contact_tolerance(model, settings, closure, volume: float) -> float | None:
-    """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap is
-    a small part of Sq the patch's own is too loose."""
-    if closure.contact is None or model.scene.numerics.contact_tolerance is not None:
-        return settings.contact_tolerance
-    enough = max(volume * closure.mean_gap / model.surface.sq, TIGHTEST_CONTACT)
-    given = settings.contact_tolerance or model.patch.tolerance
-    return settings.contact_tolerance if given <= SLACK * enough else 0.5 * enough
-
-
-def _grid_error(changes: list[float], stage: Stage, limit: float) -> float:
-    """Estimated relative error of f from the contact grid; infinite where nothing can be said.
-
-    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
-    last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
-    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1 were small by chance;
-    times 2 ``sensitivity``, the effect of a residual on f.
-    """
-    if stage.balance.contact_load == 0:
-        return math.inf
-    bound = WORST_GRID * stage.forces.sensitivity
-    if bound <= limit:
-        return bound
-    if not changes:
-        return math.inf
-    d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
-    ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
-    return 2 * stage.forces.sensitivity * max(d1 * ratio / (1 - ratio), d2 / 12)
 
 
 def _forced(numerics) -> tuple[str, ...]:
