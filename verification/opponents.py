@@ -25,8 +25,13 @@ def version(package: str) -> str:
         return ""
 
 
-def tamaas_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver | None:
-    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel runs on one thread whatever is asked."""
+def tamaas_solver(
+    heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1, max_iterations: int = 20000
+) -> Solver | None:
+    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel runs on one thread whatever is asked.
+
+    The pressure is what it has after ``max_iterations``, converged or not.
+    """
     try:
         import tamaas
     except ImportError:
@@ -41,7 +46,7 @@ def tamaas_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: 
         model.traction[:] = 0.0
         primal = tamaas.PolonskyKeerRey.pressure
         solver = tamaas.PolonskyKeerRey(model, heights.copy(), tolerance, primal, primal)
-        solver.max_iter, solver.dump_freq = 20000, 10**9
+        solver.max_iter, solver.dump_freq = max_iterations, 10**9
         solver.solve(load)
         return np.array(model.traction).reshape(n, n)
 
