@@ -98,7 +98,7 @@ def main() -> None:
         solvers = {k: s for k, s in solvers.items() if s is not None}
         for load in options.loads:
             reference = solvers["lubfric"](1e6 * load, 1e-10)
-            begins = first.setdefault(load, {"lubfric": 1e-4, "aspher": 1e-3})
+            begins = first.setdefault(load, {"lubfric": 1e-3, "aspher": 1e-2})
             table = compare(solvers, 1e6 * load, reference, options.target, options.repeats, begins)
             if options.bound:
                 table += stopped(heights, 1e6 * load, reference, options.bound * table[0][3])
