@@ -6,7 +6,7 @@ contact. Nothing but the contacts themselves deforms, so the volume balance of E
 and becomes
 
 - "volume":      mean of max(h - epsilon - z, 0) over A = mean film over A, Johnson's definition of the
-  separation (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91,
+  separation (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108,
   doi:10.1016/0043-1648(72)90445-0);
 - "mean-plane":  epsilon = 0: the film is the distance of the mean planes, for z about its mean over A.
 

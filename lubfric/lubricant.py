@@ -31,7 +31,7 @@ class Lubricant:
         6.3e-5 Pa s for the Roelands law
     pressure_viscosity_coefficient : d ln(eta)/dp at ambient pressure, alpha >= 0 [1/Pa];
         > 0 for the Roelands law, not used by the constant law
-    viscosity_law : "roelands" (Roelands 1966, z = alpha p0/(ln eta0 + 9.67), p0 = 1.96e8 Pa;
+    viscosity_law : "roelands" (Roelands 1966, thesis Delft, z = alpha p0/(ln eta0 + 9.67), p0 = 1.96e8 Pa;
         fitted to about 1 GPa, an extrapolation above), "barus" (Barus 1893, exp(alpha p);
         overestimates above a few 100 MPa) or "constant"
     density_law : "constant" or "dowson-higginson" (Dowson & Higginson 1966, mineral oil, in the
@@ -40,7 +40,7 @@ class Lubricant:
     eyring_stress : Eyring stress tau_E > 0 [Pa] (Ree-Eyring flow, typically 2-10 MPa);
         None: Newtonian
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
-        typically 0.03-0.1); None: no limit
+        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
 
     Raises

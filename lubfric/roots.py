@@ -25,7 +25,7 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
     ``f(x)`` returns (value, payload); stops when |value| <= tolerance. The bracket grows by
     doubled steps inside ``bounds``; a function of one sign there ends with "iteration_limit". Where ``slope`` is
     roughly known, the first step is Newton's, at most ``step``.
-    Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145, doi:10.1016/S0965-9978(96)00051-8.
+    Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
     history, best = [], None
 

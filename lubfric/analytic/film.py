@@ -5,7 +5,7 @@
 Newtonian, fully flooded solutions. Sources: H. Moes, Lubrication and Beyond, Univ. Twente 2000,
 and G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3;
 D. Dowson, G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon 1966;
-D. Dowson, S. Toyoda, 5th Leeds-Lyon Symposium (1978) 60-65.
+D. Dowson, S. Toyoda, Proc. 5th Leeds-Lyon Symposium on Tribology (1978) 60-65.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ reduced pressure (1 - exp(-alpha p))/alpha must reach 1/alpha at its edge (Barus
 ``X = -x/b = cosh t``, ``G(X) = (X sqrt(X^2-1) - ln(X + sqrt(X^2-1)))/2`` and ``F = h* R/b^2``:
 ``6 L (8 M/pi)^(-3/2) J(F) = 1``, ``J = integral of G/(F + G)^3 dX over X > 1``. Valid for alpha p_h >> 1 and
 F << 1 (Hertz shape undisturbed). Sources: A. M. Ertel 1939 / A. N. Grubin, TsNIITMASh 30 (1949);
-C. J. Hooke, Proc. IMechE 191 (1977) 149 for the regime numbers.
+C. J. Hooke 1977 for the regime numbers.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Everywhere ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`` and ``1/R = 1/R1 + 1/R2``. Valid while the
 contact is small beside R, so that each body is a half-space, and stresses are elastic.
-Source: K. L. Johnson, Contact Mechanics, 1985, Secs. 4.2-4.3, doi:10.1017/CBO9781139171731.
+Source: K. L. Johnson, Contact Mechanics, 1985, Sec. 4.2, doi:10.1017/CBO9781139171731.
 """
 
 from __future__ import annotations

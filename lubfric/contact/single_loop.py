@@ -1,6 +1,6 @@
 """Appendix 2 of the paper: pressure and separation found in one loop.
 
-"printed" is the algorithm as its text has it: conjugate gradient of Polonsky and Keer (Wear 231 (1999) 206,
+"printed" is the algorithm as its text has it: conjugate gradient of Polonsky and Keer (Wear 231 (1999) 206-219,
 doi:10.1016/S0043-1648(99)00113-1) on the cells in contact, the mean of the convolved direction taken off
 (Eq. 18), overlapping cells corrected in a step of their own (Eq. 22), pressure cut at the hardness, and the
 separation from Eq. (8) over the lubricated area. "consistent" (default) keeps the single loop and changes

@@ -20,7 +20,7 @@ def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, 
     """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
     ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``; with a hardness H also ``p <= H``,
-    and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:5 (2015), Eqs. 1-3,
+    and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
     doi:10.1007/s11249-015-0536-z).
 
     Parameters

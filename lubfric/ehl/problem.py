@@ -7,7 +7,7 @@ With U1 = 2 eta0 U/(E' R) and the units x = R U1^(1/4) X, h = R U1^(1/2) H, p = 
     ∫ P dX = M                                                   load
 
 rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure
-(Moes 1992, doi:10.1016/0043-1648(92)90017-C for the numbers M and L).
+(H. Moes, Wear 159 (1992) 57-66, for the numbers M and L).
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ and free of what single asperities of a finite patch add to that mean, which the
 semi-ellipse over the strip of the total load.
 
 Fixed point in centre and half-width: film under the contact's pressure -> contact under that film -> its pressure, with
-Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305).
+Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
 """
 
 from __future__ import annotations
