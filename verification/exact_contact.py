@@ -1,7 +1,7 @@
 """Closed forms of dry smooth contact, written from the literature and without `lubfric`.
 
 E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. L. Johnson, Contact Mechanics,
-1985, chs. 4 and 5, doi:10.1017/CBO9781139171731; wavy line contact: H. M. Westergaard, J. Appl. Mech. 6
+1985, ch. 4, doi:10.1017/CBO9781139171731; wavy line contact: H. M. Westergaard, J. Appl. Mech. 6
 (1939) A49-A53, doi:10.1115/1.4008919.
 """
 

@@ -232,8 +232,7 @@ def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
 
 
 def film_estimate(M: float, L: float) -> float:
-    """Flow film in Moes' units by the regression of Moes 1992, doi:10.1016/0043-1648(92)90017-C (within some
-    10 %).
+    """Flow film in Moes' units by the regression of H. Moes, Wear 159 (1992) 57-66 (within some 10 %).
 
     Only the mesh and the first guess are made from it.
     """

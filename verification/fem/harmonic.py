@@ -4,7 +4,7 @@ y.
 For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``, and
 elasticity in three dimensions becomes one problem in the section for each wavenumber k, with the three
 amplitudes for unknowns and k in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element
-Method, 3rd ed. 1977, ch. 15). P2 triangles on a square of side D, bottom fixed and sides free, stand for the
+Method, 3rd ed. 1977). P2 triangles on a square of side D, bottom fixed and sides free, stand for the
 half-space: k = 0 misses it by a constant and a part that falls like 1/D^2, every other k by exp(-k D/2).
 
 Pressure is constant on the cells of a patch along x; the compliance gives mean displacements of the cells, so

@@ -210,7 +210,7 @@ class Multigrid:
 
 def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     """Smoothed aggregation on the rigid-body modes (P. Vanek, J. Mandel & M. Brezina, Computing 56 (1996)
-    179-196).
+    179-196, doi:10.1007/BF02238511).
 
     ``modes`` replaces the near-null space, to see what becomes of the solve without it.
     """

@@ -5,7 +5,7 @@
 weakly: ``(rho h^3/(12 eta) grad p, grad v) - (rho U h, dv/dx) = (f, v)``, with U the entrainment speed
 (mean of the two surface speeds). Where cavitation is asked for, with Reynolds' (Swift-Stieber) outlet:
 ``p >= 0``, weak residual ``>= 0``, product 0, node by node. One loop does both: Newton on the free nodes,
-each step with the active set of the primal-dual method (Hintermueller, Ito & Kunisch 2003,
+each step with the active set of the primal-dual method (Hintermueller, Ito & Kunisch 2002,
 doi:10.1137/S1052623401383558). The weak form is written once; its tangent is taken by a complex step.
 """
 

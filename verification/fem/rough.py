@@ -5,7 +5,7 @@
 
 for a given load. In each step the cells of the set are in contact, the others are not or have yielded; one
 dense linear system gives their pressures and delta; the signs of pressures and gaps give the next set
-(Hintermueller, Ito & Kunisch 2003, doi:10.1137/S1052623401383558). The set repeats itself at the solution,
+(Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). The set repeats itself at the solution,
 which is then exact up to rounding.
 """
 

@@ -266,7 +266,7 @@ def piezoviscous(refinements: int):
             error,
             0.0,
             1.5e-4 * 4.0 ** (2 - refinements),
-            "isoviscous closed form and the reduced pressure (Blok 1965)",
+            "isoviscous closed form and the reduced pressure (Blok 1963)",
             AT_MOST,
             note=f"peak {true.max() / 1e9:.3f} GPa, viscosity up to e^{growth:.1f} times",
         )

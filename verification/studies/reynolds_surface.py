@@ -171,7 +171,7 @@ def finite_width(refinements: int):
         narrow.load / e.narrow_load,
         1.0,
         0.03,
-        "infinitely narrow pad (Michell 1905, Ocvirk 1953)",
+        "infinitely narrow pad (Michell 1905, Ocvirk 1952)",
         note="the ends take a part of the order of width/length",
     )
     sides = Problem(
