@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric import unsteady_start
-from lubfric.checkpoint import Checkpoint
 from lubfric.cli import main
-from lubfric.history import Harmonic, Ramp, Table, Transient
 from lubfric.mixed import prepare
+from lubfric.unsteady import start as unsteady_start
+from lubfric.unsteady.checkpoint import Checkpoint
+from lubfric.unsteady.history import Harmonic, Ramp, Table, Transient
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.8e-6},
@@ -174,7 +174,7 @@ SCRIPT = """
 import os, signal, sys, time
 import numpy as np
 import lubfric
-from lubfric.history import Harmonic, Transient
+from lubfric.unsteady.history import Harmonic, Transient
 scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
     surface={"correlation_length": 5e-6},
     transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from .ehl.active_set import StepSolution
-from .ehl.bdf import Advance
-from .ehl.result import smallest
-from .ehl.tail import outside_shear
-from .ehl.transient import WET
-from .lubricant import shear_stress, viscosity
-from .unsteady_sharing import Contact, Sharing
+from ..ehl.active_set import StepSolution
+from ..ehl.bdf import Advance
+from ..ehl.result import smallest
+from ..ehl.tail import outside_shear
+from ..ehl.transient import WET
+from ..lubricant import shear_stress, viscosity
+from .sharing import Contact, Sharing
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 UNITS = {

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .ehl.active_set import StepSolution, solve_step
-from .ehl.bdf import Level
-from .ehl.squeeze import Memory
-from .ehl.transient import TIME_SHARE, default_step, film_error
-from .ehl.transient_problem import (
+from ..ehl.active_set import StepSolution, solve_step
+from ..ehl.bdf import Level
+from ..ehl.squeeze import Memory
+from ..ehl.transient import TIME_SHARE, default_step, film_error
+from ..ehl.transient_problem import (
     FINER,
     LineContact,
     Setting,
@@ -20,12 +20,12 @@ from .ehl.transient_problem import (
     parabola,
     steady_start,
 )
-from .errors import ConvergenceError, InputError
+from ..errors import ConvergenceError, InputError
+from ..mixed import Model, friction, prepare
+from ..report import CONVERGED
+from ..scene import Scene
 from .history import Constant, Transient
-from .mixed import Model, friction, prepare
-from .report import CONVERGED
-from .scene import Scene
-from .unsteady_sharing import Contact, Sharing, make_sharing, share_step
+from .sharing import Contact, Sharing, make_sharing, share_step
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import validate
-from .errors import InputError
+from .. import validate
+from ..errors import InputError
 
 
 @dataclass(frozen=True)

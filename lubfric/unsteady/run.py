@@ -6,24 +6,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import __version__, validate
+from .. import __version__, validate
+from ..ehl.bdf import Level, March, advance, restarted
+from ..ehl.transient import SHORTEST, stops_and_jumps
+from ..errors import InputError
+from ..mixed import Model
+from ..patch import Closure
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ..scene import Scene
 from .checkpoint import Checkpoint
-from .ehl.bdf import Level, March, advance, restarted
-from .ehl.transient import SHORTEST, stops_and_jumps
-from .errors import InputError
 from .history import Transient
-from .mixed import Model
-from .patch import Closure
-from .report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .scene import Scene
-from .unsteady_row import UNITS, moment
-from .unsteady_sharing import Contact
-from .unsteady_start import Run, begin, first_level
+from .row import UNITS, moment
+from .sharing import Contact
+from .start import Run, begin, first_level
 
 
 @dataclass(frozen=True)
 class TransientResult:
-    """Arrays over time (nt,), one per name of `lubfric.unsteady_row.UNITS`, also as attributes:
+    """Arrays over time (nt,), one per name of `lubfric.unsteady.row.UNITS`, also as attributes:
     ``result.coefficient``.
 
     time [s]; x [m] (nx,); pressure [Pa] and film_thickness [m] (nt, nx): of the smooth film at the output
@@ -60,7 +60,7 @@ def transient(
 
     Parameters
     ----------
-    scene : with a `lubfric.history.Transient` in ``scene.transient`` (or, with ``times``, without: then
+    scene : with a `lubfric.unsteady.history.Transient` in ``scene.transient`` (or, with ``times``, without: then
     nothing changes)
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
     checkpoint : folder that receives the state after every step; an interrupted run of the same scene and

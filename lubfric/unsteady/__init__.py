@@ -1,0 +1,1 @@
+"""Friction of contacts whose speed, load, radius or viscosity change in time."""
