@@ -9,7 +9,7 @@ from . import validate
 from .analytic import hertz
 from .errors import InputError
 from .lubricant import Lubricant
-from .unsteady.history import Transient
+from .unsteady.plan import Transient
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")

@@ -15,7 +15,7 @@ from .. import validate
 from ..errors import ConvergenceError
 from ..lubricant import Lubricant
 from ..report import CONVERGED, STAGNATED, Report
-from ..unsteady.history import check_history, history
+from ..unsteady.read_history import check_history, history
 from .bdf import Level, March, advance, restarted
 from .differential_deflection import solve_differential_deflection
 from .differential_equations import Squeeze

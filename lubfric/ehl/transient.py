@@ -11,7 +11,7 @@ from .. import validate
 from ..errors import ConvergenceError, InputError
 from ..lubricant import Lubricant
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from ..unsteady.history import check_history, history
+from ..unsteady.read_history import check_history, history
 from .active_set import solve_step
 from .bdf import March, advance, restarted
 from .result import smallest

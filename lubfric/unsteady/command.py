@@ -17,8 +17,9 @@ from ..output import _plain, read_csv
 from ..scene import Scene
 from ..scene_file import scene_as_dict
 from .plot import animate, plot_history
+from .result import TransientResult
 from .row import UNITS
-from .run import TransientResult, transient
+from .run import transient
 
 SAY_EVERY = 1.0  # s of wall time between two lines of progress
 

@@ -2,49 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from .. import __version__, validate
-from ..ehl.bdf import Level, March, advance, restarted
+from ..ehl.bdf import March, advance, restarted
 from ..ehl.transient import SHORTEST, stops_and_jumps
 from ..errors import InputError
 from ..mixed import Model
-from ..patch import Closure
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ..report import CONVERGED, STAGNATED
 from ..scene import Scene
 from .checkpoint import Checkpoint
-from .history import Transient
-from .row import UNITS, moment
-from .sharing import Contact
-from .start import Run, begin, first_level
-
-
-@dataclass(frozen=True)
-class TransientResult:
-    """Arrays over time (nt,), one per name of `lubfric.unsteady.row.UNITS`, also as attributes:
-    ``result.coefficient``.
-
-    time [s]; x [m] (nx,); pressure [Pa] and film_thickness [m] (nt, nx): of the smooth film at the output
-    times. coefficient: tangential force on the upper surface in the direction in which it slides over the
-    lower one, over F_T; friction_force and its parts [N] along +x. mean_film, mean_gap: both sides of Eq.
-    (8). wet_from, wet_to [m]: ends of the pressurised film. net_inflow, stored, cavity_growth [m²/s]: the
-    lubricant's balance over the last step, per unit width. time_error: local error of the last step, of
-    the tolerance.
-    """
-
-    columns: dict[str, np.ndarray]
-    x: np.ndarray
-    pressure: np.ndarray
-    film_thickness: np.ndarray
-    report: Report
-
-    def __getattr__(self, name):
-        columns = self.__dict__.get("columns", {})
-        if name in columns:
-            return columns[name]
-        raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
+from .plan import Transient
+from .progress import Progress, keep, resume, state_of
+from .result import TransientResult, collect
+from .row import UNITS
+from .setup import Run, begin, first_level
 
 
 def transient(
@@ -60,7 +34,7 @@ def transient(
 
     Parameters
     ----------
-    scene : with a `lubfric.unsteady.history.Transient` in ``scene.transient`` (or, with ``times``, without: then
+    scene : with a `lubfric.unsteady.plan.Transient` in ``scene.transient`` (or, with ``times``, without: then
     nothing changes)
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
     checkpoint : folder that receives the state after every step; an interrupted run of the same scene and
@@ -106,25 +80,13 @@ def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
     return plan, times
 
 
-@dataclass
-class _Progress:
-    """What grows while a run goes on."""
-
-    march: March
-    rows: list
-    fields: list
-    steps: int = 0
-    rejected: int = 0
-    worst: float = 0.0
-
-
 def _run(run: Run, times, store, on_step) -> TransientResult:
     plan = run.plan
-    now = _resume(run, store) or _Progress(
+    now = resume(run, store) or Progress(
         March((first_level(run),), run.first_step, run.start.payload), [], []
     )
     if not now.rows and times[0] == 0.0:
-        _keep(run, now, store, 0.0, run.start, None)
+        keep(run, now, store, 0.0, run.start, None)
     stops, jumps = stops_and_jumps(run.histories, times, plan.duration)
     for stop in stops:
         while now.march.time < stop:
@@ -132,7 +94,7 @@ def _run(run: Run, times, store, on_step) -> TransientResult:
                 now.march, stop, run.solve, run.error_of, run.tolerance, SHORTEST * plan.duration
             )
             if advanced is None:
-                return _collect(run, now, STAGNATED)
+                return collect(run, now, STAGNATED)
             now.march, now.steps, now.rejected = (
                 advanced.march,
                 now.steps + 1,
@@ -141,121 +103,11 @@ def _run(run: Run, times, store, on_step) -> TransientResult:
             now.worst = max(now.worst, advanced.error)
             output = now.march.time == stop and bool(np.any(times == stop))
             if output:
-                _keep(run, now, store, stop, advanced.solution, advanced)
+                keep(run, now, store, stop, advanced.solution, advanced)
             if now.march.time in jumps:
                 now.march = restarted(now.march, run.first_step)
             if store:
-                store.save(_state(run, now))
+                store.save(state_of(run, now))
             if on_step:
                 on_step(now.march.time, plan.duration, dict(zip(UNITS, now.rows[-1])) if output else None)
-    return _collect(run, now, CONVERGED)
-
-
-def _keep(run: Run, now: _Progress, store, time, solution, advanced) -> None:
-    row = moment(
-        run.sharing,
-        time,
-        run.sliding_speed(time),
-        run.model.scene.bodies.boundary_friction_coefficient,
-        solution,
-        solution.payload,
-        advanced,
-        now.steps,
-    )
-    now.rows.append(np.array(list(row.values()), dtype=float))
-    now.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
-    if store:
-        store.append(now.rows[-1], now.fields[-1])
-
-
-def _state(run: Run, now: _Progress) -> dict:
-    contact, closure = now.march.payload, now.march.payload.closure
-    pressure = getattr(closure.contact, "pressure", closure.contact)
-    return {
-        "outputs": len(now.rows),
-        "row_size": len(UNITS),
-        "field_size": 2 * (run.sharing.setting.grid.n + 1),
-        "steps": np.array([now.steps, now.rejected, now.worst, now.march.step]),
-        "level_times": np.array([level.time for level in now.march.levels]),
-        "level_films": np.array([level.film for level in now.march.levels]),
-        "level_z": np.array([level.z for level in now.march.levels]),
-        "contact": np.array(
-            [
-                contact.load,
-                contact.softness,
-                closure.mean_gap,
-                closure.mean_film,
-                closure.real_contact_area_fraction,
-                closure.plastic_area_fraction,
-            ]
-        ),
-        "contact_fraction": closure.contact_fraction,
-        "contact_pressure": np.zeros((0, 0)) if pressure is None else pressure,
-    }
-
-
-def _resume(run: Run, store) -> _Progress | None:
-    found = store.load() if store else None
-    if found is None:
-        return None
-    state, rows, fields = found
-    steps, rejected, worst, step = state["steps"]
-    load, softness, gap, film, real, plastic = (float(v) for v in state["contact"])
-    pressure = state["contact_pressure"]
-    closure = Closure(
-        gap,
-        film,
-        run.sharing.patch.x,
-        state["contact_fraction"],
-        real,
-        plastic,
-        pressure if pressure.size else None,
-    )
-    levels = tuple(
-        Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])
-    )
-    return _Progress(
-        March(levels, float(step), Contact(load, closure, softness)),
-        list(rows),
-        list(fields),
-        int(steps),
-        int(rejected),
-        float(worst),
-    )
-
-
-def _collect(run: Run, now: _Progress, status: str) -> TransientResult:
-    setting, scene = run.sharing.setting, run.model.scene
-    p, n = setting.problem, setting.grid.n + 1
-    table = np.array(now.rows).reshape(len(now.rows), len(UNITS))
-    columns = dict(zip(UNITS, table.T))
-    fields = np.array(now.fields).reshape(len(now.fields), 2 * n)
-    worst = {
-        "step": now.worst,
-        "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / run.sharing.tolerance,
-    }
-    if not np.isnan(run.grid_error):
-        worst["grid"] = run.grid_error / scene.numerics.film_tolerance
-    if status == CONVERGED and not max(worst.values()) <= 1.0:
-        status = ITERATION_LIMIT
-    notes = (f"{setting.grid.n} cells, {now.rejected} steps rejected",)
-    if status == STAGNATED:
-        notes += (f"stopped at t = {now.march.time:.6g} s: the shortest step failed",)
-    report = Report(
-        "transient, BDF2",
-        status,
-        now.steps,
-        max(worst.values()),
-        1.0,
-        worst,
-        evaluations=now.steps + now.rejected,
-        notes=notes,
-    )
-    return TransientResult(
-        columns,
-        setting.grid.x * p.length_unit,
-        fields[:, :n] * p.pressure_unit,
-        fields[:, n:] * p.film_unit,
-        report,
-    )
+    return collect(run, now, CONVERGED)

@@ -1,104 +1,23 @@
-"""From a scene to a run in time: histories, grid, operators and the first state."""
+"""The state at t = 0: steady, at rest with the contact carrying the load, or a film without pressure."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..ehl.active_set import StepSolution, solve_step
-from ..ehl.bdf import Level
 from ..ehl.squeeze import Memory
-from ..ehl.transient import TIME_SHARE, default_step, film_error
-from ..ehl.transient_problem import (
-    FINER,
-    LineContact,
-    Setting,
-    discretisation,
-    make_setting,
-    parabola,
-    steady_start,
-)
+from ..ehl.transient_problem import discretisation, parabola, steady_start
 from ..errors import ConvergenceError, InputError
-from ..mixed import Model, friction, prepare
+from ..mixed import Model, friction
 from ..report import CONVERGED
-from ..scene import Scene
-from .history import Constant, Transient
-from .sharing import Contact, Sharing, make_sharing, share_step
+from .plan import Transient
+from .sharing import Contact, Sharing, share_step
 
 
-@dataclass(frozen=True)
-class Run:
-    """All that a run in time needs and nothing that changes in it; start: the state at t = 0.
-
-    grid_error: relative error of the films of the steady start from the grid (NaN from another start).
-    """
-
-    model: Model
-    plan: Transient
-    sharing: Sharing
-    sliding: Constant | None
-    start: StepSolution
-    grid_error: float
-
-    @property
-    def tolerance(self) -> float:
-        """Largest local error of the film in a step."""
-        return self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
-
-    @property
-    def histories(self) -> tuple[Constant, ...]:
-        """All that may jump."""
-        c = self.sharing.setting.contact
-        return tuple(h for h in (c.speed, c.load, c.radius, c.viscosity, self.sliding) if h is not None)
-
-    @property
-    def first_step(self) -> float:
-        """The step [s] after a start or a jump."""
-        return default_step(self.sharing.setting)
-
-    def sliding_speed(self, time: float) -> float:
-        """u2 - u1 just before ``time`` [m/s]."""
-        if self.sliding is not None:
-            return self.sliding.before(time)
-        return self.model.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
-
-    def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
-        """Film and contact at ``time``: the solver of `lubfric.ehl.bdf.advance`."""
-        return share_step(self.sharing, time, memory, z, past)
-
-    def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """`lubfric.ehl.transient.film_error`."""
-        return film_error(self.sharing.setting, solution, difference)
-
-
-def begin(scene: Scene | Model, plan: Transient) -> Run:
-    """Check the scene, make it ready, find its first state."""
-    base = scene.scene if isinstance(scene, Model) else scene
-    if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
-        raise InputError(
-            f"a transient needs numerics.film_deflection = 'hydrodynamic', found {base.numerics.film_deflection!r}, and "
-            f"cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
-        )
-    load = plan.load or Constant(base.bodies.load)
-    if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        raise InputError(
-            f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
-            f"{base.bodies.load:g} N, whose Hertz strip is the area A"
-        )
-    model = scene if isinstance(scene, Model) else prepare(scene)
-    tolerance = base.numerics.film_tolerance
-    for finer in FINER:
-        setting = _setting(model, plan, load, finer)
-        sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
-        start, grid_error = _first_state(model, plan, sharing)
-        if not grid_error > tolerance:  # NaN: no steady start to judge by
-            break
-    return Run(model, plan, sharing, plan.sliding, start, grid_error)
-
-
-def _first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+def first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
     """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
     still = sharing.setting.contact.speed.before(0.0) == 0.0
     if plan.initial_film is not None:
@@ -106,70 +25,6 @@ def _first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepS
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(sharing), math.nan
     return _steady(model, sharing)
-
-
-def _volume_tolerance(scene: Scene) -> float:
-    return min(scene.numerics.volume_tolerance, 1e-4)
-
-
-def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Setting:
-    scene = model.scene
-    bodies, lubricant = scene.bodies, scene.lubricant
-    contact = LineContact(
-        _per_width(load, bodies.width),
-        plan.radius or Constant(bodies.radius),
-        bodies.e_prime,
-        plan.speed or Constant(scene.motion.entrainment_speed),
-        plan.viscosity or Constant(lubricant.viscosity),
-        lubricant,
-        plan.duration,
-        plan.initial_film,
-    )
-    rough = model.surface.sq > 0.0
-    sigma = max(model.surface.sq, 0.0)
-    if not rough and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
-        raise InputError(
-            "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
-            "an entrainment speed before t = 0"
-        )
-    reach = float(np.max(np.abs(model.patch.x))) if rough else 0.0
-    return make_setting(
-        contact,
-        scene.numerics.film_tolerance,
-        shared=rough,
-        reach=reach,
-        film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0),
-        finer=finer,
-    )
-
-
-@dataclass(frozen=True)
-class _PerWidth(Constant):
-    """A load history divided by the width."""
-
-    source: Constant | None = None
-    width: float = 1.0
-    value: float = 0.0
-
-    def at(self, time: float) -> float:
-        return self.source.at(time) / self.width
-
-    def before(self, time: float) -> float:
-        return self.source.before(time) / self.width
-
-    def stops(self, duration: float) -> tuple[float, ...]:
-        return self.source.stops(duration)
-
-    def jumps(self, duration: float) -> tuple[float, ...]:
-        return self.source.jumps(duration)
-
-    def range(self, duration: float) -> tuple[float, float]:
-        low, high = self.source.range(duration)
-        return low / self.width, high / self.width
-
-
-def _per_width(load: Constant, width: float) -> _PerWidth:
-    return _PerWidth(source=load, width=width)
 
 
 def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
@@ -249,8 +104,3 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
             "transient: film and contact of the steady start do not balance on the grid of the run"
         )
     return found, error
-
-
-def first_level(run: Run) -> Level:
-    """The level at t = 0."""
-    return run.sharing.setting.level(0.0, run.start)

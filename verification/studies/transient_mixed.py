@@ -9,8 +9,9 @@ import numpy as np
 
 import lubfric
 from lubfric.mixed import prepare
-from lubfric.unsteady.history import Harmonic, Ramp, Transient
+from lubfric.unsteady.history import Harmonic, Ramp
 from lubfric.unsteady.history import Table as History
+from lubfric.unsteady.plan import Transient
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check
