@@ -58,7 +58,7 @@ def _run(arguments) -> int:
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
     if scene.transient is not None:
-        from .history_run import run_history
+        from .unsteady.command import run_history
         return run_history(scene, arguments.out, arguments.animation, _say)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
@@ -99,9 +99,9 @@ def _info(arguments) -> int:
 
 def _plot(arguments) -> int:
     from .errors import InputError
-    from .history_run import plot_again
     from .output import read_csv
     from .plot import plot_stribeck
+    from .unsteady.command import plot_again
     if plot_again(arguments.folder):
         return 0
     source = arguments.folder / "stribeck.csv"

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from . import validate
 from .analytic import hertz
 from .errors import InputError
-from .history import Transient
 from .lubricant import Lubricant
+from .unsteady.plan import Transient
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")

@@ -12,9 +12,10 @@ import numpy as np
 from . import validate
 from .analytic.hertz import composite_modulus
 from .errors import InputError
-from .history import Transient, history
 from .lubricant import Lubricant
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
+from .unsteady.plan import Transient
+from .unsteady.read_history import history
 
 SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface": Roughness,
             "contact": Patch, "numerics": Numerics, "transient": Transient}

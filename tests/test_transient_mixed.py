@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric import unsteady_start
-from lubfric.checkpoint import Checkpoint
 from lubfric.cli import main
-from lubfric.history import Harmonic, Ramp, Table, Transient
 from lubfric.mixed import prepare
+from lubfric.unsteady import setup
+from lubfric.unsteady.checkpoint import Checkpoint
+from lubfric.unsteady.history import Harmonic, Ramp, Table
+from lubfric.unsteady.plan import Transient
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.8e-6},
@@ -137,13 +138,13 @@ def test_the_flat_contact_runs_in_time():
 
 
 def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
-    real = unsteady_start.share_step
+    real = setup.share_step
 
     def failing(sharing, at, *rest):
         found = real(sharing, at, *rest)
         return replace(found, status="diverged") if at > 1.5e-3 else found
 
-    monkeypatch.setattr(unsteady_start, "share_step", failing)
+    monkeypatch.setattr(setup, "share_step", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
     assert (
@@ -174,7 +175,8 @@ SCRIPT = """
 import os, signal, sys, time
 import numpy as np
 import lubfric
-from lubfric.history import Harmonic, Transient
+from lubfric.unsteady.history import Harmonic
+from lubfric.unsteady.plan import Transient
 scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
     surface={"correlation_length": 5e-6},
     transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .plot import BLUE, GREEN, GREY, RED, _figure
+from ..plot import BLUE, GREEN, GREY, RED, _figure
 
 FRAMES = 150  # at most, spread over the run
 

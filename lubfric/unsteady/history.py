@@ -1,20 +1,18 @@
-"""Quantities that change in time: constant, ramp, harmonic, table, CSV file.
+"""Quantities that change in time: constant, ramp, harmonic, table.
 
 Each gives its value just after (``at``) and just before (``before``) a time [s], the times of its jumps, and
-its range; `history` turns a number, one of these, or the inline table of a scene file into one of them.
+its range. `lubfric.unsteady.read_history` makes them from a scene file or a CSV file.
 """
 
 from __future__ import annotations
 
-import csv
 import math
-from dataclasses import dataclass, fields
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 
-from . import validate
-from .errors import InputError
+from .. import validate
+from ..errors import InputError
 
 
 @dataclass(frozen=True)
@@ -186,128 +184,3 @@ class Ramp(Constant):
     def range(self, duration: float) -> tuple[float, float]:
         """Smallest and largest value from 0 to ``duration`` [s]."""
         return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))
-
-
-def read_history(path, column: str, *, time_column: str = "time", repeat: bool = False) -> Table:
-    """The `Table` in two columns of a CSV file whose first row names the columns (times in s, values in
-    SI)."""
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(f"history file {str(path)!r} does not exist; allowed: a CSV file")
-    with path.open(newline="") as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].lstrip().startswith("#")]
-    if not rows:
-        raise InputError(f"history file {path.name} is empty; allowed: a heading and at least two rows")
-    names = [name.split("[")[0].strip() for name in rows[0]]
-    for name in (time_column, column):
-        if name not in names:
-            raise InputError(
-                f"history file {path.name} has no column {name!r}{validate.nearest(name, names)}; "
-                f"it has: {', '.join(names)}"
-            )
-    columns = []
-    for name in (time_column, column):
-        k = names.index(name)
-        try:
-            columns.append(tuple(float(row[k]) for row in rows[1:]))
-        except (ValueError, IndexError):
-            raise InputError(
-                f"history file {path.name}, column {name!r}: not a number in every row"
-            ) from None
-    return Table(times=columns[0], values=columns[1], repeat=repeat)
-
-
-KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
-
-
-def history(name: str, given, folder: Path = Path()) -> Constant:
-    """A history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file."""
-    if isinstance(given, Constant):
-        return given
-    if not isinstance(given, dict):
-        return Constant(validate.number(name, given, "(SI)"))
-    table = dict(given)
-    kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
-    allowed = (
-        {"file", "column", "time_column", "repeat"}
-        if kind == "file"
-        else {f.name for f in fields(KINDS[kind]) if f.name != "value" or kind == "constant"}
-    )
-    for key in table:
-        if key not in allowed:
-            raise InputError(
-                f"unknown key {key!r} in {name}{validate.nearest(key, allowed)}; "
-                f"allowed: {', '.join(sorted(allowed))}"
-            )
-    try:
-        if kind == "file":
-            return read_history(folder / table.pop("file"), **table)
-        return KINDS[kind](**{k: tuple(v) if isinstance(v, list) else v for k, v in table.items()})
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from None
-    except (TypeError, KeyError) as error:
-        raise InputError(
-            f"{name}: {kind} needs more: {error}; allowed keys: {', '.join(sorted(allowed))}"
-        ) from None
-
-
-def check_history(name: str, unit: str, given: Constant, duration: float, *, positive: bool) -> None:
-    """The history lasts as long as the run and stays in its range."""
-    if isinstance(given, Table) and not given.repeat and given.times[-1] < duration * (1 - 1e-9):
-        raise InputError(
-            f"{name}: the table ends at {given.times[-1]:g} s, the run lasts {duration:g} s; "
-            "allowed: a table as long as the run, or repeat = true"
-        )
-    lowest = given.range(duration)[0]
-    if positive and lowest <= 0.0:
-        raise InputError(
-            f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times"
-        )
-
-
-@dataclass(frozen=True)
-class Transient:
-    """What changes in time in a scene, and for how long.
-
-    duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or histories
-    of this module; None: the scene's own constant): speed [m/s] entrainment speed; sliding [m/s] u2 - u1
-    (None: slide-roll ratio x speed); load [N]; radius [m]; viscosity [Pa s] at ambient pressure.
-    initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact
-    carries the load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start
-    from the undeformed parabola at this height instead.
-    tolerance: largest local error of the film per step, relative (None: 0.01 x the scene's film tolerance).
-    """
-
-    duration: float
-    outputs: int = 200
-    speed: Constant | None = None
-    sliding: Constant | None = None
-    load: Constant | None = None
-    radius: Constant | None = None
-    viscosity: Constant | None = None
-    initial: str = "auto"
-    initial_film: float | None = None
-    tolerance: float | None = None
-
-    def __post_init__(self):
-        validate.positive("transient.duration", self.duration, "s")
-        validate.integer("transient.outputs", self.outputs, minimum=1)
-        validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
-        if self.initial_film is not None:
-            validate.positive("transient.initial_film", self.initial_film, "m")
-        if self.tolerance is not None:
-            validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
-        for name, unit in (
-            ("speed", "m/s"),
-            ("sliding", "m/s"),
-            ("load", "N"),
-            ("radius", "m"),
-            ("viscosity", "Pa s"),
-        ):
-            given = getattr(self, name)
-            if given is not None:
-                given = history(f"transient.{name}", given)
-                object.__setattr__(self, name, given)
-                check_history(
-                    f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s")
-                )

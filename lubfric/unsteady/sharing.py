@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .ehl.active_set import StepSolution
-from .ehl.result import cubic
-from .ehl.squeeze import Memory, Spring
-from .ehl.transient_problem import Setting
-from .errors import ConvergenceError
-from .patch import Closure
-from .report import CONVERGED, ITERATION_LIMIT
+from ..ehl.active_set import StepSolution
+from ..ehl.result import cubic
+from ..ehl.squeeze import Memory, Spring
+from ..ehl.transient_problem import Setting
+from ..errors import ConvergenceError
+from ..patch import Closure
+from ..report import CONVERGED, ITERATION_LIMIT
 
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
 LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface

@@ -10,15 +10,16 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__
-from .errors import ConvergenceError
-from .history_plot import animate, plot_history
-from .mixed import prepare
-from .output import _plain, read_csv
-from .scene import Scene
-from .scene_file import scene_as_dict
-from .unsteady import TransientResult, transient
-from .unsteady_row import UNITS
+from .. import __version__
+from ..errors import ConvergenceError
+from ..mixed import prepare
+from ..output import _plain, read_csv
+from ..scene import Scene
+from ..scene_file import scene_as_dict
+from .plot import animate, plot_history
+from .result import TransientResult
+from .row import UNITS
+from .run import transient
 
 SAY_EVERY = 1.0  # s of wall time between two lines of progress
 

@@ -1,31 +1,24 @@
-"""From a scene to a run in time: histories, grid, operators and the first state."""
+"""From a scene to a run in time: histories, grid, operators and first state."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from .ehl.active_set import StepSolution, solve_step
-from .ehl.bdf import Level
-from .ehl.squeeze import Memory
-from .ehl.transient import TIME_SHARE, default_step, film_error
-from .ehl.transient_problem import (
-    FINER,
-    LineContact,
-    Setting,
-    discretisation,
-    make_setting,
-    parabola,
-    steady_start,
-)
-from .errors import ConvergenceError, InputError
-from .history import Constant, Transient
-from .mixed import Model, friction, prepare
-from .report import CONVERGED
-from .scene import Scene
-from .unsteady_sharing import Contact, Sharing, make_sharing, share_step
+from ..ehl.active_set import StepSolution
+from ..ehl.bdf import Level
+from ..ehl.squeeze import Memory
+from ..ehl.transient import TIME_SHARE, default_step, film_error
+from ..ehl.transient_problem import FINER, LineContact, Setting, make_setting
+from ..errors import InputError
+from ..mixed import Model, prepare
+from ..scene import Scene
+from .history import Constant
+from .plan import Transient
+from .sharing import Contact, Sharing, make_sharing, share_step
+from .start import first_state
 
 
 @dataclass(frozen=True)
@@ -78,8 +71,9 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     base = scene.scene if isinstance(scene, Model) else scene
     if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
         raise InputError(
-            f"a transient needs numerics.film_deflection = 'hydrodynamic', found {base.numerics.film_deflection!r}, and "
-            f"cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
+            "a transient needs numerics.film_deflection = 'hydrodynamic', "
+            f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
+            f"found {base.numerics.cavitated_shear!r}"
         )
     load = plan.load or Constant(base.bodies.load)
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
@@ -92,20 +86,10 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     for finer in FINER:
         setting = _setting(model, plan, load, finer)
         sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
-        start, grid_error = _first_state(model, plan, sharing)
+        start, grid_error = first_state(model, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
     return Run(model, plan, sharing, plan.sliding, start, grid_error)
-
-
-def _first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
-    """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
-    still = sharing.setting.contact.speed.before(0.0) == 0.0
-    if plan.initial_film is not None:
-        return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
-    if plan.initial == "rest" or (plan.initial == "auto" and still):
-        return _resting(sharing), math.nan
-    return _steady(model, sharing)
 
 
 def _volume_tolerance(scene: Scene) -> float:
@@ -172,83 +156,6 @@ def _per_width(load: Constant, width: float) -> _PerWidth:
     return _PerWidth(source=load, width=width)
 
 
-def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
-    closure = sharing.patch.close(sharing.film_on_patch(H), 0.0)
-    return Contact(0.0, closure, max(0.3 * closure.mean_gap, 1e-12))
-
-
-def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
-    """No pressure anywhere, the gap as it is."""
-    setting = sharing.setting
-    found = solve_step(
-        setting.grid,
-        setting.problem,
-        setting.conditions(0.0),
-        Memory(0.0, np.zeros(setting.grid.n + 1)),
-        z,
-        max_steps=0,
-    )
-    contact = _untouched(sharing, found.terms.H)
-    if contact.closure.volume_residual > 0.0:
-        raise InputError(
-            f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
-            f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'"
-        )
-    return replace(found, payload=contact)
-
-
-def _resting(sharing: Sharing) -> StepSolution:
-    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without
-    pressure."""
-    setting = sharing.setting
-    radius = setting.contact.radius.before(0.0)
-    closure = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
-    z = parabola(setting, 0.0)
-    flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
-    z[-1] = (closure.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
-    if z[-1] <= 0.0:
-        raise InputError(
-            "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
-            "initial = 'steady' with an entrainment speed, or transient.initial_film"
-        )
-    found = solve_step(
-        setting.grid,
-        setting.problem,
-        setting.conditions(0.0),
-        Memory(0.0, np.zeros(setting.grid.n + 1)),
-        z,
-        max_steps=0,
-    )
-    closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
-    return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
-
-
-def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
-    """Balance of the steady state, then the same on the grid of the run."""
-    setting, scene = sharing.setting, model.scene
-    c, speed = setting.contact, setting.contact.speed.before(0.0)
-    if speed == 0.0:
-        raise InputError(
-            "transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed"
-        )
-    values = scene.with_(
-        bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
-        lubricant={"viscosity": c.viscosity.before(0.0)},
-    )
-    point = friction(replace(model, scene=values), speed, fields=True)
-    film = steady_start(setting, point.film_load / sharing.width)
-    if film.status != CONVERGED:
-        raise ConvergenceError("transient: no steady film on the grid of the run to start from")
-    error = discretisation(setting, film)
-    if point.contact_load == 0.0:
-        return replace(film, payload=_untouched(sharing, film.terms.H)), error
-    contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
-    found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
-    if found.status != CONVERGED:
-        raise ConvergenceError(
-            "transient: film and contact of the steady start do not balance on the grid of the run"
-        )
-    return found, error
 
 
 def first_level(run: Run) -> Level:

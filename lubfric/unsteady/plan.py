@@ -1,0 +1,57 @@
+"""`Transient`: what changes in time in a scene, and for how long."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import validate
+from .history import Constant
+from .read_history import check_history, history
+
+
+@dataclass(frozen=True)
+class Transient:
+    """What changes in time in a scene, and for how long.
+
+    duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or
+    `lubfric.unsteady.history`; None: the scene's own constant): speed [m/s] entrainment speed; sliding
+    [m/s] u2 - u1 (None: slide-roll ratio x speed); load [N]; radius [m]; viscosity [Pa s], ambient.
+    initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact
+    carries the load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start
+    from the undeformed parabola at this height instead.
+    tolerance: largest local error of the film per step, relative (None: 0.01 x the scene's film tolerance).
+    """
+
+    duration: float
+    outputs: int = 200
+    speed: Constant | None = None
+    sliding: Constant | None = None
+    load: Constant | None = None
+    radius: Constant | None = None
+    viscosity: Constant | None = None
+    initial: str = "auto"
+    initial_film: float | None = None
+    tolerance: float | None = None
+
+    def __post_init__(self):
+        validate.positive("transient.duration", self.duration, "s")
+        validate.integer("transient.outputs", self.outputs, minimum=1)
+        validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
+        if self.initial_film is not None:
+            validate.positive("transient.initial_film", self.initial_film, "m")
+        if self.tolerance is not None:
+            validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
+        for name, unit in (
+            ("speed", "m/s"),
+            ("sliding", "m/s"),
+            ("load", "N"),
+            ("radius", "m"),
+            ("viscosity", "Pa s"),
+        ):
+            given = getattr(self, name)
+            if given is not None:
+                given = history(f"transient.{name}", given)
+                object.__setattr__(self, name, given)
+                check_history(
+                    f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s")
+                )

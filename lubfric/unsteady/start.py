@@ -1,0 +1,106 @@
+"""The state at t = 0: steady, at rest with the contact carrying the load, or a film without pressure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..ehl.active_set import StepSolution, solve_step
+from ..ehl.squeeze import Memory
+from ..ehl.transient_problem import discretisation, parabola, steady_start
+from ..errors import ConvergenceError, InputError
+from ..mixed import Model, friction
+from ..report import CONVERGED
+from .plan import Transient
+from .sharing import Contact, Sharing, share_step
+
+
+def first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+    """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
+    still = sharing.setting.contact.speed.before(0.0) == 0.0
+    if plan.initial_film is not None:
+        return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
+    if plan.initial == "rest" or (plan.initial == "auto" and still):
+        return _resting(sharing), math.nan
+    return _steady(model, sharing)
+
+
+def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
+    closure = sharing.patch.close(sharing.film_on_patch(H), 0.0)
+    return Contact(0.0, closure, max(0.3 * closure.mean_gap, 1e-12))
+
+
+def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
+    """No pressure anywhere, the gap as it is."""
+    setting = sharing.setting
+    found = solve_step(
+        setting.grid,
+        setting.problem,
+        setting.conditions(0.0),
+        Memory(0.0, np.zeros(setting.grid.n + 1)),
+        z,
+        max_steps=0,
+    )
+    contact = _untouched(sharing, found.terms.H)
+    if contact.closure.volume_residual > 0.0:
+        raise InputError(
+            f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
+            f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'"
+        )
+    return replace(found, payload=contact)
+
+
+def _resting(sharing: Sharing) -> StepSolution:
+    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without
+    pressure."""
+    setting = sharing.setting
+    radius = setting.contact.radius.before(0.0)
+    closure = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
+    z = parabola(setting, 0.0)
+    flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
+    z[-1] = (closure.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
+    if z[-1] <= 0.0:
+        raise InputError(
+            "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
+            "initial = 'steady' with an entrainment speed, or transient.initial_film"
+        )
+    found = solve_step(
+        setting.grid,
+        setting.problem,
+        setting.conditions(0.0),
+        Memory(0.0, np.zeros(setting.grid.n + 1)),
+        z,
+        max_steps=0,
+    )
+    closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
+    return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
+
+
+def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
+    """Balance of the steady state, then the same on the grid of the run."""
+    setting, scene = sharing.setting, model.scene
+    c, speed = setting.contact, setting.contact.speed.before(0.0)
+    if speed == 0.0:
+        raise InputError(
+            "transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed"
+        )
+    values = scene.with_(
+        bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
+        lubricant={"viscosity": c.viscosity.before(0.0)},
+    )
+    point = friction(replace(model, scene=values), speed, fields=True)
+    film = steady_start(setting, point.film_load / sharing.width)
+    if film.status != CONVERGED:
+        raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+    error = discretisation(setting, film)
+    if point.contact_load == 0.0:
+        return replace(film, payload=_untouched(sharing, film.terms.H)), error
+    contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
+    found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
+    if found.status != CONVERGED:
+        raise ConvergenceError(
+            "transient: film and contact of the steady start do not balance on the grid of the run"
+        )
+    return found, error
