@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .ehl import EHLResult
 from .errors import ConvergenceError
-from .patch import Closure
+from .patch.closure import Closure
 from .report import CONVERGED, Report
 from .roots import increasing_root
 

@@ -9,17 +9,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import validate
-from .asperity_patch import AsperityPatch, asperity_curve
 from .balance import Balance
 from .cautions import cautions
-from .contact_curve import contact_curve
 from .errors import InputError
-from .flat_patch import FlatPatch
 from .halfspace import half_space
 from .levels.balance_at import forces
 from .levels.decision import Decision
 from .levels.settle import settle
-from .patch import CylinderPatch, centred_axis, strip_weight
+from .patch.asperities import AsperityPatch, asperity_curve
+from .patch.contact_curve import contact_curve
+from .patch.cylinder import CylinderPatch, centred_axis, strip_weight
+from .patch.flat import FlatPatch
 from .report import Report
 from .rough_map import check_grid, contact_map
 from .scene import Scene

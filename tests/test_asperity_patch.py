@@ -7,9 +7,9 @@ import pytest
 
 import lubfric
 from lubfric.asperity import contact_law
-from lubfric.asperity_patch import AsperityPatch, asperity_curve
-from lubfric.contact_curve import contact_curve
 from lubfric.mixed import prepare
+from lubfric.patch.asperities import AsperityPatch, asperity_curve
+from lubfric.patch.contact_curve import contact_curve
 
 CYLINDER = lubfric.load_scene("paper").with_(
     contact={"shape": (96, 96), "spacing": 0.6e-6},

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric.balance import share_load
-from lubfric.patch import Closure, strip_weight
+from lubfric.patch.closure import Closure
+from lubfric.patch.cylinder import strip_weight
 from lubfric.report import CONVERGED, ITERATION_LIMIT, Report
 
 OK = Report("exact", CONVERGED, 0, 0.0, 1e-6)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.asperity_patch import asperity_curve
 from lubfric.contact import solve_contact
-from lubfric.contact_curve import contact_curve
+from lubfric.patch.asperities import asperity_curve
+from lubfric.patch.contact_curve import contact_curve
 from verification.__main__ import main
 from verification.figures import FIGURES, cylinder, flat_model, spheres
 

@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric.analytic import rigid
 from lubfric.lubricant import Lubricant
-from lubfric.patch import Closure
+from lubfric.patch.closure import Closure
 from lubfric.shear import _upstream, shear_force
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3

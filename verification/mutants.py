@@ -176,7 +176,7 @@ MUTANTS = (
     Mutant(
         "missing_y_mean",
         "volume balance on one row instead of the mean along y",
-        {"lubfric.patch:CylinderPatch._closure": first_row_only},
+        {"lubfric.patch.cylinder:CylinderPatch._closure": first_row_only},
     ),
     Mutant(
         "viscosity_exponent",
@@ -191,7 +191,7 @@ MUTANTS = (
             "lubfric.contact.solve:contact_residuals": no_penetration,
         },
     ),
-    Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.patch:solve_contact": half_load}),
+    Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.patch.cylinder:solve_contact": half_load}),
     Mutant("shear_side", "shear taken on the lower surface", {"lubfric.levels.balance_at:shear_force": lower_side}),
     Mutant(
         "lost_images",
@@ -201,7 +201,7 @@ MUTANTS = (
     Mutant(
         "stale_warm_start",
         "contact of the neighbouring load returned for this one",
-        {"lubfric.patch:solve_contact": stale},
+        {"lubfric.patch.cylinder:solve_contact": stale},
     ),
     Mutant(
         "half_cell",

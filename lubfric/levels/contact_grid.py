@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..contact.problem import COARSEST
-from ..patch import CylinderPatch, strip_weight
+from ..patch.cylinder import CylinderPatch, strip_weight
 
 LEAST_ROUGHNESS = 0.9      # of Sq, kept by the averages over the largest cells
 MARGIN = 0.1               # of the length in contact, kept free on each side

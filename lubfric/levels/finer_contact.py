@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ..balance import Balance
-from ..patch import CylinderPatch
+from ..patch.cylinder import CylinderPatch
 from .balance_at import Settings, Stage, carried_over, film_shape, moved_split
 from .contact_grid import cut, holds, in_contact
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..patch import CylinderPatch
+from ..patch.cylinder import CylinderPatch
 from .balance_at import Forces, Settings
 from .decision import FILM_SHARE
 from .film_error import FilmError

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from ..analytic.film import moes_flow_film
 from ..balance import Balance
-from ..flat_patch import FlatPatch
-from ..patch import CylinderPatch
+from ..patch.cylinder import CylinderPatch
+from ..patch.flat import FlatPatch
 from .balance_at import Settings, Stage, balance_at, dry, film_shape, forces, separated_at
 from .contact_grid import grids, holds
 from .decision import FILM_SHARE, GRID_SHARE, Decision

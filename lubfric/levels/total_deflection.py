@@ -19,7 +19,7 @@ import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
-from ..flat_patch import FlatPatch
+from ..patch.flat import FlatPatch
 from ..report import ITERATION_LIMIT, Report
 
 NODES, STRIP = 49, 65       # of a semi-ellipse; points across the Hertz strip at which deflections are compared

@@ -8,39 +8,26 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from .table import read_table
 
-SEPARATORS = (";", "\t", ",")
+NEXT_LINE = 0.1          # of the largest gap between coordinates: a larger one leads to the next grid line
 UNEVEN = 0.02            # of the spacing: the most a coordinate may be off its grid line
 
 
-def _lines(path) -> tuple[list[str], list[str]]:
-    """(comment lines, data lines) of a UTF-8 text file."""
+def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
+    """(comment lines, data lines with their number in the file) of a UTF-8 text file."""
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except UnicodeDecodeError:
         raise InputError(f"path = {str(path)!r} is not text (UTF-8)") from None
     except OSError as problem:
         raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
-    text = [line.strip() for line in lines if line.strip()]
-    return [line for line in text if line[0] == "#"], [line for line in text if line[0] != "#"]
+    text = [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
+    return [line for _, line in text if line[0] == "#"], [pair for pair in text if pair[1][0] != "#"]
 
 
-def _numbers(path, lines) -> np.ndarray:
-    if not lines:
-        raise InputError(f"path = {str(path)!r} holds no numbers")
-    separator = next((s for s in SEPARATORS if s in lines[0]), None)
-    if separator == ";" and "," in lines[0]:
-        raise InputError(f"path = {str(path)!r} has both ';' and ',' on a line; allowed: one of them, "
-                         "with a decimal point")
-    try:
-        return np.loadtxt(lines, delimiter=separator, ndmin=2, comments=None)
-    except ValueError as problem:
-        raise InputError(f"path = {str(path)!r} is not a table of numbers ({problem}); allowed: lines of "
-                         "equal length, 'nan' where unmeasured") from None
-
-
-def read_matrix(path) -> tuple[np.ndarray, tuple[float, float] | None]:
-    """heights[ix, iy] with one x per line, and the spacing [m] of a ``# spacing = dx dy`` line."""
+def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float] | None, tuple[str, ...]]:
+    """heights[ix, iy] with one x per line, the spacing [m] of a ``# spacing = dx dy`` line, notes."""
     comments, lines = _lines(path)
     spacing = None
     for line in comments:
@@ -52,12 +39,13 @@ def read_matrix(path) -> tuple[np.ndarray, tuple[float, float] | None]:
             except ValueError:
                 raise InputError(f"spacing in {path.name}: {line!r}; allowed: '# spacing = dx dy'") from None
             spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
-    return _numbers(path, lines), spacing
+    heights, notes = read_table(path, lines, decimal, unit)
+    return heights, spacing, notes
 
 
-def read_points(path) -> tuple[np.ndarray, tuple[float, float]]:
-    """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file."""
-    table = _numbers(path, _lines(path)[1])
+def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float], tuple[str, ...]]:
+    """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file; notes."""
+    table, notes = read_table(path, _lines(path)[1], decimal, unit)
     if table.shape[1] != 3:
         raise InputError(f"path = {str(path)!r} has {table.shape[1]} columns; allowed: exactly 3 (x y z)")
     if not np.isfinite(table[:, :2]).all():
@@ -72,7 +60,7 @@ def read_points(path) -> tuple[np.ndarray, tuple[float, float]]:
         raise InputError(f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more "
                          "than once; allowed: each once")
     heights[i, j] = table[:, 2]
-    return heights, (dx, dy)
+    return heights, (dx, dy), notes
 
 
 def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
@@ -82,7 +70,10 @@ def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
     if gaps.size == 0 or gaps.max() <= 0:
         raise InputError(f"{name} has one value only ({coordinate[0]:g}); allowed: a grid of at least "
                          "2 x 2 points")
-    count = 1 + int(np.count_nonzero(gaps > 0.1 * gaps.max()))
+    starts = np.flatnonzero(np.concatenate([[True], gaps > NEXT_LINE * gaps.max()]))
+    lines = np.add.reduceat(ordered, starts) / np.diff(np.append(starts, ordered.size))
+    steps = np.diff(lines)
+    count = 1 + int(np.rint(steps / np.median(steps)).sum())       # whole lines may be missing
     step = (ordered[-1] - ordered[0]) / (count - 1)
     position = (coordinate - ordered[0]) / step
     index = np.rint(position).astype(int)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..ehl.bdf import Level, March
-from ..patch import Closure
+from ..patch.closure import Closure
 from .row import UNITS, moment
 from .setup import Run
 from .sharing import Contact

@@ -12,7 +12,7 @@ from ..ehl.result import cubic
 from ..ehl.squeeze import Memory, Spring
 from ..ehl.transient_problem import Setting
 from ..errors import ConvergenceError
-from ..patch import Closure
+from ..patch.closure import Closure
 from ..report import CONVERGED, ITERATION_LIMIT
 
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces

@@ -13,8 +13,8 @@ from functools import cached_property
 
 import numpy as np
 
-from lubfric.contact_curve import ContactCurve
 from lubfric.ehl import solve_ehl
+from lubfric.patch.contact_curve import ContactCurve
 from lubfric.scene import Scene
 from lubfric.shear import shear_force
 

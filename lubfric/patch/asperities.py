@@ -19,10 +19,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .asperity import AsperityResult, contact_law
+from ..asperity import AsperityResult, contact_law
+from ..errors import ConvergenceError
+from .closure import Closure
 from .contact_curve import ContactCurve
-from .errors import ConvergenceError
-from .patch import Closure
 
 APPROACHES = np.concatenate(
     [np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]]

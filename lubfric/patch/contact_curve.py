@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import validate
-from .contact import solve_contact
+from .. import validate
+from ..contact import solve_contact
 
 LIGHTEST = 1e-6        # of the heaviest pressure: below it the light-load law of one asperity is used
 SPACING = 4.0          # pressure ratio between neighbouring nodes at first

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import ConvergenceError
+from .closure import Closure
 from .contact_curve import ContactCurve
-from .errors import ConvergenceError
-from .patch import Closure
 
 
 @dataclass(frozen=True)
