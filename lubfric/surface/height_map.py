@@ -86,10 +86,14 @@ class Surface:
                 f"{100 * self.missing_fraction:.3g} % missing")
         return f"{self.source}: {text}" if self.source else text
 
-    def level(self) -> Surface:
-        """Subtract the least-squares plane of the measured points."""
-        plane, slopes = prepare.mean_plane(self.heights, self.mask, self.spacing)
-        return self._with(self.heights - plane, f"levelled: slopes {slopes[0]:.3e}, {slopes[1]:.3e} removed")
+    def level(self, form: str = "plane") -> Surface:
+        """Subtract the least-squares "plane" of the measured points, or the "quadratic" surface (cylinder, paraboloid)."""
+        validate.choice("form", form, prepare.FORMS)
+        fitted, slopes, curvatures = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
+        note = f"levelled: slopes {slopes[0]:.3e}, {slopes[1]:.3e}"
+        if form == "quadratic":
+            note += f" and curvatures {curvatures[0]:.3e}, {curvatures[1]:.3e} 1/m"
+        return self._with(self.heights - fitted, f"{note} removed")
 
     def fill(self) -> Surface:
         """Fill unmeasured points with the harmonic surface through their neighbours (level first).

@@ -7,6 +7,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 
+FORMS = ("plane", "quadratic")
 EDGES = ("mirror", "window")
 BLEND = 0.1              # share of a map's length that the window blends
 MOST_MISSING = 0.5
@@ -19,24 +20,29 @@ def pair(name, value) -> tuple[int, int]:
     return tuple(validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
 
 
-def mean_plane(heights, mask, spacing) -> tuple[np.ndarray, tuple[float, float]]:
-    """Least-squares plane (nx, ny) [m] of the measured points and its slopes along x and y [-].
+def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
+    """Least-squares polynomial (nx, ny) [m] of the measured points, its slopes [-] and its curvatures [1/m] along x and y.
 
-    An axis of one point has no slope. Raises `InputError` when the points do not fix a plane.
+    "plane": first order; "quadratic": second, with the mixed term. An axis of one point has no slope, one of two no
+    curvature. Slopes are those at the middle of the map. Raises `InputError` when the points do not fix the form.
     """
+    order = 1 + FORMS.index(form)
     valid = np.ones(heights.shape, bool) if mask is None else mask
     along = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
-    fitted = [axis for axis in range(2) if heights.shape[axis] > 1]
+    powers = [(p, q) for p in range(order + 1) for q in range(order + 1 - p)
+              if p < heights.shape[0] and q < heights.shape[1]]
     where = np.nonzero(valid)
-    matrix = np.stack([np.ones(where[0].size)] + [along[axis][where[axis]] for axis in fitted], axis=1)
+    matrix = np.stack([along[0][where[0]] ** p * along[1][where[1]] ** q for p, q in powers], axis=1)
     solution, _, rank, _ = np.linalg.lstsq(matrix, heights[valid], rcond=None)
-    if rank < matrix.shape[1]:
-        raise InputError(f"{where[0].size} measured points lie on one line; allowed: points that fix a plane")
-    rise = [0.0, 0.0]
-    for axis, value in zip(fitted, solution[1:]):
-        rise[axis] = float(value)
-    plane = solution[0] + rise[0] * along[0][:, None] + rise[1] * along[1][None, :]
-    return plane, tuple(rise[a] / (heights.shape[a] * spacing[a]) for a in range(2))
+    if rank < len(powers):
+        raise InputError(f"{where[0].size} measured points lie on one line{' or conic' if order > 1 else ''}; allowed: points that "
+                         f"fix the {len(powers)} terms of the form {form!r}")
+    terms = dict(zip(powers, solution))
+    fitted = sum(c * np.multiply.outer(along[0] ** p, along[1] ** q) for (p, q), c in terms.items())
+    length = [n * step for n, step in zip(heights.shape, spacing)]
+    slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
+    curvatures = 2 * terms.get((2, 0), 0.0) / length[0] ** 2, 2 * terms.get((0, 2), 0.0) / length[1] ** 2
+    return fitted, slopes, curvatures
 
 
 def harmonic_fill(heights, mask, spacing) -> np.ndarray:

@@ -10,6 +10,8 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from .height_map import Surface
+from .prepare import FORMS
+from .table import DECIMALS
 from .text import read_matrix, read_points
 from .x3p import read_x3p
 
@@ -17,79 +19,95 @@ UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 SUFFIXES = (".npy", ".txt", ".csv", ".asc", ".dat", ".xyz", ".x3p")
 
 
-def read_surface(path, *, level=True, fill=True, spacing=None, unit=None) -> Surface:
-    """Read a measured height map; level it, then fill what was not measured (the mask stays).
+def read_surface(path, *, level=True, form="plane", fill=True, spacing=None, unit=None, decimal=None) -> Surface:
+    """Read a measured height map; take off its form, then fill what was not measured (the mask stays).
 
     ==================== ==================================================================
     .npy                 heights[ix, iy]; needs ``spacing``
     .txt .csv .asc .dat  one line of the file is one x; blanks, tabs, commas or semicolons between
                          values; needs ``spacing``, or a line ``# spacing = dx dy`` (m)
-    .xyz                 lines "x y z" on a complete or incomplete uniform grid, any order
+    .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
     ==================== ==================================================================
 
     Parameters
     ----------
     path : file
-    level, fill : subtract the mean plane of the measured points; fill the others harmonically
+    level, fill : subtract the ``form`` of the measured points; fill the others harmonically
+    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "nm" of the heights (and of x, y in .xyz); not for .x3p
+    decimal : "." or ",", the decimal mark of a text file in which commas can be either
 
+    Text: lines that start with # and titles without numbers above the table are skipped (the latter noted in
+    ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
     NaN means unmeasured. Raises `InputError` for a file that is missing, truncated, of an unknown kind,
-    inconsistent or hostile, for infinite heights, non-uniform spacing and spacing given twice or not at all.
+    inconsistent or hostile, for words among the numbers, commas that can be read both ways, a title that names a unit
+    when ``unit`` is not given, infinite heights, non-uniform spacing and spacing given twice or not at all.
     Nothing is printed: look at ``surface.describe()`` (size, Sq, missing share) before trusting a file.
     """
     path = Path(path)
+    _check_form(level, form)
     if not path.is_file():
         raise InputError(f"path = {str(path)!r}: no such file")
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: "
                          f"{', '.join(SUFFIXES)} (lubfric.surface.read_instrument_file reads others)")
+    if decimal is not None:
+        validate.choice("decimal", decimal, DECIMALS)
     if suffix == ".x3p":
-        _refuse(suffix, spacing=spacing, unit=unit)
+        _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal)
         surface = read_x3p(path)
     else:
-        scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
-        surface = _plain(path, suffix, spacing, scale)
-    return _prepared(replace(surface, source=path.name), level, fill)
+        surface = _plain(path, suffix, spacing, unit, decimal)
+    return _prepared(replace(surface, source=path.name), level, fill, form)
 
 
-def _plain(path, suffix, spacing, scale) -> Surface:
+def _plain(path, suffix, spacing, unit, decimal) -> Surface:
+    scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
+    notes = ()
     if suffix == ".xyz":
         _refuse(suffix, spacing=spacing)
-        heights, own = read_points(path)
-        return _masked(heights * scale, (own[0] * scale, own[1] * scale))
+        heights, own, notes = read_points(path, decimal, unit)
+        return _masked(heights * scale, (own[0] * scale, own[1] * scale), notes)
     if suffix == ".npy":
+        _refuse(suffix, decimal=decimal)
         heights, own = _read_npy(path), None
     else:
-        heights, own = read_matrix(path)
+        heights, own, notes = read_matrix(path, decimal, unit)
     if own is not None:
         _refuse(suffix, spacing=spacing)
     elif spacing is None:
         raise InputError(f"spacing of {path.name} is missing: the file does not carry it; allowed: "
                          "one length or (dx, dy) in m")
-    return _masked(heights * scale, spacing if own is None else own)
+    return _masked(heights * scale, spacing if own is None else own, notes)
 
 
 def _refuse(suffix, **given) -> None:
     for name, value in given.items():
         if value is not None:
-            raise InputError(f"{name} = {value!r} is given, and this {suffix} file carries its own; "
-                             "allowed: leave it out")
+            raise InputError(f"{name} = {value!r} is given, and this {suffix} file carries its own or has "
+                             "none; allowed: leave it out")
 
 
-def _masked(heights, spacing) -> Surface:
+def _masked(heights, spacing, notes=()) -> Surface:
     """NaN is unmeasured; infinite heights are refused by `Surface`."""
     measured = ~np.isnan(heights)
     if not measured.any():
         raise InputError(f"heights: all {heights.size} values are NaN; allowed: measured heights in m")
-    return Surface(heights, spacing, mask=measured)
+    return Surface(heights, spacing, mask=measured, notes=notes)
 
 
-def _prepared(surface, level, fill) -> Surface:
+def _check_form(level, form) -> None:
+    validate.choice("form", form, FORMS)
+    if not level and form != FORMS[0]:
+        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = {FORMS[0]!r} where nothing is taken off")
+
+
+def _prepared(surface, level, fill, form) -> Surface:
     if level:
-        surface = surface.level()
+        surface = surface.level(form)
     return surface.fill() if fill else surface
 
 
@@ -105,16 +123,17 @@ def _read_npy(path) -> np.ndarray:
     return np.array(data, dtype=float)
 
 
-def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, fill=True) -> Surface:
+def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form="plane", fill=True) -> Surface:
     """Other instrument formats (.sur, .al3d, .opd, ...) through the optional package SurfaceTopography.
 
     Slow to import (seconds, hundreds of MB), hence only here. Its units are not always right (lateral
     units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
     ``lateral_unit`` ("m", "mm", "um", "nm") overrules the unit of x and y that the reader found.
-    ``channel`` is the index of the height channel. Raises `InputError` for a file it cannot read or a
+    ``level``, ``form`` and ``fill`` as in `read_surface`; ``channel`` is the index of the height channel. Raises `InputError` for a file it cannot read or a
     unit it does not know; ImportError when the package is not installed.
     """
     path = Path(path)
+    _check_form(level, form)
     if not path.is_file():
         raise InputError(f"path = {str(path)!r}: no such file")
     channel = validate.integer("channel", channel, minimum=0)
@@ -132,4 +151,4 @@ def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, fill
     spacing = tuple(size / n * lateral for size, n in zip(topography.physical_sizes, heights.shape))
     note = f"read by SurfaceTopography, heights in {found}, lateral in {lateral_unit or found}"
     surface = replace(_masked(heights, spacing), source=path.name, notes=(note,))
-    return _prepared(surface, level, fill)
+    return _prepared(surface, level, fill, form)

@@ -18,6 +18,7 @@ MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
+_EMPTY = re.compile(r"\t\s*\t")                                          # a value left out between tabs
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")                # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 _BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")                      # '1,5' or '1,5,2,5'
@@ -65,22 +66,23 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
 
 def _check_units(path, titles: Lines) -> None:
     for number, text in titles:
-        named = [UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS]
+        named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
         if named:
-            raise InputError(f"path = {str(path)!r}: the title in line {number} {text[:60]!r} names the unit {named[-1]!r} and "
-                             f"unit is not given, which means 'm'; allowed: unit = {named[-1]!r}, or 'm' if it is m after all")
+            raise InputError(f"path = {str(path)!r}: the title in line {number} {text[:60]!r} names {' and '.join(named)}, and unit "
+                             f"is not given, which means m for every column; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
 
 
 def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     """(separator or None for blanks, whether the comma is the decimal mark)."""
     commas = [(number, text) for number, text in lines if "," in text]
-    separator = next((s for s in ";\t" if any(s in text for _, text in lines)), None)
-    if decimal == "," or not commas or separator is not None:
+    semicolon, tab = (any(mark in text for _, text in lines) for mark in ";\t")
+    separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
+    if decimal == "," or not commas or semicolon or tab:
         if commas and decimal == ".":
             number, text = commas[0]
             raise InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} has a comma inside a number and decimal = '.'; "
                              "allowed: decimal = ','")
-        return separator, bool(commas)
+        return separator, bool(commas) or decimal == ","
     if decimal == ".":
         return ",", False
     if any(len(text.split()) > 1 for _, text in lines) and all(_BLANKS_BETWEEN.fullmatch(text) for _, text in lines):

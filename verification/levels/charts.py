@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from .measure import TOLERANCES
 
 COLOURS = ("#1f5a94", "#2f7d4f", "#b3392f", "#8a5a9e", "#c98a1b", "#6b6b6b", "#3a9ea5", "#a0522d")
@@ -62,9 +60,3 @@ def continuity(rows: list[dict], path: Path) -> None:
     axes[0, 0].set_ylabel("f (-); line: full model")
     axes[1, 0].set_ylabel("deviation from full model (%)")
     figure.savefig(path, dpi=130)
-
-
-def median_saving(rows: list[dict], tolerance: float, against: str, *, preparation: bool) -> float:
-    """Median ratio of times."""
-    extra = (lambda r: r["prepare"]) if preparation else (lambda r: 0.0)
-    return float(np.median([(r[against]["seconds"] + extra(r)) / (r[f"{tolerance:g}"]["seconds"] + extra(r)) for r in rows]))

@@ -7,6 +7,8 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 import lubfric
 from lubfric.errors import LubfricError
 from lubfric.mixed import prepare
@@ -66,9 +68,14 @@ def errors(rows: list[dict], tolerance: float) -> list[float]:
             if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]]
 
 
+def median_saving(rows: list[dict], tolerance: float, against: str, *, preparation: bool) -> float:
+    """Median ratio of times."""
+    extra = (lambda r: r["prepare"]) if preparation else (lambda r: 0.0)
+    return float(np.median([(r[against]["seconds"] + extra(r)) / (r[f"{tolerance:g}"]["seconds"] + extra(r)) for r in rows]))
+
+
 def savings(rows: list[dict]) -> str:
     """Median ratios of times, in words."""
-    from .charts import median_saving
     lines = []
     for tolerance in TOLERANCES:
         point, whole, same = (median_saving(rows, tolerance, against, preparation=prepared) for against, prepared in
