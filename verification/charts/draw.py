@@ -38,7 +38,7 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
             title=label,
             ylabel="discretisation error" if apart else "solver error",
         )
-        ax.xaxis.set_minor_formatter("")
+        readable(ax)
         ax.title.set_fontsize(9)
     handles = [axes[0, 0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
     handles.append(
@@ -49,6 +49,20 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
     )
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish(name, canvas, name, format="png")
+
+
+def readable(ax) -> None:
+    """Labels at 1, 2 and 5 where the time axis shows less than two powers of ten, and room for two of them."""
+    from matplotlib.ticker import FixedLocator, FuncFormatter
+
+    low, high = ax.get_xlim()
+    if high < 30 * low:
+        low, high = low / 1.3, high * 1.3
+        ax.set_xlim(low, high)
+        ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5)]
+        ax.xaxis.set_major_locator(FixedLocator([t for t in ticks if low <= t <= high]))
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.xaxis.set_minor_formatter("")
 
 
 def palette(points: list[Point]) -> dict[str, str]:
