@@ -6,9 +6,13 @@ import math
 
 from .analytic import film as film_formulas
 from .analytic import hertz
+from .errors import InputError
 from .levels.forecast import forecast
 from .rough_map import contact_map
 from .scene import Scene
+from .surface import correlation_length, rms_slope
+
+SOLVE_FIELDS = 12        # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
 
 
 def describe_scene(scene: Scene) -> str:
@@ -28,6 +32,7 @@ def describe_scene(scene: Scene) -> str:
         f"  lubricant      {lubricant.viscosity:g} Pa s, alpha = {lubricant.pressure_viscosity_coefficient * 1e9:g} /GPa, "
         f"{lubricant.viscosity_law}, density {lubricant.density_law}",
         f"  surface        {surface.describe()}",
+        *_map_lines(scene, surface),
         "  speed U (m/s)      M        L     h (um)  lambda   (Moes film at full load)",
     ]
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
@@ -51,3 +56,26 @@ def describe_scene(scene: Scene) -> str:
     lines += [f"  U = {speed:<10.4g} {forecast(scene, surface, speed)}"
               for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})]
     return "\n".join(lines)
+
+
+def _map_lines(scene: Scene, surface) -> list[str]:
+    """Statistics of the map on its own grid, how well that grid resolves them, and what a contact solve on it holds."""
+    (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
+    slopes = rms_slope(surface)
+    lengths = [_correlation_length(surface, axis) for axis in range(2)]
+    in_um = " x ".join("-" if c is None else f"{c * 1e6:.3g}" for c in lengths)
+    in_cells = " x ".join("-" if c is None else f"{c / step:.3g}" for c, step in zip(lengths, (dx, dy)))
+    rows = [("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope",
+             f"{slopes[2]:.3g}  ({slopes[0]:.3g} along x, {slopes[1]:.3g} along y)"),
+            ("cells per b", f"{b / dx:.3g}", "correlation length", f"{in_um} um = {in_cells} cells  (along x and y, to 1/e)"),
+            ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells",
+             f"{nx * ny}, about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them")]
+    return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
+
+
+def _correlation_length(surface, axis) -> float | None:
+    """[m], or None for a map without one: flat, of one cell, or shorter than twice its correlation length."""
+    try:
+        return correlation_length(surface, axis)
+    except InputError:
+        return None

@@ -56,7 +56,8 @@ def _generated(scene: Scene) -> Surface:
 
 def _measured(scene: Scene) -> Surface:
     rough, patch, bodies = scene.surface, scene.contact, scene.bodies
-    surface = read_surface(rough.file, spacing=rough.spacing, unit=rough.unit)
+    surface = read_surface(rough.file, spacing=rough.spacing, unit=rough.unit, form=rough.form,
+                           decimal=rough.decimal)
     if rough.motion_axis == "y":
         surface = surface.transposed()
     if rough.sq is not None:

@@ -9,10 +9,17 @@ from . import validate
 from .analytic import hertz
 from .errors import InputError
 from .lubricant import Lubricant
+from .surface.prepare import FORMS
+from .surface.table import DECIMALS
 from .unsteady.plan import Transient
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
+SHORT_FORMS = {                       # of scene files, and the fields that stand for them
+    "surface_speeds": "entrainment_speed = (u1 + u2)/2 and slide_roll_ratio = 2 (u2 - u1)/(u1 + u2)",
+    "speed_range": "speeds", "sliding_speed": "slide_roll_ratio, or sliding of the transient",
+    "young_modulus": "e_prime, see lubfric.analytic.hertz.composite_modulus",
+    "poisson_ratio": "e_prime, see lubfric.analytic.hertz.composite_modulus"}
 LARGEST = 2**26        # cells of a contact grid
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
@@ -94,7 +101,9 @@ class Roughness:
     sq [m]: standard deviation of the heights; a file is scaled to it when given.
     correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf.
     motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
-    spacing [m], unit ("m", "mm", "um", "nm"): of a file that does not carry its own. oversize: a generated map is made this many times
+    form: taken off a file by least squares, "plane" or "quadratic" (second order: cylinder or paraboloid too).
+    spacing [m], unit ("m", "mm", "um", "nm"): of a file that does not carry its own; decimal: "." or "," of a text file
+    in which commas can be either. oversize: a generated map is made this many times
     as long in x and y, its middle cut out (for lengths that do not fit the patch) and scaled to sq.
     """
 
@@ -108,12 +117,16 @@ class Roughness:
     spacing: float | tuple[float, float] | None = None
     unit: str | None = None
     oversize: int = 1
+    form: str = "plane"
+    decimal: str | None = None
 
     def __post_init__(self):
         validate.integer("surface.oversize", self.oversize, minimum=1)
         if self.file is None:
             if self.sq is None or self.correlation_length is None:
                 raise InputError("surface needs either 'file', or 'sq' and 'correlation_length' in m")
+            if self.form != "plane":
+                raise InputError(f"surface.form = {self.form!r} applies to a map from a file; allowed: leave it out")
         elif self.correlation_length is not None:
             raise InputError("surface.correlation_length applies to a generated surface; remove it or 'file'")
         if self.sq is not None:
@@ -124,6 +137,9 @@ class Roughness:
         validate.number("surface.decay_level", self.decay_level, "(-)", above=0, maximum=0.99)
         validate.integer("surface.seed", self.seed, minimum=0)
         validate.choice("surface.motion_axis", self.motion_axis, ("x", "y"))
+        validate.choice("surface.form", self.form, FORMS)
+        if self.decimal is not None:
+            validate.choice("surface.decimal", self.decimal, DECIMALS)
 
 
 @dataclass(frozen=True)
@@ -249,15 +265,21 @@ class Scene:
             if section not in self.__dataclass_fields__:
                 raise InputError(f"scene has no section {section!r}"
                                  f"{validate.nearest(section, self.__dataclass_fields__)}")
-            old = getattr(self, section)
-            if not isinstance(values, dict):
-                if section not in ("name", "transient") and not isinstance(values, type(old)):
-                    raise InputError(f"{section} = {values!r}; allowed: a dict of its fields, or a {type(old).__name__}")
-                changed[section] = values
-                continue
-            for key in values:
-                if key not in old.__dataclass_fields__:
-                    raise InputError(f"{section} has no field {key!r}"
-                                     f"{validate.nearest(key, old.__dataclass_fields__)}")
-            changed[section] = replace(old, **values)
+            changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
+
+
+def _changed(section: str, old, values):
+    """``old`` with the fields in the dict ``values``, or ``values`` itself where it is of the section's type."""
+    kind = {"name": str, "transient": Transient}.get(section, type(old))
+    if isinstance(values, kind) or (section == "transient" and values is None):
+        return values
+    if not isinstance(values, dict) or not isinstance(old, kind) or kind is str:
+        by_field = "a dict of its fields, or " if kind is not str and old is not None else ""
+        shown = repr(values) if len(repr(values)) <= 60 else f"a {type(values).__name__}"
+        raise InputError(f"{section} = {shown}; allowed: {by_field}a {kind.__name__}")
+    for key in values:
+        if key not in old.__dataclass_fields__:
+            hint = f": give {SHORT_FORMS[key]}" if key in SHORT_FORMS else validate.nearest(key, old.__dataclass_fields__)
+            raise InputError(f"{section} has no field {key!r}{hint}; allowed: {', '.join(old.__dataclass_fields__)}")
+    return replace(old, **values)

@@ -48,7 +48,8 @@ def array(name: str, value, unit: str, *, ndim: int) -> np.ndarray:
     try:
         a = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is not an array of numbers in {unit}") from None
+        hint = f"; allowed: its .heights [{unit}]" if hasattr(value, "heights") else ""
+        raise InputError(f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}") from None
     if a.ndim != ndim:
         raise InputError(f"{name} has {a.ndim} axes (shape {a.shape}); allowed: exactly {ndim} [{unit}]")
     if a.size == 0:

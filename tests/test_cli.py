@@ -81,6 +81,47 @@ def test_info_names_the_regime(capsys):
         assert word in text, text
 
 
+def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
+    assert main(["info", "paper"]) == 0
+    text = capsys.readouterr().out
+    scene = lubfric.load_scene("paper")
+    surface = lubfric.generate_surface((200, 200), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
+    lengths = [lubfric.surface.correlation_length(surface, axis) / 0.45e-6 for axis in (0, 1)]
+    for name, value in (("rms slope", f"{lubfric.surface.rms_slope(surface)[2]:.3g}"), ("Sq", "100 nm"),
+                        ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
+                        ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"), ("cells", "40000, about 3.66 MiB")):
+        assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
+    assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
+    np.save(tmp_path / "flat.npy", np.zeros((64, 1)))
+    (tmp_path / "s.toml").write_text(SCENE.split("[surface]")[0] + "[surface]\nfile = 'flat.npy'\nspacing = 0.9e-6\n")
+    assert main(["info", str(tmp_path / "s.toml")]) == 0
+    assert "- x - cells" in capsys.readouterr().out
+
+
+def test_the_memory_said_covers_a_contact_solve():
+    """Fields of 8 bytes a cell at the peak of a solve, as traced; neither too few nor twice as many."""
+    import tracemalloc
+
+    from lubfric.describe import SOLVE_FIELDS
+    surface = lubfric.generate_surface((256, 256), 1e-6, sq=1e-7, correlation_length=8e-6, seed=1)
+    for boundary in ("periodic", ("free", "periodic")):
+        options = {"mean_pressure": 2e7, "boundary": boundary, "tolerance": 1e-3}
+        lubfric.solve_contact(-surface.heights[:64, :64], 1e-6, 2.3e11, **options)
+        tracemalloc.start()
+        lubfric.solve_contact(-surface.heights, 1e-6, 2.3e11, **options)
+        fields = tracemalloc.get_traced_memory()[1] / (8 * 256**2)
+        tracemalloc.stop()
+        assert SOLVE_FIELDS / 2 < fields < SOLVE_FIELDS
+
+
+def test_a_map_where_a_gap_is_expected_is_told_apart():
+    surface = lubfric.generate_surface((32, 32), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
+    with pytest.raises(lubfric.InputError, match=r"gap0 .*gap0 = -surface.heights in m"):
+        lubfric.solve_contact(surface, surface.spacing, 2.3e11, mean_pressure=1e7)
+    with pytest.raises(lubfric.InputError, match="start .*heights"):
+        lubfric.solve_contact(-surface.heights, surface.spacing, 2.3e11, mean_pressure=1e7, start=surface)
+
+
 @pytest.mark.parametrize("arguments, word", [(["run", "papr"], "did you mean 'paper'"), (["info", "nothing.toml"], "nothing.toml"),
                                              (["run", "paper", "--speeds", "a,b"], "speeds"),
                                              (["plot", "nowhere"], "stribeck.csv")])

@@ -244,6 +244,19 @@ def test_xyz_in_any_order_and_unit(tmp_path):
     assert np.count_nonzero(~read_surface(path).mask) == 3
 
 
+def test_xyz_without_a_whole_line_of_points(tmp_path):
+    """Points left out are unmeasured, also when all of one grid line are; the grid keeps its spacing."""
+    z, path = heights((9, 6)), tmp_path / "a.xyz"
+    keep = np.ones(z.shape, bool)
+    keep[3:5], keep[:, 2], keep[7, 4] = False, False, False
+    np.savetxt(path, points(z)[keep.ravel()], fmt="%.12e")
+    surface = read_surface(path, **RAW)
+    assert np.array_equal(surface.mask, keep) and surface.spacing == pytest.approx(STEP, rel=1e-5)
+    assert np.allclose(surface.heights[keep], z[keep])
+    np.savetxt(path, np.where(np.arange(3) == 2, np.where(keep.reshape(-1, 1), points(z), np.nan), points(z)), fmt="%.12e")
+    assert np.array_equal(read_surface(path, **RAW).mask, keep)
+
+
 def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
     path, good = tmp_path / "a.xyz", points(heights()) * 1e6
     uneven = good.copy()
@@ -260,6 +273,131 @@ def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
             read_surface(path, unit="um")
 
 
+# --- text: decimal commas, titles, units ------------------------------------------------------
+
+@pytest.mark.parametrize("separator", [";", "\t", " ", "   ", "; ", ";\t"])
+@pytest.mark.parametrize("number", ["%.9f", "%.9e", "%.9g"])
+def test_decimal_commas_are_read_where_something_else_separates(tmp_path, separator, number):
+    z, path = np.round(heights() * 1e9, 6), tmp_path / "a.csv"
+    z[0], z[2, 3] = np.arange(5), np.nan                            # a line without any comma under %g
+    text = "\n".join(separator.join(number % v for v in row) for row in z)
+    path.write_text(text.replace(".", ","))
+    surface = read_surface(path, spacing=STEP, unit="nm", **RAW)
+    assert np.allclose(surface.heights, z * 1e-9, rtol=1e-8, atol=0, equal_nan=True)
+    assert "decimal comma" in surface.notes
+    path.write_text(text)
+    pointed = read_surface(path, spacing=STEP, unit="nm", **RAW)
+    assert np.array_equal(pointed.heights, surface.heights, equal_nan=True) and pointed.notes == ()
+
+
+def test_xyz_with_decimal_commas_and_titles(tmp_path):
+    z, path = heights(), tmp_path / "a.xyz"
+    np.savetxt(path, points(z) * 1e6, fmt="%.9f", delimiter=";")
+    path.write_text("X;Y;Z\n\u00b5m;\u00b5m;\u00b5m\n" + path.read_text().replace(".", ","), encoding="utf-8")
+    surface = read_surface(path, unit="um", **RAW)
+    assert np.allclose(surface.heights, z, atol=1e-15) and surface.spacing == pytest.approx(STEP)
+    assert surface.notes == ("line 1 skipped as a title: 'X;Y;Z'", "line 2 skipped as a title: '\u00b5m;\u00b5m;\u00b5m'",
+                             "decimal comma")
+    with pytest.raises(InputError, match="line 2 .*names um, and unit is not given.*unit = 'um'"):
+        read_surface(path)
+
+
+@pytest.mark.parametrize("text, found", [
+    ("1,2,3\n4,5,7\n", [[1, 2, 3], [4, 5, 7]]),
+    ("1.5,2\n3,5\n", [[1.5, 2], [3, 5]]),
+    ("1, 2\n3, 5\n", [[1, 2], [3, 5]]),
+    ("1,2\n3,-5\n", [[1, 2], [3, -5]]),
+    ("1,2\n3,nan\n", [[1, 2], [3, np.nan]]),
+    ("1,2,\n3,5,\n", [[1, 2], [3, 5]]),
+    ("1;2;\n3;5;\n", [[1, 2], [3, 5]]),
+    ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
+    ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
+    ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]])])
+def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
+    (tmp_path / "a.txt").write_text(text)
+    assert np.allclose(read_surface(tmp_path / "a.txt", spacing=1.0, **RAW).heights, found, rtol=1e-14, equal_nan=True)
+
+
+@pytest.mark.parametrize("text", ["1,2\n3,5\n", "1,5,2,5\n3,5,4,5\n", "-1,5E-07, 2,5E-07\n3,5E-07, 4,5E-07\n"])
+def test_commas_that_can_be_either_need_a_word(tmp_path, text):
+    path = tmp_path / "a.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"line 1 .*decimal = '\.'.*','"):
+        read_surface(path, spacing=1.0)
+    separated = read_surface(path, spacing=1.0, decimal=".", **RAW).heights
+    assert separated.shape == (2, text.split("\n")[0].count(",") + 1)
+    if separated.shape[1] == 2:
+        assert np.array_equal(read_surface(path, spacing=1.0, decimal=",", **RAW).heights, [[1.2], [3.5]])
+    else:
+        with pytest.raises(InputError, match="line 1"):
+            read_surface(path, spacing=1.0, decimal=",")
+
+
+@pytest.mark.parametrize("text, options, words", [
+    ("1 2\n3 4\nfoo\n5 6\n", {}, "line 3 has 'foo'"),
+    ("# c\n\n1;2\n3;4;5\n", {}, "line 4 has 3 values, the first one 2"),
+    ("1 2\n3 BAD\n", {}, "line 2 has 'BAD'.*'nan' where unmeasured"),
+    ("1,5;2.5\n3;4\n", {}, "line 1 .*point where commas"),
+    ("1,5 2.5\n3 4\n", {}, "line 1"),
+    ("1.000,5;2\n3;4\n", {}, "thousands"),
+    ("1;2,5\n3;4\n", {"decimal": "."}, "line 1 .*decimal = ','"),
+    ("1.5 2\n3 4\n", {"decimal": ","}, "line 1 .*point"),
+    ("1 2\n3 4\n", {"decimal": ";"}, "decimal = ';'"),
+    ("Scan 5\n1 2\n3 4\n", {}, "line 1 'Scan 5'"),
+    ("one 2\n3 4\n", {}, "line 1"),
+    ("NA NA\n3 4\n", {}, "line 1 .*unmeasured"),
+    ("--- ---\n3 4\n", {}, "line 1"),
+    ("only words\n", {}, "no numbers"),
+    ("z (nm)\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
+    ("x/mm z/um\n3 4\n1 2\n", {}, "mm and um"),
+    ("1\t\t2\n3\t4\t5\n", {}, "line 1 has ''")])
+def test_text_errors_name_the_line(tmp_path, text, options, words):
+    (tmp_path / "a.txt").write_text(text)
+    with pytest.raises(InputError, match=words):
+        read_surface(tmp_path / "a.txt", spacing=1.0, **options)
+
+
+def test_options_that_do_not_apply_are_refused(tmp_path):
+    np.save(tmp_path / "a.npy", heights())
+    for options in ({"decimal": ","}, {"form": "cubic"}, {"form": "quadratic", "level": False}):
+        with pytest.raises(InputError, match=next(iter(options))):
+            read_surface(tmp_path / "a.npy", spacing=STEP, **options)
+
+
+# --- form -------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("holes", [0.0, 0.2])
+def test_second_order_form_is_taken_off(tmp_path, holes):
+    """Roughness orthogonal to every quadratic (by a fit of its own) comes back from under a cylinder at an angle,
+    a thousand times as high, to rounding; a plane alone leaves the cylinder."""
+    rng, shape, step = np.random.default_rng(5), (40, 31), (1e-6, 2e-6)
+    x, y = np.meshgrid(*(s * np.arange(n) for n, s in zip(shape, step)), indexing="ij")
+    measured_points = rng.random(shape) >= holes
+    u, v = x / x.max(), y / y.max()
+    terms = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=-1)
+    rough = 1e-8 * rng.standard_normal(shape)
+    orthonormal = np.linalg.qr(terms[measured_points])[0]
+    rough[measured_points] -= orthonormal @ (orthonormal.T @ rough[measured_points])
+    form = 3e-6 + 0.1 * x - (0.8 * (x - 1e-5) + 0.6 * y) ** 2 / (2 * 5e-5)
+    np.save(tmp_path / "a.npy", np.where(measured_points, rough + form, np.nan))
+    surface = read_surface(tmp_path / "a.npy", spacing=step, form="quadratic", fill=False)
+    assert np.abs(surface.heights - rough)[measured_points].max() < 1e-11 * np.abs(form).max()
+    assert surface.notes[0].startswith("levelled") and "curvatures -1.280e+04, -7.200e+03 1/m" in surface.notes[0]
+    assert np.allclose(surface.level("quadratic").measured, surface.measured, atol=1e-17)
+    assert read_surface(tmp_path / "a.npy", spacing=step, fill=False).sq > 50 * surface.sq
+
+
+def test_second_order_form_of_short_and_thin_maps():
+    thin = Surface(np.arange(6.0)[:, None] ** 2, 1.0)
+    assert not thin.level("quadratic").heights.round(12).any() and thin.level().heights.round(12).any()
+    saddle = Surface(np.array([[1.0, 0.0], [0.0, 1.0]]), 1.0)       # two points an axis: only the mixed term is left
+    assert not saddle.level("quadratic").heights.round(12).any() and np.allclose(np.abs(saddle.level().heights), 0.5)
+    mask = np.zeros((6, 6), bool)
+    mask[[1, 4]] = True                                            # two lines: no curvature across them
+    with pytest.raises(InputError, match="'quadratic'"):
+        Surface(np.zeros((6, 6)), 1.0, mask=mask).level("quadratic")
+
+
 HUGE_NPY = (b"\x93NUMPY\x01\x00v\x00"
             + b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999, 99999999), }".ljust(117) + b"\n")
 
@@ -273,7 +411,7 @@ HUGE_NPY = (b"\x93NUMPY\x01\x00v\x00"
     ("a.txt", b"1 2 3\n4 5\n", {"spacing": 1e-6}),
     ("a.txt", b"1 2\nthree 4\n", {"spacing": 1e-6}),
     ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
-    ("a.csv", b"1,5;2,5\n3,5;4,5\n", {"spacing": 1e-6}),
+    ("a.csv", b"1,5;2,5\n3,5;4.5\n", {"spacing": 1e-6}),
     ("a.csv", b"1,,3\n4,5,6\n", {"spacing": 1e-6}),
     ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
     ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric.rough_map import contact_map
 from lubfric.scene_file import builtin_scenes, scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
@@ -147,6 +148,42 @@ def test_with_replaces_one_value_and_is_strict():
         PAPER.with_(body={"load": 1.0})
     with pytest.raises(lubfric.InputError, match="bodies = 3"):
         PAPER.with_(bodies=3)
+
+
+@pytest.mark.parametrize("sections, words", [
+    ({"motion": {"surface_speeds": [0, 1]}}, ["entrainment_speed = (u1 + u2)/2", "slide_roll_ratio", "allowed: entrainment_speed"]),
+    ({"motion": {"speed_range": [1, 2, 3]}}, ["give speeds"]),
+    ({"motion": {"slide_ratio": 1}}, ["did you mean 'slide_roll_ratio'", "speeds"]),
+    ({"bodies": {"young_modulus": [2e11, 2e11]}}, ["give e_prime"]),
+    ({"transient": {"duration": 1.0}}, ["transient", "allowed: a Transient"]),
+    ({"transient": 3}, ["transient = 3", "Transient"]),
+    ({"name": {"x": 1}}, ["name", "a str"]),
+    ({"surface": lubfric.Surface(np.zeros((300, 300)), 1e-6)}, ["surface = a Surface", "a Roughness"])])
+def test_with_names_what_is_allowed(sections, words):
+    with pytest.raises(lubfric.InputError) as caught:
+        PAPER.with_(**sections)
+    for word in words:
+        assert word in str(caught.value)
+    assert len(str(caught.value)) < 300
+
+
+def test_form_and_decimal_mark_of_a_file(tmp_path):
+    """The barrel of a roller is taken off before the map is cut; one line in the scene."""
+    x, y = (np.arange(n) * 0.45e-6 for n in (160, 40))
+    rough = 1e-8 * np.cos(2 * np.pi * x / 9e-6)[:, None] * np.cos(2 * np.pi * y / 9e-6)
+    np.savetxt(tmp_path / "map.csv", rough - x[:, None] ** 2 / 2e-3, fmt="%.12e", delimiter=";")
+    (tmp_path / "map.csv").write_text((tmp_path / "map.csv").read_text().replace(".", ","))
+    given = {"surface__sq": None, "surface__correlation_length": None, "contact__shape": None, "contact__spacing": None,
+             "surface__file": "'map.csv'", "surface__spacing": "0.45e-6"}
+    plane = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
+    given |= {"surface__form": "'quadratic'", "surface__decimal": "','"}
+    quadratic = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
+    assert quadratic.sq == pytest.approx(rough.std(), rel=0.02) and plane.sq > 10 * quadratic.sq
+    assert any("curvatures -1.0" in note for note in quadratic.notes) and "decimal comma" in quadratic.notes
+    with pytest.raises(lubfric.InputError, match="surface.form"):
+        PAPER.with_(surface={"form": "quadratic"})
+    with pytest.raises(lubfric.InputError, match="surface.decimal"):
+        PAPER.with_(surface={"decimal": ";"})
 
 
 def test_the_resolved_scene_is_plain_data():
