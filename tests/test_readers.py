@@ -308,7 +308,7 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
     ("1, 2\n3, 5\n", [[1, 2], [3, 5]]),
     ("1,2\n3,-5\n", [[1, 2], [3, -5]]),
     ("1,2\n3,nan\n", [[1, 2], [3, np.nan]]),
-    ("1,2,\n3,5,\n", [[1, 2], [3, 5]]),
+    ("1,2,4,\n3,5,6,\n", [[1, 2, 4], [3, 5, 6]]),
     ("1;2;\n3;5;\n", [[1, 2], [3, 5]]),
     ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
     ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
@@ -318,7 +318,7 @@ def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
     assert np.allclose(read_surface(tmp_path / "a.txt", spacing=1.0, **RAW).heights, found, rtol=1e-14, equal_nan=True)
 
 
-@pytest.mark.parametrize("text", ["1,2\n3,5\n", "1,5,2,5\n3,5,4,5\n", "-1,5E-07, 2,5E-07\n3,5E-07, 4,5E-07\n"])
+@pytest.mark.parametrize("text", ["1,2\n3,5\n", "1,5,2,5\n3,5,4,5\n", "-1,5E-07, 2,5E-07\n3,5E-07, 4,5E-07\n", "6, -9,8\n7, 1,5\n"])
 def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     path = tmp_path / "a.csv"
     path.write_text(text)
@@ -326,8 +326,9 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
         read_surface(path, spacing=1.0)
     separated = read_surface(path, spacing=1.0, decimal=".", **RAW).heights
     assert separated.shape == (2, text.split("\n")[0].count(",") + 1)
-    if separated.shape[1] == 2:
-        assert np.array_equal(read_surface(path, spacing=1.0, decimal=",", **RAW).heights, [[1.2], [3.5]])
+    marks = {"1,2": [[1.2], [3.5]], "-1,": [[-1.5e-7, 2.5e-7], [3.5e-7, 4.5e-7]], "6, ": [[6, -9.8], [7, 1.5]]}
+    if text[:3] in marks:
+        assert np.allclose(read_surface(path, spacing=1.0, decimal=",", **RAW).heights, marks[text[:3]], rtol=1e-12)
     else:
         with pytest.raises(InputError, match="line 1"):
             read_surface(path, spacing=1.0, decimal=",")
@@ -341,6 +342,7 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     ("1,5 2.5\n3 4\n", {}, "line 1"),
     ("1.000,5;2\n3;4\n", {}, "thousands"),
     ("1;2,5\n3;4\n", {"decimal": "."}, "line 1 .*decimal = ','"),
+    ("1,5,2,5,\n3,5,4,5,\n", {}, "decimal = '.'"),
     ("1.5 2\n3 4\n", {"decimal": ","}, "line 1 .*point"),
     ("1 2\n3 4\n", {"decimal": ";"}, "decimal = ';'"),
     ("Scan 5\n1 2\n3 4\n", {}, "line 1 'Scan 5'"),

@@ -45,8 +45,8 @@ class Problem:
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
     """Validated problem; builds the operator when none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
-        raise InputError("gap0 is a height map, not an array; allowed: gap0 = -surface.heights in m (heights point up, out of the "
-                         "lower body; a gap is smallest at the summits), plus the shape of the bodies if they are not flat")
+        raise InputError("gap0 is a height map, not an array; allowed: gap0 = -surface.heights in m (heights point out of "
+                         "the body: the gap is smallest at summits), plus the shape of bodies that are not flat")
     gap0 = validate.array("gap0", gap0, "m", ndim=2)
     hardness = math.inf if hardness is None else validate.positive("hardness", hardness, "Pa")
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-14, maximum=0.1)

@@ -87,7 +87,7 @@ class Surface:
         return f"{self.source}: {text}" if self.source else text
 
     def level(self, form: str = "plane") -> Surface:
-        """Subtract the least-squares "plane" of the measured points, or the "quadratic" surface (cylinder, paraboloid)."""
+        """Subtract the least-squares "plane" of the measured points, or "quadratic" (cylinder, paraboloid)."""
         validate.choice("form", form, prepare.FORMS)
         fitted, slopes, curvatures = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
         note = f"levelled: slopes {slopes[0]:.3e}, {slopes[1]:.3e}"

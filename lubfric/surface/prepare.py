@@ -21,7 +21,7 @@ def pair(name, value) -> tuple[int, int]:
 
 
 def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
-    """Least-squares polynomial (nx, ny) [m] of the measured points, its slopes [-] and its curvatures [1/m] along x and y.
+    """Least-squares polynomial (nx, ny) [m] of the measured points, its slopes [-] and curvatures [1/m] along x and y.
 
     "plane": first order; "quadratic": second, with the mixed term. An axis of one point has no slope, one of two no
     curvature. Slopes are those at the middle of the map. Raises `InputError` when the points do not fix the form.
@@ -35,8 +35,9 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     matrix = np.stack([along[0][where[0]] ** p * along[1][where[1]] ** q for p, q in powers], axis=1)
     solution, _, rank, _ = np.linalg.lstsq(matrix, heights[valid], rcond=None)
     if rank < len(powers):
-        raise InputError(f"{where[0].size} measured points lie on one line{' or conic' if order > 1 else ''}; allowed: points that "
-                         f"fix the {len(powers)} terms of the form {form!r}")
+        curve = "line" if order == 1 else "line or conic"
+        raise InputError(f"{where[0].size} measured points lie on one {curve}; allowed: points that fix the "
+                         f"{len(powers)} terms of the form {form!r}")
     terms = dict(zip(powers, solution))
     fitted = sum(c * np.multiply.outer(along[0] ** p, along[1] ** q) for (p, q), c in terms.items())
     length = [n * step for n, step in zip(heights.shape, spacing)]

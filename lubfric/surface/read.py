@@ -102,7 +102,7 @@ def _masked(heights, spacing, notes=()) -> Surface:
 def _check_form(level, form) -> None:
     validate.choice("form", form, FORMS)
     if not level and form != FORMS[0]:
-        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = {FORMS[0]!r} where nothing is taken off")
+        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = {FORMS[0]!r} with level = False")
 
 
 def _prepared(surface, level, fill, form) -> Surface:
@@ -129,8 +129,9 @@ def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form
     Slow to import (seconds, hundreds of MB), hence only here. Its units are not always right (lateral
     units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
     ``lateral_unit`` ("m", "mm", "um", "nm") overrules the unit of x and y that the reader found.
-    ``level``, ``form`` and ``fill`` as in `read_surface`; ``channel`` is the index of the height channel. Raises `InputError` for a file it cannot read or a
-    unit it does not know; ImportError when the package is not installed.
+    ``level``, ``form`` and ``fill`` as in `read_surface`; ``channel`` is the index of the height channel.
+    Raises `InputError` for a file it cannot read or a unit it does not know; ImportError when the package
+    is not installed.
     """
     path = Path(path)
     _check_form(level, form)

@@ -23,6 +23,8 @@ _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")                # '1,5
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 _BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")                      # '1,5' or '1,5,2,5'
 
+_COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")                   # '1,5, 2' or '1, 2'
+
 Lines = list[tuple[int, str]]       # (line number in the file, text without blanks around it)
 
 
@@ -41,13 +43,17 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
         lines = [(number, text[:-1].rstrip()) for number, text in lines]        # a separator behind every line
     if comma:
         _refuse_points(path, lines)
-        lines = [(number, text.replace(",", ".")) for number, text in lines]
+        lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
         notes += ("decimal comma",)
     try:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None), notes
     except ValueError as problem:
         raise InputError(f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}; "
                          "allowed: lines of equally many numbers, 'nan' where unmeasured") from None
+
+
+def _wrong(path, number, text, words) -> InputError:
+    return InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} {words}")
 
 
 def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
@@ -59,8 +65,8 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
             return lines[:index], lines[index:]
         unmeasured = words and all(w.lower() in MISSING_WORDS for w in words)
         if numbers or unmeasured or not any(c.isalpha() for c in text):
-            raise InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} is neither numbers nor a title without "
-                             "numbers; allowed: 'nan' where unmeasured, '#' before a line to be skipped")
+            raise _wrong(path, number, text, "is neither numbers nor a title without numbers; allowed: 'nan' where "
+                         "unmeasured, '#' before a line to be skipped")
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 
@@ -68,8 +74,8 @@ def _check_units(path, titles: Lines) -> None:
     for number, text in titles:
         named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
         if named:
-            raise InputError(f"path = {str(path)!r}: the title in line {number} {text[:60]!r} names {' and '.join(named)}, and unit "
-                             f"is not given, which means m for every column; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
+            raise _wrong(path, number, text, f"names {' and '.join(named)}, and unit is not given, which means m for "
+                         f"every column; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
 
 
 def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
@@ -79,27 +85,26 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
     if decimal == "," or not commas or semicolon or tab:
         if commas and decimal == ".":
-            number, text = commas[0]
-            raise InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} has a comma inside a number and decimal = '.'; "
-                             "allowed: decimal = ','")
+            raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; allowed: decimal = ','")
         return separator, bool(commas) or decimal == ","
     if decimal == ".":
         return ",", False
     if any(len(text.split()) > 1 for _, text in lines) and all(_BLANKS_BETWEEN.fullmatch(text) for _, text in lines):
         return None, True
-    if all(_BOTH_WAYS.fullmatch(text) for _, text in lines):
-        number, text = commas[0]
-        raise InputError(f"path = {str(path)!r}: the commas in line {number} {text[:60]!r} and in all others can separate values or "
-                         "be decimal marks; allowed: decimal = '.' (they separate) or ',' (decimal marks, one value a line), "
-                         "or another separator in the file")
+    inside = any(re.search(r",\S", text) for _, text in lines)
+    ways = (all(way.fullmatch(text.removesuffix(",")) for _, text in lines) for way in (_BOTH_WAYS, _COMMA_BLANK))
+    if inside and any(ways):
+        raise _wrong(path, *commas[0], "and all others have commas that can separate values or be decimal marks; "
+                     "allowed: decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), "
+                     "or another separator")
     return ",", False
 
 
 def _refuse_points(path, lines: Lines) -> None:
     for number, text in lines:
         if "." in text:
-            raise InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} has a point where commas are the decimal "
-                             "mark; allowed: one decimal mark in the file, no mark for thousands")
+            raise _wrong(path, number, text, "has a point where commas are the decimal mark; allowed: one decimal mark "
+                         "in the file, no mark for thousands")
 
 
 def _fault(lines: Lines, separator) -> str:
