@@ -29,7 +29,7 @@ def solve_differential_deflection(
         pressure_viscosity_coefficient: float, viscosity_law: str = "roelands", density: str = "constant",
         tolerance: float = 3e-3, inlet_length: float | None = None, start: EHLResult | None = None,
         max_iterations: int = 60, nodes: int | None = None, domain: tuple[float, float] | None = None,
-        bandwidth: int = 8, raise_on_failure: bool = True) -> EHLResult:
+        bandwidth: int = 8, most_nodes: int = FINEST + 1, raise_on_failure: bool = True) -> EHLResult:
     """Film of a smooth line contact by differential deflection, on a uniform grid.
 
     The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
@@ -44,7 +44,7 @@ def solve_differential_deflection(
 
     Parameters beyond those of `lubfric.solve_ehl`
     ----------
-    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most 32769
+    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
         contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
         behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
@@ -78,15 +78,16 @@ def solve_differential_deflection(
     nodes = None if nodes is None else integer("nodes", nodes, minimum=COARSEST + 1)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    most_nodes = integer("most_nodes", most_nodes, minimum=COARSEST + 1)
     ends = _domain(problem, domain)
 
     levels, notes = [], ()
     if start is not None:
-        levels = _ascend(problem, ends, nodes, bandwidth, tolerance, max_iterations, start)
+        levels = _ascend(problem, ends, (nodes, most_nodes), bandwidth, tolerance, max_iterations, start)
         if levels[-1].status != CONVERGED:
             notes = ("the warm start failed; solved again from a cold start",)
     if not levels or levels[-1].status != CONVERGED:
-        levels = _ascend(problem, ends, nodes, bandwidth, tolerance, max_iterations, None)
+        levels = _ascend(problem, ends, (nodes, most_nodes), bandwidth, tolerance, max_iterations, None)
     result = assemble(problem, levels, tolerance, math.copysign(1.0, entrainment_speed), notes)
     if raise_on_failure:
         result.report.raise_if_failed(result)
@@ -135,13 +136,13 @@ def _domain(problem: Problem, domain) -> tuple[float, float]:
     return first, last
 
 
-def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> list[int]:
+def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
     """Cells of the nested grids; the coarsest resolves the rise of the pressure if the finest does."""
     film, b = math.sqrt(2.0 * _film(problem)), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
     if nodes is None:
-        cells = [2 ** math.ceil(math.log2(enough))]
-        while 2 * cells[-1] <= FINEST:
+        cells = [min(2 ** math.ceil(math.log2(enough)), most_nodes - 1)]
+        while 2 * cells[-1] < most_nodes:
             cells.append(2 * cells[-1])
         return cells
     cells = [nodes - 1]
@@ -150,9 +151,10 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None) -> li
     return cells
 
 
-def _ascend(problem, ends, nodes, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
-    """Solutions on grids of doubling size, without ``nodes`` until they agree to ``tolerance``."""
-    cells = _cells(problem, ends, nodes)
+def _ascend(problem, ends, counts, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
+    """Solutions on grids of doubling size; ``counts`` (nodes, most_nodes): without nodes until they agree to ``tolerance``."""
+    nodes, most_nodes = counts
+    cells = _cells(problem, ends, nodes, most_nodes)
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
