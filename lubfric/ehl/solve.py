@@ -130,6 +130,8 @@ def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
         if _sound(levels):
             return problem, levels, spent + first, notes
         spent += first + levels
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= LAST_START:
+            break                                            # it is not the start that fails
     return problem, levels, spent[:-len(levels)], notes
 
 

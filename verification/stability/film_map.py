@@ -52,11 +52,12 @@ def cells(level: str) -> Iterator[Cell]:
 
 @lru_cache(maxsize=4096)
 def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
-    """(min_film, flow_film, method): another discretisation, else the tightest Newton solution."""
+    """(min_film, flow_film, method): another discretisation, else the tightest Newton solution that there is."""
     case = dict(items)
     for solve, name, options in (
         (solve_differential_deflection, "differential deflection", {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
         (solve_ehl, "tight", {"tolerance": 0.1 * tolerance}),
+        (solve_ehl, "finer", {"tolerance": 0.3 * tolerance}),
     ):
         try:
             film = solve(**case, **options)
