@@ -315,8 +315,8 @@ def jumps(level: str):
     for M, L in MATRIX[level]:
         keywords, _, unit = contact(M, L)
         for name, factor in cases:
-            if name == "load_per_width" and factor > 1 and M >= 10 and level != "full":
-                continue  # thousands of steps: a flat punch on a frozen film
+            if name == "load_per_width" and factor > 1 and M >= 10:
+                continue  # thousands of steps: a flat punch on a frozen film; raised over two transits below
             value = keywords[name]
             wait = 60.0 if name == "load_per_width" or factor < 1 else 20.0
             try:
