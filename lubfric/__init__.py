@@ -17,7 +17,7 @@ _HOME = {
     "solve_differential_deflection": "ehl.differential_deflection",
     "Scene": "scene", "load_scene": "scene_file",
     "friction": "mixed", "prepare": "mixed", "Model": "mixed", "FrictionResult": "mixed",
-    "transient": "unsteady.run", "TransientResult": "unsteady.result", "Transient": "unsteady.plan",
+    "transient": "unsteady.run", "TransientResult": "unsteady.result", "Transient": "history.plan",
     "stribeck": "sweep", "StribeckResult": "sweep",
 }
 __all__ = sorted(_HOME)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 
 from . import validate
 from .analytic import hertz
 from .errors import InputError
+from .history.plan import Transient
 from .lubricant import Lubricant
-from .unsteady.plan import Transient
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
@@ -261,3 +261,8 @@ class Scene:
                                      f"{validate.nearest(key, old.__dataclass_fields__)}")
             changed[section] = replace(old, **values)
         return replace(self, **changed)
+
+
+def scene_as_dict(scene: Scene) -> dict:
+    """The resolved scene as plain data (for ``result.json``)."""
+    return asdict(scene)

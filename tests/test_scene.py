@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.scene_file import builtin_scenes, scene_as_dict
+from lubfric.scene import scene_as_dict
+from lubfric.scene_file import builtin_scenes
 
 PAPER = lubfric.load_scene("paper")
 

@@ -17,8 +17,8 @@ from lubfric.ehl.problem import Problem
 from lubfric.ehl.squeeze import Conditions, Memory, Spring, evaluate, jacobian
 from lubfric.ehl.tail import outside, outside_shear
 from lubfric.ehl.transient import solve_transient_ehl
+from lubfric.history import Constant, Harmonic, Ramp, Table
 from lubfric.lubricant import Lubricant
-from lubfric.unsteady.history import Constant, Harmonic, Ramp, Table
 
 SQUEEZE = dict(
     load_per_width=100.0,

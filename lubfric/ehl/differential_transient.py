@@ -13,9 +13,9 @@ import numpy as np
 
 from .. import validate
 from ..errors import ConvergenceError
+from ..history.read import check_history, history
 from ..lubricant import Lubricant
 from ..report import CONVERGED, STAGNATED, Report
-from ..unsteady.read_history import check_history, history
 from .bdf import Level, March, advance, restarted
 from .differential_deflection import solve_differential_deflection
 from .differential_equations import Squeeze

@@ -9,9 +9,9 @@ import numpy as np
 
 from .. import validate
 from ..errors import ConvergenceError, InputError
+from ..history.read import check_history, history
 from ..lubricant import Lubricant
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from ..unsteady.read_history import check_history, history
 from .active_set import solve_step
 from .bdf import March, advance, restarted
 from .result import smallest
@@ -70,7 +70,7 @@ def solve_transient_ehl(
     Parameters
     ----------
     load_per_width [N/m], radius [m], viscosity [Pa s] (all > 0), entrainment_speed [m/s] (any sign, also
-        0): numbers or histories (`lubfric.unsteady.history`)
+        0): numbers or histories (`lubfric.history`)
     e_prime [Pa]; pressure_viscosity_coefficient [1/Pa]; viscosity_law, density : see
     `lubfric.lubricant.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..history import Constant
 from ..lubricant import Lubricant
 from ..report import CONVERGED
-from ..unsteady.history import Constant
 from .active_set import StepSolution, solve_step
 from .bdf import Level
 from .fixed_grid import FixedGrid, make_fixed_grid, symmetric_nodes

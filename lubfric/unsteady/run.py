@@ -10,11 +10,11 @@ from .. import __version__, validate
 from ..ehl.bdf import March, advance, restarted
 from ..ehl.transient import SHORTEST, stops_and_jumps
 from ..errors import InputError
+from ..history.plan import Transient
 from ..mixed import Model
 from ..report import CONVERGED, STAGNATED
 from ..scene import Scene
 from .checkpoint import Checkpoint
-from .plan import Transient
 from .progress import Progress, keep, resume, state_of
 from .result import TransientResult, collect
 from .row import UNITS
@@ -34,7 +34,7 @@ def transient(
 
     Parameters
     ----------
-    scene : with a `lubfric.unsteady.plan.Transient` in ``scene.transient`` (or, with ``times``, without: then
+    scene : with a `lubfric.Transient` in ``scene.transient`` (or, with ``times``, without: then
     nothing changes)
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
     checkpoint : folder that receives the state after every step; an interrupted run of the same scene and

@@ -13,10 +13,10 @@ from ..ehl.squeeze import Memory
 from ..ehl.transient import TIME_SHARE, default_step, film_error
 from ..ehl.transient_problem import FINER, LineContact, Setting, make_setting
 from ..errors import InputError
+from ..history import Constant
+from ..history.plan import Transient
 from ..mixed import Model, prepare
 from ..scene import Scene
-from .history import Constant
-from .plan import Transient
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
 

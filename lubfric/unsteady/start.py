@@ -11,9 +11,9 @@ from ..ehl.active_set import StepSolution, solve_step
 from ..ehl.squeeze import Memory
 from ..ehl.transient_problem import discretisation, parabola, steady_start
 from ..errors import ConvergenceError, InputError
+from ..history.plan import Transient
 from ..mixed import Model, friction
 from ..report import CONVERGED
-from .plan import Transient
 from .sharing import Contact, Sharing, share_step
 
 

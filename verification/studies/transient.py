@@ -15,9 +15,9 @@ from lubfric.ehl.fixed_grid import make_fixed_grid, symmetric_nodes
 from lubfric.ehl.problem import Problem
 from lubfric.ehl.squeeze import Memory
 from lubfric.ehl.transient import solve_transient_ehl
+from lubfric.history import Constant, Harmonic, Ramp
+from lubfric.history import Table as History
 from lubfric.lubricant import Lubricant
-from lubfric.unsteady.history import Constant, Harmonic, Ramp
-from lubfric.unsteady.history import Table as History
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
