@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution, solve_step
-from ..ehl.squeeze import Memory
-from ..ehl.transient_problem import discretisation, parabola, steady_start
+from ..ehl.transient.active_set import StepSolution, solve_step
+from ..ehl.transient.setting import discretisation, parabola, steady_start
+from ..ehl.transient.squeeze import Memory
 from ..errors import ConvergenceError, InputError
 from ..history.plan import Transient
 from ..mixed import Model, friction
