@@ -14,10 +14,10 @@ _HOME = {
     "solve_contact": "contact", "ContactResult": "contact",
     "asperity_contact": "asperity", "separation_for_load": "asperity", "AsperityResult": "asperity",
     "solve_ehl": "ehl", "EHLResult": "ehl",
-    "solve_differential_deflection": "ehl.differential_deflection",
+    "solve_differential_deflection": "ehl.differential",
     "Scene": "scene", "load_scene": "scene_file",
     "friction": "mixed", "prepare": "mixed", "Model": "mixed", "FrictionResult": "mixed",
-    "transient": "unsteady.run", "TransientResult": "unsteady.result", "Transient": "unsteady.plan",
+    "transient": "unsteady.run", "TransientResult": "unsteady.result", "Transient": "history.plan",
     "stribeck": "sweep", "StribeckResult": "sweep",
 }
 __all__ = sorted(_HOME)

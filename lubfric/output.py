@@ -12,7 +12,7 @@ import numpy as np
 
 from . import __version__
 from .mixed import FrictionResult, Model
-from .scene_file import scene_as_dict
+from .scene import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 
 from . import validate
 from .analytic import hertz
 from .errors import InputError
+from .history.plan import Transient
 from .lubricant import Lubricant
 from .surface.prepare import FORMS
 from .surface.table import DECIMALS
-from .unsteady.plan import Transient
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
@@ -283,3 +283,8 @@ def _changed(section: str, old, values):
             hint = f": give {SHORT_FORMS[key]}" if key in SHORT_FORMS else validate.nearest(key, old.__dataclass_fields__)
             raise InputError(f"{section} has no field {key!r}{hint}; allowed: {', '.join(old.__dataclass_fields__)}")
     return replace(old, **values)
+
+
+def scene_as_dict(scene: Scene) -> dict:
+    """The resolved scene as plain data (for ``result.json``)."""
+    return asdict(scene)

@@ -1,9 +1,9 @@
-"""Scenes as TOML: strict reading, and the resolved scene as plain data for the record."""
+"""Scenes as TOML: strict reading."""
 
 from __future__ import annotations
 
 import tomllib
-from dataclasses import MISSING, asdict, fields
+from dataclasses import MISSING, fields
 from importlib import resources
 from pathlib import Path
 
@@ -12,10 +12,10 @@ import numpy as np
 from . import validate
 from .analytic.hertz import composite_modulus
 from .errors import InputError
+from .history.plan import Transient
+from .history.read import history
 from .lubricant import Lubricant
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
-from .unsteady.plan import Transient
-from .unsteady.read_history import history
 
 SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface": Roughness,
             "contact": Patch, "numerics": Numerics, "transient": Transient}
@@ -80,11 +80,6 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
         if not Path(surface["file"]).is_file():
             raise InputError(f"surface.file = {table['surface']['file']!r}: no such file in {folder}")
     return Scene(**parts, surface=_build("surface", surface), name=str(table.get("name", name)), transient=plan)
-
-
-def scene_as_dict(scene: Scene) -> dict:
-    """The resolved scene as plain data (for ``result.json``)."""
-    return asdict(scene)
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:

@@ -9,11 +9,12 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric.analytic import film
-from lubfric.ehl import differential_deflection, differential_newton
-from lubfric.ehl.differential_deflection import solve_differential_deflection
-from lubfric.ehl.differential_equations import evaluate, measure
-from lubfric.ehl.differential_mesh import convolve, make_mesh
-from lubfric.ehl.differential_newton import Squeeze, newton
+from lubfric.ehl.differential import newton as differential_newton
+from lubfric.ehl.differential import solve as differential_solve
+from lubfric.ehl.differential import solve_differential_deflection
+from lubfric.ehl.differential.equations import evaluate, measure
+from lubfric.ehl.differential.mesh import convolve, make_mesh
+from lubfric.ehl.differential.newton import Squeeze, newton
 from lubfric.ehl.kernel import hat_kernel
 from lubfric.ehl.problem import Problem
 from lubfric.ehl.result import cubic, smallest
@@ -201,7 +202,7 @@ def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
     problem = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
-    s = newton(mesh, problem, *differential_deflection._cold(mesh, problem), 1e-8, 60)
+    s = newton(mesh, problem, *differential_solve._cold(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8
     P, H = spoil(s.P, s.H)
     assert measure(evaluate(mesh, problem, P, H), P, H)[name] > 5e-4
@@ -244,7 +245,7 @@ def test_speed_halved_at_once():
     stretch, unit = first.length_unit / later.length_unit, later.film_unit / first.film_unit
     b = first.half_width
     steady = newton(mesh := make_mesh(-4 * b, 1.5 * b, 601, 8, False), first,
-                    *differential_deflection._cold(mesh, first), 1e-6, 60)
+                    *differential_solve._cold(mesh, first), 1e-6, 60)
     mesh = make_mesh(-4 * b * stretch, 1.5 * b * stretch, 601, 8, False)
     P, H, step = steady.P * first.pressure_unit / later.pressure_unit, steady.H / unit, 0.05
     rate = 2 / (step * b * stretch)                            # 1/(U t) of the later speed

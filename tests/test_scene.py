@@ -7,7 +7,8 @@ import pytest
 
 import lubfric
 from lubfric.rough_map import contact_map
-from lubfric.scene_file import builtin_scenes, scene_as_dict
+from lubfric.scene import scene_as_dict
+from lubfric.scene_file import builtin_scenes
 
 PAPER = lubfric.load_scene("paper")
 

@@ -7,18 +7,19 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.ehl import solve_ehl, transient_problem
+from lubfric.ehl import solve_ehl
 from lubfric.ehl import transient as module
-from lubfric.ehl.active_set import solve_step
-from lubfric.ehl.bdf import Level, March, advance
-from lubfric.ehl.differential_transient import solve_differential_transient
-from lubfric.ehl.fixed_grid import make_fixed_grid, symmetric_nodes
+from lubfric.ehl.differential.transient import solve_differential_transient
 from lubfric.ehl.problem import Problem
-from lubfric.ehl.squeeze import Conditions, Memory, Spring, evaluate, jacobian
-from lubfric.ehl.tail import outside, outside_shear
 from lubfric.ehl.transient import solve_transient_ehl
+from lubfric.ehl.transient.active_set import solve_step
+from lubfric.ehl.transient.bdf import Level, March, advance
+from lubfric.ehl.transient.fixed_grid import make_fixed_grid, symmetric_nodes
+from lubfric.ehl.transient.setting import LineContact, make_setting, parabola, steady_start
+from lubfric.ehl.transient.squeeze import Conditions, Memory, Spring, evaluate, jacobian
+from lubfric.ehl.transient.tail import outside, outside_shear
+from lubfric.history import Constant, Harmonic, Ramp, Table
 from lubfric.lubricant import Lubricant
-from lubfric.unsteady.history import Constant, Harmonic, Ramp, Table
 
 SQUEEZE = dict(
     load_per_width=100.0,
@@ -65,7 +66,7 @@ def test_rigid_squeeze_follows_its_exact_law():
 
 
 def squeeze_setting(resolution):
-    contact = transient_problem.LineContact(
+    contact = LineContact(
         *(Constant(v) for v in (100.0, 0.01)),
         2.2e17,
         Constant(0.0),
@@ -74,7 +75,7 @@ def squeeze_setting(resolution):
         LONG,
         1e-6,
     )
-    setting = transient_problem.make_setting(contact, 3e-3)
+    setting = make_setting(contact, 3e-3)
     edge = setting.problem.half_width
     x = symmetric_nodes(resolution, (edge, edge), (0.1, 1.0))
     return replace(setting, grid=make_fixed_grid(x))
@@ -82,7 +83,7 @@ def squeeze_setting(resolution):
 
 def test_second_order_in_time():
     setting = squeeze_setting(0.5)
-    z = transient_problem.parabola(setting, 1e-6)
+    z = parabola(setting, 1e-6)
     ends = []
     for steps in (32, 64, 128, 512):
         march = March((Level(0.0, z[-1] + 0.5 * setting.grid.x**2, z),), 0.3 * LONG / steps)
@@ -106,7 +107,7 @@ def test_second_order_in_space():
     errors = []
     for resolution in (0.25, 0.5, 1.0):
         setting = squeeze_setting(resolution)
-        z = transient_problem.parabola(setting, 1e-6)
+        z = parabola(setting, 1e-6)
         step = 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
         found = setting.step(step, Memory(1 / step, z[-1] + 0.5 * setting.grid.x**2), z)
         h = found.terms.H.min() * setting.problem.film_unit
@@ -291,7 +292,7 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
 
 def test_a_step_balances_mass_and_keeps_complementarity():
     keywords, _, unit = moes(20, 5)
-    contact = transient_problem.LineContact(
+    contact = LineContact(
         Constant(keywords["load_per_width"]),
         Constant(0.01),
         keywords["e_prime"],
@@ -300,8 +301,8 @@ def test_a_step_balances_mass_and_keeps_complementarity():
         Lubricant(0.0358, 2.2e-8),
         10 * unit,
     )
-    setting = transient_problem.make_setting(contact, 1e-3)
-    start = transient_problem.steady_start(setting)
+    setting = make_setting(contact, 1e-3)
+    start = steady_start(setting)
     step = 0.05 * unit
     found = solve_step(
         setting.grid,
@@ -322,7 +323,7 @@ def test_a_step_balances_mass_and_keeps_complementarity():
 def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
     keywords, _, unit = moes(10, 5)
     keywords["entrainment_speed"] = jump(keywords["entrainment_speed"], 0.5)
-    real = transient_problem.solve_step
+    real = solve_step
 
     def failing(grid, problem, now, memory, z, **options):
         found = real(grid, problem, now, memory, z, **options)
@@ -337,7 +338,7 @@ def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
         return found
 
     failing.calls = 0
-    monkeypatch.setattr(transient_problem, "solve_step", failing)
+    monkeypatch.setattr("lubfric.ehl.transient.setting.solve_step", failing)
     times = unit * np.array([0.0, 0.01, 50.0])
     with pytest.raises(lubfric.ConvergenceError, match="stagnated") as caught:
         solve_transient_ehl(**keywords, times=times)

@@ -13,11 +13,11 @@ import pytest
 
 import lubfric
 from lubfric.cli import main
+from lubfric.history import Harmonic, Ramp, Table
+from lubfric.history.plan import Transient
 from lubfric.mixed import prepare
 from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import Checkpoint
-from lubfric.unsteady.history import Harmonic, Ramp, Table
-from lubfric.unsteady.plan import Transient
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.8e-6},
@@ -175,8 +175,8 @@ SCRIPT = """
 import os, signal, sys, time
 import numpy as np
 import lubfric
-from lubfric.unsteady.history import Harmonic
-from lubfric.unsteady.plan import Transient
+from lubfric.history import Harmonic
+from lubfric.history.plan import Transient
 scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
     surface={"correlation_length": 5e-6},
     transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))

@@ -14,8 +14,7 @@ from .. import __version__
 from ..errors import ConvergenceError
 from ..mixed import prepare
 from ..output import _plain, read_csv
-from ..scene import Scene
-from ..scene_file import scene_as_dict
+from ..scene import Scene, scene_as_dict
 from .plot import animate, plot_history
 from .result import TransientResult
 from .row import UNITS

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution
-from ..ehl.tail import outside_shear
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.tail import outside_shear
 from ..lubricant import shear_stress, viscosity
 from .sharing import Contact, Sharing
 

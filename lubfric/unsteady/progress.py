@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..ehl.bdf import Level, March
+from ..ehl.transient.bdf import Level, March
 from ..patch.closure import Closure
 from .row import UNITS, moment
 from .setup import Run

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution
-from ..ehl.bdf import Advance
 from ..ehl.result import smallest
-from ..ehl.transient import WET
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.bdf import Advance
+from ..ehl.transient.solve import WET
 from .film_shear import film_shear
 from .sharing import Contact, Sharing
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 
 from .. import __version__, validate
-from ..ehl.bdf import March, advance, restarted
-from ..ehl.transient import SHORTEST, stops_and_jumps
+from ..ehl.transient.bdf import March, advance, restarted
+from ..ehl.transient.solve import SHORTEST, stops_and_jumps
 from ..errors import InputError
+from ..history.plan import Transient
 from ..mixed import Model
 from ..report import CONVERGED, STAGNATED
 from ..scene import Scene
 from .checkpoint import Checkpoint
-from .plan import Transient
 from .progress import Progress, keep, resume, state_of
 from .result import TransientResult, collect
 from .row import UNITS
@@ -26,24 +26,24 @@ def transient(
 ) -> TransientResult:
     """Film, load sharing and friction of ``scene`` while speed, load, radius or viscosity change in time.
 
-    The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.squeeze`: Swift-Stieber complementarity,
-    either side may rupture, no entrainment needed), marched by variable-step BDF2 with error control
-    (`lubfric.ehl.bdf`); at every step film and rough contact share the load of that moment and close the
-    volume of Eq. (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015,
+    The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.transient.squeeze`: Swift-Stieber
+    complementarity, either side may rupture, no entrainment needed), marched by variable-step BDF2 with error
+    control (`lubfric.ehl.transient.bdf`); at every step film and rough contact share the load of that moment
+    and close the volume of Eq. (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015,
     doi:10.1007/s11249-015-0536-z).
 
     Parameters
     ----------
-    scene : with a `lubfric.unsteady.plan.Transient` in ``scene.transient`` (or, with ``times``, without: then
-    nothing changes)
+    scene : with a `lubfric.Transient` in ``scene.transient`` (or, with ``times``, without: then nothing
+        changes)
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
     checkpoint : folder that receives the state after every step; an interrupted run of the same scene and
         times goes on from there. Removed when the run ends well
     on_step : called as on_step(time, duration, row) after every step, ``row`` the numbers of an output or
         None
 
-    Returns a `TransientResult`. Stops a step when max(residuals of `lubfric.ehl.active_set.measure`) <=
-    1e-7 and |gap - film|/(gap + film) <= volume tolerance; accepts it when the root mean square of the
+    Returns a `TransientResult`. Stops a step when max(residuals of `lubfric.ehl.transient.active_set.measure`)
+    <= 1e-7 and |gap - film|/(gap + film) <= volume tolerance; accepts it when the root mean square of the
     local error over the pressurised film, relative to the film, <= transient.tolerance. report.residuals:
     "step" the largest accepted local error over that tolerance, "mass" and "volume", the largest at an
     output, relative to their tolerances, "grid" the discretisation error of the steady start over the film

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution
-from ..ehl.bdf import Level
-from ..ehl.squeeze import Memory
-from ..ehl.transient import TIME_SHARE, default_step, film_error
-from ..ehl.transient_problem import FINER, LineContact, Setting, make_setting
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.bdf import Level
+from ..ehl.transient.setting import FINER, LineContact, Setting, make_setting
+from ..ehl.transient.solve import TIME_SHARE, default_step, film_error
+from ..ehl.transient.squeeze import Memory
 from ..errors import InputError
+from ..history import Constant
+from ..history.plan import Transient
 from ..mixed import Model, prepare
 from ..scene import Scene
-from .history import Constant
-from .plan import Transient
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
 
@@ -58,11 +58,11 @@ class Run:
         return self.model.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
-        """Film and contact at ``time``: the solver of `lubfric.ehl.bdf.advance`."""
+        """Film and contact at ``time``: the solver of `lubfric.ehl.transient.bdf.advance`."""
         return share_step(self.sharing, time, memory, z, past)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """`lubfric.ehl.transient.film_error`."""
+        """`lubfric.ehl.transient.solve.film_error`."""
         return film_error(self.sharing.setting, solution, difference)
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution
 from ..ehl.result import cubic
-from ..ehl.squeeze import Memory, Spring
-from ..ehl.transient_problem import Setting
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.setting import Setting
+from ..ehl.transient.squeeze import Memory, Spring
 from ..errors import ConvergenceError
 from ..patch.closure import Closure
 from ..report import CONVERGED, ITERATION_LIMIT

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..ehl.active_set import StepSolution, solve_step
-from ..ehl.squeeze import Memory
-from ..ehl.transient_problem import discretisation, parabola, steady_start
+from ..ehl.transient.active_set import StepSolution, solve_step
+from ..ehl.transient.setting import discretisation, parabola, steady_start
+from ..ehl.transient.squeeze import Memory
 from ..errors import ConvergenceError, InputError
+from ..history.plan import Transient
 from ..mixed import Model, friction
 from ..report import CONVERGED
-from .plan import Transient
 from .sharing import Contact, Sharing, share_step
 
 

@@ -29,6 +29,7 @@ TOLERANCES = {
     "default": (1e-1, 1e-2, 1e-3, 1e-4, 3e-5),
     "full": (1e-1, 1e-2, 1e-3, 1e-4, 1e-5),
 }
+CELLS = {"quick": (96, 192, 384), "default": (96, 192, 384, 768), "full": (96, 192, 384, 768, 1536)}
 RIGID_LOAD = 1e-3  # M at which elastic deflection is 5e-7 of the film
 INLETS = (1.5, 3.0, 6.0, 12.0, 24.0)
 
@@ -79,31 +80,33 @@ def table():
 
 
 def rigid(level: str):
-    """Light load: smallest film 2.447484/M and flow film 3.000000/M of the rigid isoviscous cylinder."""
-    cells, errors, estimates = [], [], []
-    for tolerance in TOLERANCES[level]:
-        f = film(RIGID_LOAD, 5.0, tolerance, "constant")
-        if cells and f.state.pressure.size == cells[-1]:
-            continue
-        cells.append(f.state.pressure.size)
+    """Light load: smallest film 2.447484/M and flow film 3.000000/M of the rigid isoviscous cylinder.
+
+    What is left on fine grids is the finite inlet, which is estimated apart: the order is that of the changes from grid
+    to grid.
+    """
+    cells, errors, estimates, films = CELLS[level], [], [], []
+    for n in cells:
+        f = film(RIGID_LOAD, 5.0, 0.1, "constant", least_cells=n)
+        films.append(f.min_film)
         errors.append(
             max(
                 abs(f.min_film / unit(f) * RIGID_LOAD / 2.447484 - 1),
                 abs(f.flow_film / unit(f) * RIGID_LOAD / 3 - 1),
             )
         )
-        estimates.append(f.report.residuals["discretisation"])
+        estimates.append(f.report.residuals["discretisation"] + f.report.residuals["domain"])
     yield Check(
         "rigid limit: film error on the finest grid",
         errors[-1],
         0.0,
-        2 * TOLERANCES[level][-1],
+        1e-4 if level == "quick" else 2e-5,
         "closed form, Martin 1916",
         AT_MOST,
     )
     yield Check(
         "rigid limit: order in the cells",
-        fitted_order(1 / np.array(cells), errors),
+        fitted_order(1 / np.array(cells[1:]), np.abs(np.diff(films))),
         2.0,
         0.3,
         "fluxes through faces, second order",

@@ -8,16 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from lubfric import ConvergenceError
-from lubfric.ehl import solve_ehl, transient_problem
-from lubfric.ehl.bdf import Level, March, advance
-from lubfric.ehl.differential_transient import solve_differential_transient
-from lubfric.ehl.fixed_grid import make_fixed_grid, symmetric_nodes
+from lubfric.ehl import solve_ehl
+from lubfric.ehl.differential.transient import solve_differential_transient
 from lubfric.ehl.problem import Problem
-from lubfric.ehl.squeeze import Memory
 from lubfric.ehl.transient import solve_transient_ehl
+from lubfric.ehl.transient.bdf import Level, March, advance
+from lubfric.ehl.transient.fixed_grid import make_fixed_grid, symmetric_nodes
+from lubfric.ehl.transient.setting import LineContact, make_setting, parabola
+from lubfric.ehl.transient.squeeze import Memory
+from lubfric.history import Constant, Harmonic, Ramp
+from lubfric.history import Table as History
 from lubfric.lubricant import Lubricant
-from lubfric.unsteady.history import Constant, Harmonic, Ramp
-from lubfric.unsteady.history import Table as History
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
@@ -133,7 +134,7 @@ def squeeze(level: str):
 
 def setting(resolution: float):
     """The rigid squeeze on a grid of a given resolution."""
-    line = transient_problem.LineContact(
+    line = LineContact(
         Constant(100.0),
         Constant(0.01),
         2.2e17,
@@ -143,7 +144,7 @@ def setting(resolution: float):
         LONG,
         1e-6,
     )
-    made = transient_problem.make_setting(line, 3e-3)
+    made = make_setting(line, 3e-3)
     edge = made.problem.half_width
     return replace(made, grid=make_fixed_grid(symmetric_nodes(resolution, (edge, edge), (0.1, 1.0))))
 
@@ -151,7 +152,7 @@ def setting(resolution: float):
 def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the start."""
     made = setting(resolution)
-    z = transient_problem.parabola(made, 1e-6)
+    z = parabola(made, 1e-6)
     march = March((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
     for k in range(steps):
         march = advance(
@@ -169,7 +170,7 @@ def one_step(resolution: float) -> float:
     """Relative error of the sinking speed in one backward Euler step, in which the law holds with the film
     at its end."""
     made, step = setting(resolution), 1e-2 * LONG
-    z = transient_problem.parabola(made, 1e-6)
+    z = parabola(made, 1e-6)
     h = (
         made.step(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min()
         * made.problem.film_unit

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
+from lubfric.history import Harmonic, Ramp
+from lubfric.history import Table as History
+from lubfric.history.plan import Transient
 from lubfric.mixed import prepare
-from lubfric.unsteady.history import Harmonic, Ramp
-from lubfric.unsteady.history import Table as History
-from lubfric.unsteady.plan import Transient
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check

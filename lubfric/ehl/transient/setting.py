@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..lubricant import Lubricant
-from ..report import CONVERGED
-from ..unsteady.history import Constant
+from ...history import Constant
+from ...lubricant import Lubricant
+from ...report import CONVERGED
+from ..problem import Problem, expected_film
+from ..solve import solve_ehl
 from .active_set import StepSolution, solve_step
 from .bdf import Level
 from .fixed_grid import FixedGrid, make_fixed_grid, symmetric_nodes
-from .problem import Problem, expected_film
-from .solve import solve_ehl
 from .squeeze import Conditions, Memory, Spring
 
 FINER = (

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .differential_mesh import Mesh, convolve
-from .problem import Problem, expected_film
-from .reynolds import log_mean_fluidity
+from ..problem import Problem, expected_film
+from ..reynolds import log_mean_fluidity
+from .mesh import Mesh, convolve
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
-from .differential_equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
-from .differential_mesh import Mesh, convolve
-from .newton import FILM_STEP, VISCOSITY_STEP
-from .problem import Problem
+from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..newton import FILM_STEP, VISCOSITY_STEP
+from ..problem import Problem
+from .equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
+from .mesh import Mesh, convolve
 
 KRYLOV_LIMIT = 40        # GMRES vectors in one Newton step
 FORCING = 1e-2           # share of the far deflection that a Newton step may leave to the next one

@@ -1,10 +1,10 @@
 """March in time: variable-step BDF2 with a local error estimate, started by two backward Euler half steps.
 
 BDF2 differentiates the parabola through the new value and the two before it; seen from one step it is
-backward Euler with another memory: y' = rate (y - memory) (`lubfric.ehl.squeeze.Memory`). Its local error is
-d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third derivative from the divided difference of four values (τ' is the
-step before τ). A start, and every jump of a history, takes one step as two halves and as a whole; their
-difference is the error.
+backward Euler with another memory: y' = rate (y - memory) (`lubfric.ehl.transient.squeeze.Memory`). Its
+local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third derivative from the divided difference of four
+values (τ' is the step before τ). A start, and every jump of a history, takes one step as two halves and as a
+whole; their difference is the error.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..report import CONVERGED
+from ...report import CONVERGED
 from .squeeze import Memory
 
 SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41

@@ -11,19 +11,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import validate
-from ..errors import ConvergenceError
-from ..lubricant import Lubricant
-from ..report import CONVERGED, STAGNATED, Report
-from ..unsteady.read_history import check_history, history
-from .bdf import Level, March, advance, restarted
-from .differential_deflection import solve_differential_deflection
-from .differential_equations import Squeeze
-from .differential_mesh import NEAR, Mesh, make_mesh
-from .differential_newton import newton
-from .problem import Problem
-from .result import cubic, smallest
-from .transient import FIRST_STEP, SHORTEST, WET, TransientFilm, _checked_times, stops_and_jumps
+from ... import validate
+from ...errors import ConvergenceError
+from ...history.read import check_history, history
+from ...lubricant import Lubricant
+from ...report import CONVERGED, STAGNATED, Report
+from ..problem import Problem
+from ..result import cubic, smallest
+from ..transient.bdf import Level, March, advance, restarted
+from ..transient.solve import FIRST_STEP, SHORTEST, WET, TransientFilm, checked_times, stops_and_jumps
+from .equations import Squeeze
+from .mesh import NEAR, Mesh, make_mesh
+from .newton import newton
+from .solve import solve_differential_deflection
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,10 @@ def solve_differential_transient(
     load_per_width [N/m] and entrainment_speed [m/s] (both > 0 at all times) are numbers or histories;
     ``domain``: first and last node [m]; the rest as in `solve_differential_deflection` and
     `solve_transient_ehl`. Each step is solved until the residuals of
-    `lubfric.ehl.differential_equations.measure` are <= 1e-6. Raises `InputError` before any work,
+    `lubfric.ehl.differential.equations.measure` are <= 1e-6. Raises `InputError` before any work,
     `ConvergenceError` with the films so far when a step fails for good.
     """
-    times = _checked_times(times)
+    times = checked_times(times)
     load, speed = history("load_per_width", load_per_width), history("entrainment_speed", entrainment_speed)
     duration = float(times[-1])
     check_history("load_per_width", "N/m", load, duration, positive=True)

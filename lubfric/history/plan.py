@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import validate
-from .history import Constant
-from .read_history import check_history, history
+from .kinds import Constant
+from .read import check_history, history
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,7 @@ class Transient:
     """What changes in time in a scene, and for how long.
 
     duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or
-    `lubfric.unsteady.history`; None: the scene's own constant): speed [m/s] entrainment speed; sliding
+    `lubfric.history`; None: the scene's own constant): speed [m/s] entrainment speed; sliding
     [m/s] u2 - u1 (None: slide-roll ratio x speed); load [N]; radius [m]; viscosity [Pa s], ambient.
     initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact
     carries the load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start

@@ -6,17 +6,17 @@ import math
 
 import numpy as np
 
-from ..errors import InputError
-from ..lubricant import Lubricant
-from ..report import CONVERGED
-from ..validate import integer, number, positive
-from .differential_equations import load_row
-from .differential_mesh import Mesh, convolve, make_mesh
-from .differential_newton import Solution, newton
-from .differential_result import assemble, grid_error
-from .problem import Problem, expected_film
-from .result import EHLResult, cubic
-from .start import expected_rupture
+from ...errors import InputError
+from ...lubricant import Lubricant
+from ...report import CONVERGED
+from ...validate import integer, number, positive
+from ..problem import Problem, expected_film
+from ..result import EHLResult, cubic
+from ..start import expected_rupture
+from .equations import load_row
+from .mesh import Mesh, convolve, make_mesh
+from .newton import Solution, newton
+from .result import assemble, grid_error
 
 COARSEST, FINEST = 64, 32768     # cells
 FEWEST = 3                       # grids to judge an error by: two may agree by chance
@@ -36,7 +36,7 @@ def solve_differential_deflection(
     of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
     ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
     from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
-    (`lubfric.ehl.differential_equations`). A step costs O(N log N + N bandwidth²).
+    (`lubfric.ehl.differential.equations`). A step costs O(N log N + N bandwidth²).
 
     Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
     H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,

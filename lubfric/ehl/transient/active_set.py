@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..problem import Problem
 from .fixed_grid import FixedGrid
-from .problem import Problem
 from .squeeze import Conditions, Memory, Spring, StepTerms, evaluate, jacobian
 
 VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
@@ -46,7 +46,7 @@ def solve_step(
     tolerance: float = 1e-7,
     max_steps: int = 25,
 ) -> StepSolution:
-    """Solve the complementarity equations of `lubfric.ehl.squeeze` from z to max(residuals) <= tolerance.
+    """Solve the complementarity equations of `squeeze` from z to max(residuals) <= tolerance.
 
     A node is taken as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is
     negative (a primal-dual active set, that is a semismooth Newton method). Where that fails, the load is led

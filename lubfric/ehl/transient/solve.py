@@ -7,16 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import validate
-from ..errors import ConvergenceError, InputError
-from ..lubricant import Lubricant
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from ..unsteady.read_history import check_history, history
+from ... import validate
+from ...errors import ConvergenceError, InputError
+from ...history.read import check_history, history
+from ...lubricant import Lubricant
+from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ..result import smallest
 from .active_set import solve_step
 from .bdf import March, advance, restarted
-from .result import smallest
-from .squeeze import Memory
-from .transient_problem import (
+from .setting import (
     FINER,
     LineContact,
     Setting,
@@ -25,6 +24,7 @@ from .transient_problem import (
     parabola,
     steady_start,
 )
+from .squeeze import Memory
 
 FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good
@@ -70,7 +70,7 @@ def solve_transient_ehl(
     Parameters
     ----------
     load_per_width [N/m], radius [m], viscosity [Pa s] (all > 0), entrainment_speed [m/s] (any sign, also
-        0): numbers or histories (`lubfric.unsteady.history`)
+        0): numbers or histories (`lubfric.history`)
     e_prime [Pa]; pressure_viscosity_coefficient [1/Pa]; viscosity_law, density : see
     `lubfric.lubricant.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
@@ -80,14 +80,14 @@ def solve_transient_ehl(
     time_tolerance : largest local error of the film in a step, relative (None: 0.01 x tolerance)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
-    Equations, cavitation and residuals: `lubfric.ehl.squeeze`, `lubfric.ehl.active_set`; time:
-    `lubfric.ehl.bdf`. report.residuals: "step", the largest accepted local error, and "grid", the grid
-    error of the smallest and central film of the steady start (where there is one), each over its tolerance.
+    Equations, cavitation and residuals: `squeeze` and `active_set` beside this module; time: `bdf`.
+    report.residuals: "step", the largest accepted local error, and "grid", the grid error of the smallest and
+    central film of the steady start (where there is one), each over its tolerance.
 
     Raises `InputError` before any work, `ConvergenceError` with the films so far when the shortest step
     fails or the steady start is not found or not accurate enough.
     """
-    times = _checked_times(times)
+    times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
     time_tolerance = (
         TIME_SHARE * tolerance
@@ -152,7 +152,7 @@ def stops_and_jumps(histories, times, duration: float) -> tuple[list[float], set
     return sorted({*times, *jumps, *(t for h in histories for t in h.stops(duration))}), jumps
 
 
-def _checked_times(times) -> np.ndarray:
+def checked_times(times) -> np.ndarray:
     times = validate.array("times", times, "s", ndim=1)
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
         raise InputError(

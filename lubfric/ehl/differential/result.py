@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from ..report import CONVERGED, STAGNATED, Report
-from .differential_newton import Solution
-from .grid import node_positions
-from .problem import Problem, expected_film
-from .result import EHLResult, cubic, smallest
-from .start import State
+from ...report import CONVERGED, STAGNATED, Report
+from ..grid import node_positions
+from ..problem import Problem, expected_film
+from ..result import EHLResult, cubic, smallest
+from ..start import State
+from .newton import Solution
 
 STATE_CELLS = 96
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .. import validate
 from ..errors import InputError
-from .history import Constant, Harmonic, Ramp, Table
+from .kinds import Constant, Harmonic, Ramp, Table
 
 KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 

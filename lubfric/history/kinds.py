@@ -1,7 +1,7 @@
 """Quantities that change in time: constant, ramp, harmonic, table.
 
 Each gives its value just after (``at``) and just before (``before``) a time [s], the times of its jumps, and
-its range. `lubfric.unsteady.read_history` makes them from a scene file or a CSV file.
+its range. `lubfric.history.read` makes them from a scene file or a CSV file.
 """
 
 from __future__ import annotations

@@ -4,12 +4,12 @@
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
 in the units of `lubfric.ehl.problem` for a reference speed, T = t U_ref/(unit of x). The time derivative is
-``rate (rho H - memory)``: any implicit formula has that shape (BDF2: `lubfric.ehl.bdf`); rate = 0 is the
-steady state. Unknowns z: the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
+``rate (rho H - memory)``: any implicit formula has that shape (BDF2: `lubfric.ehl.transient.bdf`); rate = 0 is
+the steady state. Unknowns z: the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
 
 Control volumes around the nodes; Couette flow with film and density interpolated third-order upwind,
 Poiseuille flow with a centred film and the logarithmic mean of the fluidity. At both end nodes P equals
-the pressure of the film outside (`lubfric.ehl.tail`). Every node's equation r holds in the sense
+the pressure of the film outside (`lubfric.ehl.transient.tail`). Every node's equation r holds in the sense
 ``P >= 0, r >= 0, P r = 0``: in the cavitated zone r > 0 is the rate at which the gap outgrows the
 lubricant that flows in. The zone behind the rupture is taken as full again where the film reforms: mass is
 conserved in the pressurised film, not through cavitation.
@@ -21,9 +21,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..problem import Problem
+from ..reynolds import log_mean_fluidity
 from .fixed_grid import FixedGrid
-from .problem import Problem
-from .reynolds import log_mean_fluidity
 from .tail import Tail, outside
 
 
