@@ -20,6 +20,7 @@ from .result import EHLResult
 from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, LAST_START, FINEST = 48, 768, 3072
+WIDE = 2000.0             # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
 DOUBLINGS = 8             # of the speed, to begin with a film too thick to feel an imposed pressure
 EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
@@ -109,7 +110,7 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
 
 def _warm(problem: Problem, tolerance: float, least: int, max_steps: int, state: State) -> list[Solution]:
     """Two grids, the finer one as fine as the error of ``state`` says is needed, or more."""
-    n = COARSEST
+    n = _coarsest(problem)
     needed = max(least, state.pressure.size * min(4.0, math.sqrt(state.grid_error / tolerance)))
     while 2 * n < min(needed, FINEST):
         n *= 2
@@ -121,7 +122,7 @@ def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
     """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
     solutions; the solutions that led there, and notes."""
     spent, notes = [], ()
-    for n, seat, doublings in _attempts(seats):
+    for n, seat, doublings in _attempts(seats, _coarsest(problem)):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         problem = replace(problem, seat=seat)
@@ -135,9 +136,14 @@ def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
     return problem, levels, spent[:-len(levels)], notes
 
 
-def _attempts(seats: tuple) -> list[tuple]:
+def _coarsest(problem: Problem) -> int:
+    """Cells of the coarsest grid: more where the inlet is far narrower than the contact."""
+    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
+
+
+def _attempts(seats: tuple, coarsest: int) -> list[tuple]:
     """(cells, seat, doublings of the speed) of one cold start after the other."""
-    finer = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
+    finer = [coarsest * 2**k for k in range(int(math.log2(LAST_START / coarsest)) + 1)]
     if len(seats) == 1:
         return [(n, seats[0], 0) for n in finer]
     return [(n, seat, doublings) for n in finer for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))]
