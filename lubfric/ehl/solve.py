@@ -143,10 +143,11 @@ def _coarsest(problem: Problem) -> int:
 
 def _attempts(seats: tuple, coarsest: int) -> list[tuple]:
     """(cells, seat, doublings of the speed) of one cold start after the other."""
-    finer = [coarsest * 2**k for k in range(int(math.log2(LAST_START / coarsest)) + 1)]
+    grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
+    grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
     if len(seats) == 1:
-        return [(n, seats[0], 0) for n in finer]
-    return [(n, seat, doublings) for n in finer for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))]
+        return [(n, seats[0], 0) for n in grids]
+    return [(n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))]
 
 
 def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int,
