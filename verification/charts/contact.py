@@ -46,7 +46,7 @@ def _finest(acf: str, seed: int, finest: int = 2048) -> np.ndarray:
 def points(level: str) -> Iterator[Point]:
     """Panels over (surface, load) when periodic, and the other boundaries at one load."""
     quick = level == "quick"
-    n = 64 if quick else 128
+    n = 64 if quick else 256
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     for acf in ("gaussian",) if quick else ("exponential", "gaussian"):
         z = heights(n, acf)
@@ -56,10 +56,10 @@ def points(level: str) -> Iterator[Point]:
             )
     for name in list(BOUNDARIES)[1:]:
         yield from panel(
-            heights(64 if quick else 128, "exponential"),
+            heights(64 if quick else 256, "exponential"),
             200e6,
             name,
-            f"{name}, exponential, 200 MPa, {64 if quick else 128}²",
+            f"{name}, exponential, 200 MPa, {64 if quick else 256}²",
             tolerances[:5],
             quick,
         )
