@@ -12,6 +12,7 @@ from ..check import Figure
 from .data import Point
 from .growth import exponent
 
+NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "default, warm")
 
 
@@ -115,10 +116,13 @@ def growth(points: list[Point], machine: str) -> Figure:
                 f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\n"
                 f"convolutions ~ N^{exponent(chosen, 'work'):.2f}"
             )
-        axes[1, column].loglog(sizes, [p.memory / 1e6 for p in chosen], "o-", color="#D55E00")
+        seen = [p for p in chosen if p.memory > NOTICED]
+        axes[1, column].loglog([p.size for p in seen], [p.memory / 1e6 for p in seen], "o-", color="#D55E00")
         axes[1, column].set(
-            title=f"memory ~ N^{exponent(chosen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit
+            title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit
         )
+        axes[1, column].set_xlim(axes[0, column].get_xlim())
+        axes[1, column].xaxis.set_minor_formatter("")
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish("performance-growth", canvas, "Cost growth", format="png")
 
