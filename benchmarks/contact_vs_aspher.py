@@ -29,7 +29,7 @@ from benchmarks.contact_vs_tamaas import E_PRIME, SPACING, surface
 from verification.opponents import aspher_solver, lubfric_solver, tamaas_solver
 
 LADDER = [10 ** (-k / 2) for k in range(4, 25)]
-LONG = 60.0        # seconds: not repeated
+LONG = 60.0  # seconds: not repeated
 
 
 def loosest(solve, load, reference, target, first):
@@ -74,14 +74,14 @@ def stopped(heights, load, reference, seconds):
     if few is None:
         return []
     each = measured(few, load, 1e-14, reference)[1] / 20
-    error, spent = measured(tamaas_solver(heights, SPACING, E_PRIME, max_iterations=int(seconds / each)), load, 1e-14, reference)
+    error, spent = measured(
+        tamaas_solver(heights, SPACING, E_PRIME, max_iterations=int(seconds / each)), load, 1e-14, reference
+    )
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cells", type=int, nargs="+", default=[816, 2048])
     parser.add_argument("--loads", type=float, nargs="+", default=[50, 200, 1000], help="MPa")
     parser.add_argument("--repeats", type=int, default=5)

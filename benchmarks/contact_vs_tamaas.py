@@ -39,8 +39,10 @@ def ours(heights, threads: int):
     operator = half_space(heights.shape, SPACING, E_PRIME, workers=threads)
 
     def solve(load, tolerance):
-        return solve_contact(-heights, SPACING, E_PRIME, mean_pressure=load, tolerance=tolerance,
-                             operator=operator).pressure
+        return solve_contact(
+            -heights, SPACING, E_PRIME, mean_pressure=load, tolerance=tolerance, operator=operator
+        ).pressure
+
     return solve
 
 
@@ -63,6 +65,7 @@ def theirs(heights, threads: int):
         solver.max_iter, solver.dump_freq = 20000, 10**9
         solver.solve(load)
         return np.array(model.traction).reshape(n, n)
+
     return solve
 
 
@@ -108,13 +111,16 @@ def main() -> None:
     for load in LOADS:
         reference = solvers["lubfric"](load, 1e-10)
         tolerances = {"lubfric": 1e-6, "tamaas": 1e-6}
-        if opponent is not None:        # tamaas at 1e-6 sets the error that lubfric has to reach
+        if opponent is not None:  # tamaas at 1e-6 sets the error that lubfric has to reach
             theirs_error = np.linalg.norm(opponent(load, 1e-6) - reference) / np.linalg.norm(reference)
             tolerances["lubfric"] = matched(solvers["lubfric"], load, reference, theirs_error, 1e-6)
         table = compare(solvers, load, tolerances, options.repeats, reference)
         for name, (seconds, error) in table.items():
-            print(f"{load / 1e6:6.0f} MPa  {name:8s} tolerance {tolerances[name]:.1e}  {seconds:8.3f} s  "
-                  f"pressure error {error:.1e}", end="")
+            print(
+                f"{load / 1e6:6.0f} MPa  {name:8s} tolerance {tolerances[name]:.1e}  {seconds:8.3f} s  "
+                f"pressure error {error:.1e}",
+                end="",
+            )
             print(f"  {seconds / table['lubfric'][0]:6.1f} x lubfric" if name != "lubfric" else "", flush=True)
 
 

@@ -1,6 +1,6 @@
 """Times of the main job: import, one film, the paper's scene. Medians; run on a quiet machine.
 
-    python benchmarks/main_job.py
+python benchmarks/main_job.py
 """
 
 import statistics
@@ -13,7 +13,9 @@ import numpy as np
 import lubfric
 from lubfric.mixed import prepare
 
-PAPER = dict(load_per_width=5.5 / 6e-3, radius=2e-3, e_prime=231e9, viscosity=0.36, pressure_viscosity_coefficient=25e-9)
+PAPER = dict(
+    load_per_width=5.5 / 6e-3, radius=2e-3, e_prime=231e9, viscosity=0.36, pressure_viscosity_coefficient=25e-9
+)
 
 
 def median(work, repeats):

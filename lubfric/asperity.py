@@ -28,8 +28,8 @@ from .report import CONVERGED, STAGNATED, Report
 from .roots import increasing_root
 
 DEFINITIONS = ("summits", "patches")
-SCAN = 1.25                     # ratio between neighbouring approaches of the scan for a load
-SCAN_RANGE = (1e-5, 1.0)        # of the height range: down to the deepest valley
+SCAN = 1.25  # ratio between neighbouring approaches of the scan for a load
+SCAN_RANGE = (1e-5, 1.0)  # of the height range: down to the deepest valley
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,9 @@ class AsperityResult:
     report: Report | None = None
 
 
-def asperity_contact(heights, spacing, e_prime, *, separation, definition="summits", hardness=None,
-                     periodic=True) -> AsperityResult:
+def asperity_contact(
+    heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
+) -> AsperityResult:
     """Contact of a rough surface with a rigid flat held at ``separation``.
 
     Parameters
@@ -94,11 +95,22 @@ def contact_law(heights, spacing, e_prime, *, definition="summits", hardness=Non
     def at(separation):
         flat = np.broadcast_to(np.asarray(separation, dtype=float), heights.shape)
         return _loaded(find, flat, separation, spacing, e_prime, hardness, definition)
+
     return at
 
 
-def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition="summits", hardness=None,
-                        periodic=True, tolerance=1e-3, raise_on_failure=True) -> AsperityResult:
+def separation_for_load(
+    heights,
+    spacing,
+    e_prime,
+    *,
+    mean_pressure,
+    definition="summits",
+    hardness=None,
+    periodic=True,
+    tolerance=1e-3,
+    raise_on_failure=True,
+) -> AsperityResult:
     """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.
 
     The flat comes down, each approach to the highest point 25 % longer than the last and none below the
@@ -127,16 +139,30 @@ def separation_for_load(heights, spacing, e_prime, *, mean_pressure, definition=
         count += 1
         best = result if best is None or result.load > best.load else best
         if value >= 0:
-            root = increasing_root(excess, 0.5 * (before + approach), step=0.25 * (approach - before),
-                                   bounds=(before, approach), tolerance=tolerance)
+            root = increasing_root(
+                excess,
+                0.5 * (before + approach),
+                step=0.25 * (approach - before),
+                bounds=(before, approach),
+                tolerance=tolerance,
+            )
             return _found(root, count, tolerance, raise_on_failure)
         before = approach
-    report = Report("asperity separation", STAGNATED, count, 1 - best.mean_pressure / target, tolerance,
-                    evaluations=count, notes=(f"{definition} carry {best.mean_pressure:.4g} Pa at most",))
+    report = Report(
+        "asperity separation",
+        STAGNATED,
+        count,
+        1 - best.mean_pressure / target,
+        tolerance,
+        evaluations=count,
+        notes=(f"{definition} carry {best.mean_pressure:.4g} Pa at most",),
+    )
     result = replace(best, report=report)
     if raise_on_failure:
-        message = (f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most "
-                   f"{best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m")
+        message = (
+            f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most "
+            f"{best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
+        )
         raise ConvergenceError(message, report, result)
     return result
 
@@ -147,9 +173,16 @@ def _scan_count() -> int:
 
 def _found(root, count, tolerance, raise_on_failure) -> AsperityResult:
     status = CONVERGED if root.status == CONVERGED else STAGNATED
-    report = Report("asperity separation", status, len(root.history), abs(root.value), tolerance,
-                    residuals={"load": abs(root.value)}, history=root.history,
-                    evaluations=count + len(root.history))
+    report = Report(
+        "asperity separation",
+        status,
+        len(root.history),
+        abs(root.value),
+        tolerance,
+        residuals={"load": abs(root.value)},
+        history=root.history,
+        evaluations=count + len(root.history),
+    )
     result = replace(root.payload, report=report)
     if raise_on_failure:
         report.raise_if_failed(result)
@@ -172,15 +205,24 @@ def _loaded(find, flat, separation, spacing, e_prime, hardness, definition) -> A
     force = 2 / 3 * e_prime * np.sqrt(radius) * overlap**1.5
     plastic = np.zeros(overlap.size)
     if hardness is not None:
-        ratio = np.minimum(hardness * area / (1.5 * force), 1.0)                 # P_u/p0
+        ratio = np.minimum(hardness * area / (1.5 * force), 1.0)  # P_u/p0
         force = np.where(ratio < 1, hardness * area * (1 - ratio**2 / 3), force)
         plastic = area * (1 - ratio**2)
     whole = flat.size * spacing[0] * spacing[1]
-    return AsperityResult(definition=definition, separation=separation, load=float(force.sum()),
-                          mean_pressure=float(force.sum() / whole), contact_area=float(area.sum()),
-                          contact_area_fraction=float(area.sum() / whole),
-                          plastic_area_fraction=float(plastic.sum() / whole), contacts=overlap.size,
-                          index=index, overlap=overlap, radii=radius, forces=force)
+    return AsperityResult(
+        definition=definition,
+        separation=separation,
+        load=float(force.sum()),
+        mean_pressure=float(force.sum() / whole),
+        contact_area=float(area.sum()),
+        contact_area_fraction=float(area.sum() / whole),
+        plastic_area_fraction=float(plastic.sum() / whole),
+        contacts=overlap.size,
+        index=index,
+        overlap=overlap,
+        radii=radius,
+        forces=force,
+    )
 
 
 def _summit_finder(heights, spacing, periodic):
@@ -193,7 +235,7 @@ def _summit_finder(heights, spacing, periodic):
             inside[tuple(rim)] = False
     for i in (-1, 0, 1):
         for j in (-1, 0, 1):
-            if (i, j) > (0, 0):                     # of equal neighbours the later one is the summit
+            if (i, j) > (0, 0):  # of equal neighbours the later one is the summit
                 inside &= heights >= np.roll(heights, (-i, -j), (0, 1))
                 inside &= heights > np.roll(heights, (i, j), (0, 1))
     index = np.argwhere(inside)
@@ -207,6 +249,7 @@ def _summit_finder(heights, spacing, periodic):
         overlap = heights[i, j] - flat[i, j]
         touching = overlap > 0
         return index[touching], overlap[touching], radius[touching]
+
     return find
 
 
@@ -227,6 +270,7 @@ def _patch_finder(heights, spacing, periodic):
         delta = overlap.ravel()[highest]
         radius = sizes * spacing[0] * spacing[1] / (2 * math.pi * delta)
         return np.stack(np.unravel_index(highest, heights.shape), axis=1), delta, radius
+
     return find
 
 
@@ -234,6 +278,7 @@ def _join_across_edges(label, count, periodic):
     """Give regions that touch across a periodic edge (also diagonally) one number."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
+
     pairs = [np.zeros((2, 0), int)]
     for axis in range(2):
         if periodic[axis]:

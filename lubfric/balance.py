@@ -11,9 +11,9 @@ from .patch.closure import Closure
 from .report import CONVERGED, Report
 from .roots import increasing_root
 
-BOUNDS = (-40.0, 30.0)     # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
-THICKER = 0.5              # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
-NEARLY_SEPARATED = 3.0     # where to look next to a speed at which the film carries everything
+BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
+NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,9 @@ class Balance:
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
 
-def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, shift=0.0, touching=False,
-               joint=None) -> Balance:
+def share_load(
+    total_load, solve_film, close, *, guess, tolerance, start=None, shift=0.0, touching=False, joint=None
+) -> Balance:
     """Divide ``total_load`` [N] between film and contact.
 
     ``solve_film(load, start)`` gives the film at a load [N]; ``close(film, contact_load, start)`` the
@@ -68,8 +69,14 @@ def share_load(total_load, solve_film, close, *, guess, tolerance, start=None, s
         seen.append((split, closure.volume_residual))
         return closure.volume_residual, (film_load, contact_load, film, closure)
 
-    root = increasing_root(residual, start.split + shift if start else guess, step=0.7 if start else 1.5,
-                           bounds=BOUNDS, tolerance=tolerance, slope=start.slope if start else None)
+    root = increasing_root(
+        residual,
+        start.split + shift if start else guess,
+        step=0.7 if start else 1.5,
+        bounds=BOUNDS,
+        tolerance=tolerance,
+        slope=start.slope if start else None,
+    )
     film_load, contact_load, film, closure = root.payload
     report = _report(root.history, root.status, tolerance, film, closure, *notes)
     return Balance(film_load, contact_load, film, closure, report, _slope(seen) or (start.slope if start else None))
@@ -79,8 +86,13 @@ def separated(total_load, solve_film, close, tolerance, start_film=None) -> Bala
     """All the load on the film: in balance, with no contact, where its closure has a volume residual <= 0."""
     film = solve_film(total_load, start_film)
     closure = close(film, 0.0, None)
-    return Balance(total_load, 0.0, film, closure, _report([0.0], CONVERGED, tolerance, film, closure,
-                                                           "separated: the film clears the summits"))
+    return Balance(
+        total_load,
+        0.0,
+        film,
+        closure,
+        _report([0.0], CONVERGED, tolerance, film, closure, "separated: the film clears the summits"),
+    )
 
 
 def _whole(total_load, solve_film, close, tolerance, start, touching):
@@ -102,8 +114,9 @@ def _slope(seen) -> float | None:
     return (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
 
 
-def share_by_separation(total_load, solve_film, close, carry, *, guess, tolerance, start=None, shift=0.0,
-                        touching=False) -> Balance:
+def share_by_separation(
+    total_load, solve_film, close, carry, *, guess, tolerance, start=None, shift=0.0, touching=False
+) -> Balance:
     """Divide ``total_load`` [N] the paper's way: a film load gives a film, which imposed on the contact gives its load.
 
     ``carry(film, start)`` gives (contact load [N], `Closure`); the volume balance holds by construction and
@@ -123,11 +136,14 @@ def share_by_separation(total_load, solve_film, close, carry, *, guess, toleranc
         last.update(film=film, contact=closure.contact or last["contact"])
         return math.log((contact_load + film_load) / total_load), (film_load, contact_load, film, closure)
 
-    root = increasing_root(residual, (start.split + shift if start else guess) - THICKER, step=0.7, bounds=BOUNDS,
-                           tolerance=tolerance)
+    root = increasing_root(
+        residual, (start.split + shift if start else guess) - THICKER, step=0.7, bounds=BOUNDS, tolerance=tolerance
+    )
     film_load, contact_load, film, closure = root.payload
     report = _report(root.history, root.status, tolerance, film, closure, *notes)
-    report = replace(report, residuals=report.residuals | {"load": min(root.history), "volume": abs(closure.volume_residual)})
+    report = replace(
+        report, residuals=report.residuals | {"load": min(root.history), "volume": abs(closure.volume_residual)}
+    )
     return Balance(film_load, contact_load, film, closure, report)
 
 
@@ -137,6 +153,14 @@ def _report(history, status, tolerance, film, closure, *notes) -> Report:
         residuals["film"] = film.report.residual
     if closure.contact is not None:
         residuals["contact"] = closure.contact.report.residual
-    return Report(solver="load sharing", status=status, iterations=len(history), residual=min(history),
-                  tolerance=tolerance, residuals=residuals, history=tuple(history), evaluations=len(history),
-                  notes=tuple(notes))
+    return Report(
+        solver="load sharing",
+        status=status,
+        iterations=len(history),
+        residual=min(history),
+        tolerance=tolerance,
+        residuals=residuals,
+        history=tuple(history),
+        evaluations=len(history),
+        notes=tuple(notes),
+    )

@@ -33,11 +33,15 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
     run.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
     run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1' or 'low:high:count'")
-    run.add_argument("--fields", help="speeds in m/s whose fields go to fields.npz and contact.png "
-                                      "(default: the scene's own speed)")
+    run.add_argument(
+        "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
+    )
     run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
-    run.add_argument("--animation", action="store_true", help="also draw film and pressure of a scene with [transient] "
-                                                              "as animation.gif")
+    run.add_argument(
+        "--animation",
+        action="store_true",
+        help="also draw film and pressure of a scene with [transient] as animation.gif",
+    )
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
@@ -59,6 +63,7 @@ def _run(arguments) -> int:
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
     if scene.transient is not None:
         from .unsteady.command import run_history
+
         return run_history(scene, arguments.out, arguments.animation, _say)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
@@ -85,14 +90,17 @@ def _run(arguments) -> int:
         _say(note)
     _say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
-        raise ConvergenceError(f"{len(curve.errors)} of {curve.speed.size} speeds failed; "
-                               f"first: {curve.errors[min(curve.errors)]}", curve.report)
+        raise ConvergenceError(
+            f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
+            curve.report,
+        )
     return 0
 
 
 def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
+
     print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
     return 0
 
@@ -102,6 +110,7 @@ def _plot(arguments) -> int:
     from .output import read_csv
     from .plot import plot_stribeck
     from .unsteady.command import plot_again
+
     if plot_again(arguments.folder):
         return 0
     source = arguments.folder / "stribeck.csv"
@@ -118,6 +127,7 @@ def _speeds(text: str | None) -> list[float]:
     import numpy as np
 
     from .errors import InputError
+
     if not text:
         return []
     try:
@@ -132,6 +142,7 @@ def _speeds(text: str | None) -> list[float]:
 def _with_chosen(speeds, chosen):
     """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
     import math
+
     own = []
     for speed in chosen:
         near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
@@ -143,6 +154,7 @@ def _with_chosen(speeds, chosen):
 def _folder(path: Path) -> Path:
     """An existing folder without results of an earlier run."""
     from .errors import InputError
+
     if path.exists() and not path.is_dir():
         raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
     path.mkdir(parents=True, exist_ok=True)
@@ -155,8 +167,10 @@ def _progress(done, total, speed, outcome) -> None:
     if isinstance(outcome, Exception):
         _say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
     else:
-        _say(f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
-             f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)")
+        _say(
+            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
+            f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
+        )
 
 
 def _say(text: str) -> None:

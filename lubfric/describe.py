@@ -12,7 +12,7 @@ from .rough_map import contact_map
 from .scene import Scene
 from .surface import correlation_length, rms_slope
 
-SOLVE_FIELDS = 12        # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
+SOLVE_FIELDS = 12  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
 
 
 def describe_scene(scene: Scene) -> str:
@@ -40,9 +40,14 @@ def describe_scene(scene: Scene) -> str:
         if speed == 0:
             lines.append("  0              no entrainment: all contact")
             continue
-        regime = dict(load_per_width=w, radius=bodies.radius, e_prime=bodies.e_prime, entrainment_speed=abs(speed),
-                      viscosity=lubricant.viscosity,
-                      pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient)
+        regime = dict(
+            load_per_width=w,
+            radius=bodies.radius,
+            e_prime=bodies.e_prime,
+            entrainment_speed=abs(speed),
+            viscosity=lubricant.viscosity,
+            pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+        )
         m, el = film_formulas.moes_numbers(**regime)
         h = film_formulas.moes_flow_film(**regime)
         ratio = h / surface.sq if surface.sq > 0 else math.inf
@@ -51,10 +56,14 @@ def describe_scene(scene: Scene) -> str:
         plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
-    lines += [f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
-              f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"]
-    lines += [f"  U = {speed:<10.4g} {forecast(scene, surface, speed)}"
-              for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})]
+    lines += [
+        f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
+        f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
+    ]
+    lines += [
+        f"  U = {speed:<10.4g} {forecast(scene, surface, speed)}"
+        for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})
+    ]
     return "\n".join(lines)
 
 
@@ -65,11 +74,26 @@ def _map_lines(scene: Scene, surface) -> list[str]:
     lengths = [_correlation_length(surface, axis) for axis in range(2)]
     in_um = " x ".join("-" if c is None else f"{c * 1e6:.3g}" for c in lengths)
     in_cells = " x ".join("-" if c is None else f"{c / step:.3g}" for c, step in zip(lengths, (dx, dy)))
-    rows = [("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope",
-             f"{slopes[2]:.3g}  ({slopes[0]:.3g} along x, {slopes[1]:.3g} along y)"),
-            ("cells per b", f"{b / dx:.3g}", "correlation length", f"{in_um} um = {in_cells} cells  (along x and y, to 1/e)"),
-            ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells",
-             f"{nx * ny}, about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them")]
+    rows = [
+        (
+            "Sq",
+            f"{surface.sq * 1e9:.4g} nm",
+            "rms slope",
+            f"{slopes[2]:.3g}  ({slopes[0]:.3g} along x, {slopes[1]:.3g} along y)",
+        ),
+        (
+            "cells per b",
+            f"{b / dx:.3g}",
+            "correlation length",
+            f"{in_um} um = {in_cells} cells  (along x and y, to 1/e)",
+        ),
+        (
+            "length / 2b",
+            f"{nx * dx / (2 * b):.3g}",
+            "cells",
+            f"{nx * ny}, about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them",
+        ),
+    ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
 
 

@@ -63,11 +63,15 @@ class Lubricant:
         alpha = nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
         if self.viscosity_law == "roelands":
             if alpha == 0.0:
-                raise InputError("pressure_viscosity_coefficient = 0 1/Pa has no Roelands exponent; allowed: "
-                                 "> 0 1/Pa, or viscosity_law = 'constant'")
+                raise InputError(
+                    "pressure_viscosity_coefficient = 0 1/Pa has no Roelands exponent; allowed: "
+                    "> 0 1/Pa, or viscosity_law = 'constant'"
+                )
             if math.log(eta0) + ROELANDS_LOG_VISCOSITY <= 0.0:
-                raise InputError(f"viscosity = {eta0:g} Pa s is out of range for the Roelands law; allowed: "
-                                 f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s")
+                raise InputError(
+                    f"viscosity = {eta0:g} Pa s is out of range for the Roelands law; allowed: "
+                    f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s"
+                )
         if self.eyring_stress is not None:
             positive("eyring_stress", self.eyring_stress, "Pa")
         if self.limiting_stress_coefficient is not None:
@@ -77,8 +81,11 @@ class Lubricant:
     @property
     def roelands_exponent(self) -> float:
         """z = alpha p0/(ln eta0 + 9.67)."""
-        return (self.pressure_viscosity_coefficient * ROELANDS_PRESSURE
-                / (math.log(self.viscosity) + ROELANDS_LOG_VISCOSITY))
+        return (
+            self.pressure_viscosity_coefficient
+            * ROELANDS_PRESSURE
+            / (math.log(self.viscosity) + ROELANDS_LOG_VISCOSITY)
+        )
 
 
 def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
@@ -121,7 +128,6 @@ def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
     if lubricant.eyring_stress is not None:
         tau = lubricant.eyring_stress * np.arcsinh(tau / lubricant.eyring_stress)
     if lubricant.limiting_stress_coefficient is not None:
-        limit = (lubricant.limiting_stress_offset
-                 + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0))
+        limit = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
         tau = np.clip(tau, -limit, limit)
     return tau

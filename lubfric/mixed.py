@@ -26,7 +26,7 @@ from .scene import Scene
 from .surface import Surface
 
 STRIP_POINTS = 128
-BEYOND = 1.5         # of the total load: how far a contact curve reaches when a film may be imposed on it
+BEYOND = 1.5  # of the total load: how far a contact curve reaches when a film may be imposed on it
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,10 @@ def prepare(scene: Scene, surface: Surface | None = None, *, like: Model | None 
         check_grid(scene, surface)
     flat = scene.contact.geometry == "flat"
     if flat and scene.numerics.contact_level == "semi-periodic":
-        raise InputError("numerics.contact_level = 'semi-periodic' needs contact.geometry = 'cylinder'; a flat contact is "
-                         "periodic both ways")
+        raise InputError(
+            "numerics.contact_level = 'semi-periodic' needs contact.geometry = 'cylinder'; a flat contact is "
+            "periodic both ways"
+        )
     if not flat and scene.numerics.contact_level == "flat":
         flat, surface = True, surface.periodic("mirror", axes=(True, False))
     heights = surface.heights - surface.heights.mean()
@@ -106,27 +108,46 @@ def _flat_patch(scene: Scene, heights, spacing) -> FlatPatch:
     heaviest = bodies.load / area * (BEYOND if numerics.closure == "separation" else 1.0)
     if contact.model == "half-space":
         operator = half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers)
-        curve = contact_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, hardness=bodies.hardness,
-                              tolerance=numerics.pressure_tolerance, accuracy=0.3 * numerics.tolerance, operator=operator)
+        curve = contact_curve(
+            heights,
+            spacing,
+            bodies.e_prime,
+            heaviest=heaviest,
+            hardness=bodies.hardness,
+            tolerance=numerics.pressure_tolerance,
+            accuracy=0.3 * numerics.tolerance,
+            operator=operator,
+        )
     else:
-        curve = asperity_curve(heights, spacing, bodies.e_prime, heaviest=heaviest, definition=contact.model,
-                               reading=contact.asperity_separation, hardness=bodies.hardness)
+        curve = asperity_curve(
+            heights,
+            spacing,
+            bodies.e_prime,
+            heaviest=heaviest,
+            definition=contact.model,
+            reading=contact.asperity_separation,
+            hardness=bodies.hardness,
+        )
     return _strip(scene, curve)
 
 
 def _strip(scene: Scene, curve) -> FlatPatch:
     """``curve`` under the Hertz strip of the scene's load."""
     half_width = scene.bodies.half_width
-    return FlatPatch(curve, centred_axis(STRIP_POINTS, 2 * half_width / STRIP_POINTS),
-                     2 * half_width * scene.bodies.width)
+    return FlatPatch(
+        curve, centred_axis(STRIP_POINTS, 2 * half_width / STRIP_POINTS), 2 * half_width * scene.bodies.width
+    )
 
 
 def _another(scene: Scene, like: Model) -> Model:
     """The model of another scene on the map, operator and curve of ``like``."""
     old = like.scene
-    for name, a, b in (("surface", scene.surface, old.surface), ("contact", scene.contact, old.contact),
-                       ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
-                       ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness)):
+    for name, a, b in (
+        ("surface", scene.surface, old.surface),
+        ("contact", scene.contact, old.contact),
+        ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
+        ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),
+    ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
     if not isinstance(like.patch, FlatPatch):
@@ -135,14 +156,16 @@ def _another(scene: Scene, like: Model) -> Model:
         return Model(scene, like.surface, _cylinder_patch(scene, like.patch.heights, like.patch.spacing, operator))
     pressure, heaviest = scene.bodies.mean_hertz_pressure, float(like.patch.curve.mean_pressure[0])
     if pressure > heaviest * (1 + 1e-9):
-        raise InputError(f"bodies.load = {scene.bodies.load:g} N needs {pressure:.4g} Pa of a contact curve that ends at "
-                         f"{heaviest:.4g} Pa; allowed: lighter loads, or prepare with the heaviest first")
+        raise InputError(
+            f"bodies.load = {scene.bodies.load:g} N needs {pressure:.4g} Pa of a contact curve that ends at "
+            f"{heaviest:.4g} Pa; allowed: lighter loads, or prepare with the heaviest first"
+        )
     if scene.numerics.tolerance < old.numerics.tolerance:
-        raise InputError(f"numerics.tolerance = {scene.numerics.tolerance:g} is tighter than that of the contact curve; "
-                         f"allowed: at least {old.numerics.tolerance:g}, or prepare again")
+        raise InputError(
+            f"numerics.tolerance = {scene.numerics.tolerance:g} is tighter than that of the contact curve; "
+            f"allowed: at least {old.numerics.tolerance:g}, or prepare again"
+        )
     return Model(scene, like.surface, _strip(scene, like.patch.curve))
-
-
 
 
 def _cylinder_patch(scene: Scene, heights, spacing, operator=None) -> CylinderPatch | AsperityPatch:
@@ -151,19 +174,39 @@ def _cylinder_patch(scene: Scene, heights, spacing, operator=None) -> CylinderPa
     weight = np.ones(x.size) if contact.region == "box" else strip_weight(x, spacing[0], bodies.half_width)
     if contact.model != "half-space":
         if numerics.film_deflection == "total":
-            raise InputError(f"contact.model = {contact.model!r} under a cylinder has no deflection for film_deflection = "
-                             "'total'; allowed: 'half-space'")
-        return AsperityPatch(heights, spacing, x, weight, bodies.e_prime, bodies.width, bodies.hardness, contact.model,
-                             contact.asperity_separation, numerics.pressure_tolerance)
+            raise InputError(
+                f"contact.model = {contact.model!r} under a cylinder has no deflection for film_deflection = "
+                "'total'; allowed: 'half-space'"
+            )
+        return AsperityPatch(
+            heights,
+            spacing,
+            x,
+            weight,
+            bodies.e_prime,
+            bodies.width,
+            bodies.hardness,
+            contact.model,
+            contact.asperity_separation,
+            numerics.pressure_tolerance,
+        )
     if operator is None:
         operator = half_space(heights.shape, spacing, bodies.e_prime, ("free", "periodic"), workers=numerics.workers)
-    return CylinderPatch(heights, spacing, x, weight, operator, bodies.width, bodies.hardness,
-                         numerics.pressure_tolerance)
+    return CylinderPatch(
+        heights, spacing, x, weight, operator, bodies.width, bodies.hardness, numerics.pressure_tolerance
+    )
 
 
-def friction(scene: Scene | Model, speed: float | None = None, *, start: FrictionResult | None = None,
-             tolerance: float | None = None, model: str | None = None, fields: bool = False,
-             raise_on_failure: bool = True) -> FrictionResult:
+def friction(
+    scene: Scene | Model,
+    speed: float | None = None,
+    *,
+    start: FrictionResult | None = None,
+    tolerance: float | None = None,
+    model: str | None = None,
+    fields: bool = False,
+    raise_on_failure: bool = True,
+) -> FrictionResult:
     """Friction coefficient of ``scene`` at an entrainment speed [m/s] (default: the scene's own).
 
     The film and the rough contact share the load so that F_T = F_C + F_H and the lubricant volume
@@ -193,8 +236,10 @@ def scene_of(scene: Scene | Model) -> Scene:
     if isinstance(scene, Model):
         return scene.scene
     if not isinstance(scene, Scene):
-        raise InputError(f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
-                         "lubfric.prepare returned")
+        raise InputError(
+            f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
+            "lubfric.prepare returned"
+        )
     return scene
 
 
@@ -215,15 +260,25 @@ def _result(model: Model, speed: float, balance: Balance, decision: Decision, be
     notes = (*balance.report.notes, decision.text, *cautions(scene, balance, found.shear))
     sq = model.surface.sq
     return FrictionResult(
-        speed=speed, coefficient=found.coefficient, contact_load=balance.contact_load,
-        film_load=balance.film_load, shear_force=found.shear.total, couette_force=found.shear.couette,
-        rolling_force=found.shear.rolling, boundary_force=found.boundary,
+        speed=speed,
+        coefficient=found.coefficient,
+        contact_load=balance.contact_load,
+        film_load=balance.film_load,
+        shear_force=found.shear.total,
+        couette_force=found.shear.couette,
+        rolling_force=found.shear.rolling,
+        boundary_force=found.boundary,
         real_contact_area_fraction=closure.real_contact_area_fraction,
         real_contact_area=float(closure.contact_fraction.sum() * (closure.x[1] - closure.x[0]) * scene.bodies.width),
         plastic_area_fraction=closure.plastic_area_fraction,
-        min_film=film.min_film if film is not None else math.nan, central_film=central,
+        min_film=film.min_film if film is not None else math.nan,
+        central_film=central,
         mean_gap=closure.mean_film if separated else closure.mean_gap,
         film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
         load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
-        volume_residual=0.0 if film is None or separated else closure.volume_residual, seconds=time.perf_counter() - begun,
-        report=replace(balance.report, notes=notes), balance=balance, decision=decision)
+        volume_residual=0.0 if film is None or separated else closure.volume_residual,
+        seconds=time.perf_counter() - begun,
+        report=replace(balance.report, notes=notes),
+        balance=balance,
+        decision=decision,
+    )

@@ -16,20 +16,40 @@ from .scene import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
-UNITS = {"speed": "m/s", "real_contact_area": "m2", "contact_load": "N", "film_load": "N", "shear_force": "N", "couette_force": "N",
-         "rolling_force": "N", "boundary_force": "N", "min_film": "m", "central_film": "m", "mean_gap": "m",
-         "seconds": "s"}
+UNITS = {
+    "speed": "m/s",
+    "real_contact_area": "m2",
+    "contact_load": "N",
+    "film_load": "N",
+    "shear_force": "N",
+    "couette_force": "N",
+    "rolling_force": "N",
+    "boundary_force": "N",
+    "min_film": "m",
+    "central_film": "m",
+    "mean_gap": "m",
+    "seconds": "s",
+}
 
 
 def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) -> None:
     """The record of a run: resolved input, versions, seed, timings, numbers and reports."""
     import scipy
+
     record = {
         "scene": scene_as_dict(model.scene),
-        "surface": {"shape": model.surface.heights.shape, "spacing": model.surface.spacing,
-                    "statistics": _statistics(model.surface), "notes": list(model.surface.notes)},
-        "versions": {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__,
-                     "python": platform.python_version()},
+        "surface": {
+            "shape": model.surface.heights.shape,
+            "spacing": model.surface.spacing,
+            "statistics": _statistics(model.surface),
+            "notes": list(model.surface.notes),
+        },
+        "versions": {
+            "lubfric": __version__,
+            "numpy": np.__version__,
+            "scipy": scipy.__version__,
+            "python": platform.python_version(),
+        },
         "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
@@ -56,22 +76,34 @@ def read_csv(path: Path) -> dict[str, np.ndarray]:
 
 def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None:
     """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
-    arrays = {"speed": np.array([p.speed for p in points]), "heights": model.surface.heights,
-              "spacing": np.array(model.surface.spacing), "contact_x": model.patch.x}
+    arrays = {
+        "speed": np.array([p.speed for p in points]),
+        "heights": model.surface.heights,
+        "spacing": np.array(model.surface.spacing),
+        "contact_x": model.patch.x,
+    }
     for i, point in enumerate(points):
         film, contact = point.balance.film, point.balance.closure.contact
         if film is not None:
-            arrays |= {f"film_x_{i}": film.x, f"film_thickness_{i}": film.film_thickness,
-                       f"film_pressure_{i}": film.pressure}
+            arrays |= {
+                f"film_x_{i}": film.x,
+                f"film_thickness_{i}": film.film_thickness,
+                f"film_pressure_{i}": film.pressure,
+            }
         if contact is not None:
             arrays |= {f"contact_pressure_{i}": contact.pressure, f"gap_{i}": contact.gap}
     np.savez_compressed(path, **arrays)
 
 
 def _statistics(surface) -> dict:
-    return {"sq": surface.sq, "sa": surface.sa, "ssk": surface.ssk, "sku": surface.sku,
-            "rms_slope": dict(zip(("x", "y", "total"), rms_slope(surface))),
-            "missing_fraction": surface.missing_fraction}
+    return {
+        "sq": surface.sq,
+        "sa": surface.sa,
+        "ssk": surface.ssk,
+        "sku": surface.sku,
+        "rms_slope": dict(zip(("x", "y", "total"), rms_slope(surface))),
+        "missing_fraction": surface.missing_fraction,
+    }
 
 
 def _point(curve: StribeckResult, index: int) -> dict:

@@ -12,6 +12,7 @@ BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 def _figure(*args, **kwargs):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+
     figure = Figure(*args, layout="constrained", **kwargs)
     FigureCanvasAgg(figure)
     return figure
@@ -23,6 +24,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
     """
     from matplotlib.ticker import LogLocator, NullFormatter
+
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {k: v[order] for k, v in columns.items()}
@@ -77,13 +79,25 @@ def plot_contact(path: Path, model, point) -> None:
 
 def _pressure_map(figure, axes, model, contact, row) -> None:
     if contact is None:
-        axes.text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", ha="center", va="center",
-                  transform=axes.transAxes)
+        axes.text(
+            0.5,
+            0.5,
+            "no dry contact field\n(separated, or read from a contact curve)",
+            ha="center",
+            va="center",
+            transform=axes.transAxes,
+        )
         axes.set_axis_off()
         return
     x, (_, dy), half_width = model.patch.x, model.surface.spacing, model.scene.bodies.half_width
-    image = axes.imshow(contact.pressure.T / 1e9, origin="lower", aspect="auto", cmap="magma_r", vmin=0,
-                        extent=(x[0] * 1e6, x[-1] * 1e6, 0, contact.pressure.shape[1] * dy * 1e6))
+    image = axes.imshow(
+        contact.pressure.T / 1e9,
+        origin="lower",
+        aspect="auto",
+        cmap="magma_r",
+        vmin=0,
+        extent=(x[0] * 1e6, x[-1] * 1e6, 0, contact.pressure.shape[1] * dy * 1e6),
+    )
     figure.colorbar(image, ax=axes, label="contact pressure (GPa)")
     for edge in (-half_width, half_width):
         axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
@@ -101,7 +115,11 @@ def _section(axes, x, surface, balance, row) -> None:
         gauge = deflection.mean()
         axes.plot(micro, (surface - deflection + gauge) * 1e9, color=GREY, lw=1, label="surface, deformed")
         # gap + deformed surface is what the surface is pressed under
-        axes.plot(micro, (contact.gap[:, row] + surface - deflection + gauge) * 1e9, color=RED,
-                  label="separation $h_s$ = h − ε")
+        axes.plot(
+            micro,
+            (contact.gap[:, row] + surface - deflection + gauge) * 1e9,
+            color=RED,
+            label="separation $h_s$ = h − ε",
+        )
     axes.set(xlabel="x (µm)", ylabel="height (nm)")
     axes.legend(frameon=False, fontsize=8)

@@ -58,8 +58,10 @@ class Report:
     @property
     def message(self) -> str:
         """One line: what happened, how far it got, and what to do about it."""
-        text = (f"{self.solver}: {self.status} after {self.iterations} iterations, "
-                f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})")
+        text = (
+            f"{self.solver}: {self.status} after {self.iterations} iterations, "
+            f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
+        )
         return f"{text}; {ADVICE[self.status]}" if ADVICE[self.status] else text
 
     def raise_if_failed(self, result=None) -> None:

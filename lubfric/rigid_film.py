@@ -16,9 +16,9 @@ from .analytic import rigid
 from .lubricant import Lubricant, log_viscosity_ratio, viscosity
 from .report import CONVERGED, Report
 
-INLET, OUTLET = 30.0, 6.0      # ends of the nodes, in units of sqrt(2 R h0)
-CELLS = 256                    # before rupture, even in arsinh(x/sqrt(2 R h0))
-TABLE = 4000                   # points of q(p), up to alpha p = FARTHEST
+INLET, OUTLET = 30.0, 6.0  # ends of the nodes, in units of sqrt(2 R h0)
+CELLS = 256  # before rupture, even in arsinh(x/sqrt(2 R h0))
+TABLE = 4000  # points of q(p), up to alpha p = FARTHEST
 FARTHEST = 1e4
 
 
@@ -58,9 +58,15 @@ def isoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubri
 
     load_per_width [N/m], radius [m], e_prime [Pa] (kept, not used), entrainment_speed [m/s], not 0.
     """
-    h0 = rigid.isoviscous_min_film(load_per_width=load_per_width, radius=radius,
-                                   entrainment_speed=abs(entrainment_speed), viscosity=lubricant.viscosity)
-    return _film(h0, np.positive, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film")
+    h0 = rigid.isoviscous_min_film(
+        load_per_width=load_per_width,
+        radius=radius,
+        entrainment_speed=abs(entrainment_speed),
+        viscosity=lubricant.viscosity,
+    )
+    return _film(
+        h0, np.positive, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film"
+    )
 
 
 def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
@@ -69,6 +75,7 @@ def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lub
     ln h0 is the root of ∫ p dx = load_per_width, to 1e-9. A Barus film carries any load at h0 above Blok's limit.
     """
     from scipy.optimize import brentq
+
     given = dict(load_per_width=load_per_width, radius=radius, entrainment_speed=abs(entrainment_speed))
     thinnest = rigid.isoviscous_min_film(viscosity=lubricant.viscosity, **given)
     if lubricant.viscosity_law == "constant":
@@ -80,8 +87,11 @@ def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lub
         def surplus(log_h0):
             h0 = math.exp(log_h0)
             x = math.sqrt(2 * radius * h0) * nodes
-            p = law(rigid.pressure(x, h0, radius=radius, entrainment_speed=abs(entrainment_speed),
-                                   viscosity=lubricant.viscosity))
+            p = law(
+                rigid.pressure(
+                    x, h0, radius=radius, entrainment_speed=abs(entrainment_speed), viscosity=lubricant.viscosity
+                )
+            )
             carried = np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0]
             return math.log(carried / load_per_width) if math.isfinite(carried) else 1e3
 
@@ -97,14 +107,16 @@ def true_pressure(lubricant: Lubricant):
     """p(q) [Pa] of the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest q there is."""
     alpha = lubricant.pressure_viscosity_coefficient
     if lubricant.viscosity_law == "barus":
+
         def barus(q):
             with np.errstate(divide="ignore"):
                 return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
+
         return barus
     p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
     fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
     q = np.concatenate([[0.0], np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p))])
-    ratio = np.append(1.0, p[1:] / q[1:])                     # smooth where q is small
+    ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small
     return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)
 
 
@@ -119,10 +131,21 @@ def _film(h0, law, load, radius, e_prime, speed, lubricant, solver) -> RigidFilm
     order = slice(None) if sign > 0 else slice(None, None, -1)
     carried = float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0])
     residual = abs(carried / load - 1)
-    with np.errstate(over="ignore"):               # far above its range: infinite beyond e^709, as in an EHLResult
+    with np.errstate(over="ignore"):  # far above its range: infinite beyond e^709, as in an EHLResult
         eta = viscosity(lubricant, p)[order]
     report = Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual})
-    return RigidFilm(x=(sign * x)[order], pressure=p[order], film_thickness=(h0 + x**2 / (2 * radius))[order],
-                     viscosity=eta, min_film=h0, central_film=h0,
-                     flow_film=constants.flow_film_ratio * h0, rupture=sign * scale * constants.rupture, load=load,
-                     radius=radius, e_prime=e_prime, entrainment_speed=speed, report=report)
+    return RigidFilm(
+        x=(sign * x)[order],
+        pressure=p[order],
+        film_thickness=(h0 + x**2 / (2 * radius))[order],
+        viscosity=eta,
+        min_film=h0,
+        central_film=h0,
+        flow_film=constants.flow_film_ratio * h0,
+        rupture=sign * scale * constants.rupture,
+        load=load,
+        radius=radius,
+        e_prime=e_prime,
+        entrainment_speed=speed,
+        report=report,
+    )

@@ -18,8 +18,16 @@ class Root:
     status: str
 
 
-def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float], tolerance: float,
-                    slope: float | None = None, max_evaluations: int = 60) -> Root:
+def increasing_root(
+    f,
+    guess: float,
+    *,
+    step: float,
+    bounds: tuple[float, float],
+    tolerance: float,
+    slope: float | None = None,
+    max_evaluations: int = 60,
+) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
     ``f(x)`` returns (value, payload); stops when |value| <= tolerance. The bracket grows by
@@ -63,7 +71,7 @@ def increasing_root(f, guess: float, *, step: float, bounds: tuple[float, float]
     fraction, c = _secant(a, b), None
     while True:
         x = a[0] + fraction * (b[0] - a[0])
-        if x in (a[0], b[0]):                  # the bracket is down to rounding, and f still jumps in it
+        if x in (a[0], b[0]):  # the bracket is down to rounding, and f still jumps in it
             return _root(best, history, tolerance)
         point = (x, evaluate(x))
         if done():
@@ -90,8 +98,9 @@ def _next_fraction(a, b, c) -> float:
     phi = (a[1] - b[1]) / (c[1] - b[1])
     if not (phi**2 < xi and (1 - phi) ** 2 < 1 - xi):
         return 0.5
-    t = (a[1] / (b[1] - a[1]) * c[1] / (b[1] - c[1])
-         + (c[0] - a[0]) / (b[0] - a[0]) * a[1] / (c[1] - a[1]) * b[1] / (c[1] - b[1]))
+    t = a[1] / (b[1] - a[1]) * c[1] / (b[1] - c[1]) + (c[0] - a[0]) / (b[0] - a[0]) * a[1] / (c[1] - a[1]) * b[1] / (
+        c[1] - b[1]
+    )
     return min(max(t, 1e-3), 1 - 1e-3)
 
 

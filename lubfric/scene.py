@@ -15,12 +15,14 @@ from .surface.table import DECIMALS
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
-SHORT_FORMS = {                       # of scene files, and the fields that stand for them
+SHORT_FORMS = {  # of scene files, and the fields that stand for them
     "surface_speeds": "entrainment_speed = (u1 + u2)/2 and slide_roll_ratio = 2 (u2 - u1)/(u1 + u2)",
-    "speed_range": "speeds", "sliding_speed": "slide_roll_ratio, or sliding of the transient",
+    "speed_range": "speeds",
+    "sliding_speed": "slide_roll_ratio, or sliding of the transient",
     "young_modulus": "e_prime, see lubfric.analytic.hertz.composite_modulus",
-    "poisson_ratio": "e_prime, see lubfric.analytic.hertz.composite_modulus"}
-LARGEST = 2**26        # cells of a contact grid
+    "poisson_ratio": "e_prime, see lubfric.analytic.hertz.composite_modulus",
+}
+LARGEST = 2**26  # cells of a contact grid
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
@@ -53,13 +55,14 @@ class Bodies:
         validate.positive("bodies.width", self.width, "m")
         validate.positive("bodies.load", self.load, "N")
         validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
-        validate.nonnegative("bodies.boundary_friction_coefficient",
-                             self.boundary_friction_coefficient, "(-)")
+        validate.nonnegative("bodies.boundary_friction_coefficient", self.boundary_friction_coefficient, "(-)")
         if self.hardness is not None:
             validate.positive("bodies.hardness", self.hardness, "Pa")
             if self.mean_hertz_pressure >= self.hardness:
-                raise InputError(f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
-                                 f"{self.hardness * 2 * self.half_width * self.width:g} N")
+                raise InputError(
+                    f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
+                    f"{self.hardness * 2 * self.half_width * self.width:g} N"
+                )
 
     @property
     def half_width(self) -> float:
@@ -205,16 +208,22 @@ class Numerics:
     grid: str = "auto"
 
     def __post_init__(self):
-        for name, options in (("model", MODELS), ("film_level", FILM_LEVELS), ("contact_level", CONTACT_LEVELS),
-                              ("grid", GRIDS)):
+        for name, options in (
+            ("model", MODELS),
+            ("film_level", FILM_LEVELS),
+            ("contact_level", CONTACT_LEVELS),
+            ("grid", GRIDS),
+        ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
         validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
         if self.film_deflection == "total":
             for name, allowed in (("closure", ("load",)), ("film_level", ("auto", "none", "ehl"))):
                 if getattr(self, name) not in allowed:
-                    raise InputError(f"numerics.{name} = {getattr(self, name)!r} does not go with film_deflection = 'total'; "
-                                     f"allowed: {', '.join(map(repr, allowed))}")
+                    raise InputError(
+                        f"numerics.{name} = {getattr(self, name)!r} does not go with film_deflection = 'total'; "
+                        f"allowed: {', '.join(map(repr, allowed))}"
+                    )
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
@@ -263,8 +272,9 @@ class Scene:
         changed = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
-                raise InputError(f"scene has no section {section!r}"
-                                 f"{validate.nearest(section, self.__dataclass_fields__)}")
+                raise InputError(
+                    f"scene has no section {section!r}{validate.nearest(section, self.__dataclass_fields__)}"
+                )
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
 
@@ -280,7 +290,9 @@ def _changed(section: str, old, values):
         raise InputError(f"{section} = {shown}; allowed: {by_field}a {kind.__name__}")
     for key in values:
         if key not in old.__dataclass_fields__:
-            hint = f": give {SHORT_FORMS[key]}" if key in SHORT_FORMS else validate.nearest(key, old.__dataclass_fields__)
+            hint = (
+                f": give {SHORT_FORMS[key]}" if key in SHORT_FORMS else validate.nearest(key, old.__dataclass_fields__)
+            )
             raise InputError(f"{section} has no field {key!r}{hint}; allowed: {', '.join(old.__dataclass_fields__)}")
     return replace(old, **values)
 

@@ -17,13 +17,28 @@ from .history.read import history
 from .lubricant import Lubricant
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 
-SECTIONS = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion, "surface": Roughness,
-            "contact": Patch, "numerics": Numerics, "transient": Transient}
-EXTRA_KEYS = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range", "sliding_speed")}
+SECTIONS = {
+    "bodies": Bodies,
+    "lubricant": Lubricant,
+    "motion": Motion,
+    "surface": Roughness,
+    "contact": Patch,
+    "numerics": Numerics,
+    "transient": Transient,
+}
+EXTRA_KEYS = {
+    "bodies": ("young_modulus", "poisson_ratio"),
+    "motion": ("surface_speeds", "speed_range", "sliding_speed"),
+}
 OPTIONAL = ("contact", "numerics", "transient")
 GENERATED = ("sq", "correlation_length", "acf", "decay_level", "seed", "oversize")
-HISTORIES = {"speed": ("motion", "entrainment_speed"), "sliding": ("motion", "sliding_speed"), "load": ("bodies", "load"),
-             "radius": ("bodies", "radius"), "viscosity": ("lubricant", "viscosity")}
+HISTORIES = {
+    "speed": ("motion", "entrainment_speed"),
+    "sliding": ("motion", "sliding_speed"),
+    "load": ("bodies", "load"),
+    "radius": ("bodies", "radius"),
+    "viscosity": ("lubricant", "viscosity"),
+}
 
 
 def load_scene(source, *, surface_file=None) -> Scene:
@@ -39,7 +54,9 @@ def load_scene(source, *, surface_file=None) -> Scene:
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"scene {source} is not valid TOML: {error} (numbers have a decimal point and no unit)") from None
+        raise InputError(
+            f"scene {source} is not valid TOML: {error} (numbers have a decimal point and no unit)"
+        ) from None
     if surface_file is not None:
         _put_surface(table, Path(surface_file))
     return scene_from_table(table, folder, name)
@@ -112,8 +129,10 @@ def _text(source) -> tuple[str, Path, str]:
         return (resources.files("lubfric") / "scenes" / f"{source}.toml").read_text(), Path(), str(source)
     path = Path(source)
     if not path.is_file():
-        raise InputError(f"scene {str(source)!r} is neither a file nor a built-in scene"
-                         f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}")
+        raise InputError(
+            f"scene {str(source)!r} is neither a file nor a built-in scene"
+            f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"
+        )
     try:
         return path.read_text(encoding="utf-8-sig"), path.parent, path.stem
     except (UnicodeDecodeError, OSError) as error:
@@ -123,8 +142,9 @@ def _text(source) -> tuple[str, Path, str]:
 def _known(where: str, table: dict, allowed) -> None:
     for key in table:
         if key not in allowed:
-            raise InputError(f"unknown key {key!r} in {where}{validate.nearest(key, allowed)}; "
-                             f"allowed: {', '.join(allowed)}")
+            raise InputError(
+                f"unknown key {key!r} in {where}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
+            )
 
 
 def _build(section: str, table: dict):

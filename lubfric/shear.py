@@ -29,8 +29,9 @@ class ShearForce:
         return self.couette + self.rolling
 
 
-def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius, width, contact_fraction,
-                cavitated="none") -> ShearForce:
+def shear_force(
+    film, lubricant, *, entrainment_speed, slide_roll_ratio, radius, width, contact_fraction, cavitated="none"
+) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
     ``film`` is an `EHLResult` (x, pressure, film_thickness); ``contact_fraction(x)``, for nodes x (n,) [m], is the
@@ -42,7 +43,7 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
     """
     direction = math.copysign(1.0, entrainment_speed)
     sliding = slide_roll_ratio * abs(entrainment_speed)
-    x = film.x * direction                                    # run downstream
+    x = film.x * direction  # run downstream
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
@@ -50,7 +51,7 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
     rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet)
     tau = shear_stress(lubricant, p, sliding / h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
-    full = x[:-1] < film.rupture * direction               # the rupture point is a node
+    full = x[:-1] < film.rupture * direction  # the rupture point is a node
     couette = np.sum(face_tau[full])
     middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
@@ -68,7 +69,7 @@ def shear_force(film, lubricant, *, entrainment_speed, slide_roll_ratio, radius,
 def _spike(x, tau) -> float:
     """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum over
     every second node, which a spike makes larger than the error by that or more."""
-    second = (x[::2], tau[::2]), (x[:2 * ((x.size + 1) // 2) - 1], tau[:2 * ((x.size + 1) // 2) - 1])
+    second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
     coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
     return abs(coarse - fine) / 24
 

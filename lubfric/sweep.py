@@ -46,8 +46,17 @@ class StribeckResult:
     report: Report
 
 
-def stribeck(scene: Scene | Model, speeds=None, executor=None, *, tolerance: float | None = None, model: str | None = None,
-             fields=False, on_point=None, raise_on_failure: bool = True) -> StribeckResult:
+def stribeck(
+    scene: Scene | Model,
+    speeds=None,
+    executor=None,
+    *,
+    tolerance: float | None = None,
+    model: str | None = None,
+    fields=False,
+    on_point=None,
+    raise_on_failure: bool = True,
+) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
@@ -92,7 +101,7 @@ def _run(model, cases, fields):
     for index, speed in cases:
         try:
             start = friction(model, speed, start=start, fields=speed in fields)
-        except Exception as error:              # kept in ``errors``; raised once every point is done
+        except Exception as error:  # kept in ``errors``; raised once every point is done
             start = None
             yield index, error
         else:
@@ -106,12 +115,14 @@ def _run_list(model, cases, fields):
 
 def _spread(executor, model, speeds, runs, fields, keep) -> None:
     from concurrent.futures import as_completed
-    futures = {executor.submit(_run_list, model, [(int(i), float(speeds[i])) for i in run], fields): run
-               for run in runs}
+
+    futures = {
+        executor.submit(_run_list, model, [(int(i), float(speeds[i])) for i in run], fields): run for run in runs
+    }
     for future in as_completed(futures):
         try:
             keep(future.result())
-        except Exception as error:          # a lost worker fails its own speeds, not the sweep
+        except Exception as error:  # a lost worker fails its own speeds, not the sweep
             keep([(int(i), error) for i in futures[future]])
 
 

@@ -10,8 +10,9 @@ import numpy as np
 from .errors import InputError
 
 
-def number(name: str, value, unit: str, *, above: float = -math.inf, minimum: float = -math.inf,
-           maximum: float = math.inf) -> float:
+def number(
+    name: str, value, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
+) -> float:
     """A finite real number with ``above < value``, ``minimum <= value <= maximum``."""
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
     allowed = f"allowed: a finite number in {low}, {maximum:g}{')' if math.isinf(maximum) else ']'} {unit}"
@@ -49,15 +50,18 @@ def array(name: str, value, unit: str, *, ndim: int) -> np.ndarray:
         a = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         hint = f"; allowed: its .heights [{unit}]" if hasattr(value, "heights") else ""
-        raise InputError(f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}") from None
+        raise InputError(
+            f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}"
+        ) from None
     if a.ndim != ndim:
         raise InputError(f"{name} has {a.ndim} axes (shape {a.shape}); allowed: exactly {ndim} [{unit}]")
     if a.size == 0:
         raise InputError(f"{name} is empty (shape {a.shape}); allowed: at least one value [{unit}]")
     bad = a.size - np.count_nonzero(np.isfinite(a))
     if bad:
-        raise InputError(f"{name} has {bad} of {a.size} values that are NaN or infinite; "
-                         f"allowed: finite values in {unit}")
+        raise InputError(
+            f"{name} has {bad} of {a.size} values that are NaN or infinite; allowed: finite values in {unit}"
+        )
     return a
 
 
@@ -65,8 +69,9 @@ def choice(name: str, value, options) -> str:
     """One of ``options``; the error names the nearest valid one."""
     if value in options:
         return value
-    raise InputError(f"{name} = {value!r} is not known{nearest(value, options)}; "
-                     f"allowed: {', '.join(map(repr, options))}")
+    raise InputError(
+        f"{name} = {value!r} is not known{nearest(value, options)}; allowed: {', '.join(map(repr, options))}"
+    )
 
 
 def nearest(word, options) -> str:

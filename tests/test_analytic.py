@@ -15,8 +15,7 @@ OIL = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_
 def test_composite_modulus_convention():
     assert hertz.composite_modulus(210e9, 0.3, 210e9, 0.3) == pytest.approx(210e9 / 0.91)
     assert hertz.composite_modulus(210e9, 0.3, math.inf, 0.3) == pytest.approx(2 * 210e9 / 0.91)
-    for bad in [(0, 0.3, 1e9, 0.3), (1e9, 0.6, 1e9, 0.3), (1e9, math.nan, 1e9, 0.3),
-                (math.inf, 0.3, math.inf, 0.3)]:
+    for bad in [(0, 0.3, 1e9, 0.3), (1e9, 0.6, 1e9, 0.3), (1e9, math.nan, 1e9, 0.3), (math.inf, 0.3, math.inf, 0.3)]:
         with pytest.raises(InputError):
             hertz.composite_modulus(*bad)
 
@@ -36,9 +35,11 @@ def test_line_hertz_carries_its_load_and_closes_its_gap():
 
     def displacement(x):
         """u(x) - u(0) of the line kernel; x = b sin(t) removes the root from the pressure."""
+
         def integrand(t):
             source = b * math.sin(t)
             return -math.log(abs((x - source) / source)) * math.cos(t) ** 2
+
         points = [0.0] + ([math.asin(x / b)] if abs(x) < b else [])
         value = integrate.quad(integrand, -math.pi / 2, math.pi / 2, points=points, limit=400)[0]
         return 4 / (math.pi * e_prime) * hertz.line_peak_pressure(w, radius, e_prime) * b * value
@@ -117,7 +118,7 @@ def test_rigid_pressure_satisfies_reynolds_and_gives_the_constants():
     x = np.linspace(-2, c.rupture, 400_001)[1:-1] * scale
     p = rigid.pressure(x, h0, **args)
     h = h0 + x**2 / (2 * radius)
-    flux = -h**3 / (12 * eta) * np.gradient(p, x) + speed * h
+    flux = -(h**3) / (12 * eta) * np.gradient(p, x) + speed * h
     assert np.allclose(flux[2:-2], speed * c.flow_film_ratio * h0, rtol=1e-6)
     assert rigid.pressure(2 * scale, h0, **args) == 0
 
@@ -127,7 +128,7 @@ def test_rigid_pressure_satisfies_reynolds_and_gives_the_constants():
     ends = -math.pi / 2, math.atan(c.rupture)
     load = integrate.quad(lambda t: pressure(t) * scale / math.cos(t) ** 2, *ends)[0]
     assert rigid.isoviscous_min_film(load_per_width=load, **args) == pytest.approx(h0, rel=1e-7)
-    rolling = -integrate.quad(lambda t: pressure(t) * h0 * math.tan(t) / math.cos(t) ** 2, *ends)[0]   # -1/2 p dh
+    rolling = -integrate.quad(lambda t: pressure(t) * h0 * math.tan(t) / math.cos(t) ** 2, *ends)[0]  # -1/2 p dh
     assert rolling == pytest.approx(rigid.rolling_friction(h0, **args), rel=1e-6)
     couette = integrate.quad(lambda s: eta * 0.3 / (h0 + s**2 / (2 * radius)), -math.inf, c.rupture * scale)[0]
     expected = rigid.couette_friction(h0, radius=radius, speed_difference=0.3, viscosity=eta)
@@ -136,8 +137,9 @@ def test_rigid_pressure_satisfies_reynolds_and_gives_the_constants():
 
 def test_piezoviscous_limit_is_where_the_reduced_pressure_reaches_one_over_alpha():
     radius, speed, eta, alpha = 1e-2, 0.5, 0.05, 2e-8
-    h0 = rigid.piezoviscous_min_film(radius=radius, entrainment_speed=speed, viscosity=eta,
-                                     pressure_viscosity_coefficient=alpha)
+    h0 = rigid.piezoviscous_min_film(
+        radius=radius, entrainment_speed=speed, viscosity=eta, pressure_viscosity_coefficient=alpha
+    )
     x = np.linspace(-1, 0, 200_001) * math.sqrt(2 * radius * h0)
     q = rigid.pressure(x, h0, radius=radius, entrainment_speed=speed, viscosity=eta)
     assert q.max() == pytest.approx(1 / alpha, rel=1e-9)
@@ -150,12 +152,13 @@ def test_squeeze_film_sinks_at_the_speed_of_the_squeeze_load():
     speed = -(h[2] - h[0]) / (2 * dt)
     assert rigid.squeeze_load(h[1], approach_speed=speed, **args) == pytest.approx(1e4, rel=1e-6)
     x = math.sqrt(2e-2 * h[1]) * np.linspace(-300, 300, 600_001)
-    pressure = 6 * 0.05 * speed * 1e-2 / (h[1] + x**2 / 2e-2) ** 2     # integrates d/dx(h^3 p'/12 eta) = -V
+    pressure = 6 * 0.05 * speed * 1e-2 / (h[1] + x**2 / 2e-2) ** 2  # integrates d/dx(h^3 p'/12 eta) = -V
     assert integrate.trapezoid(pressure, x) == pytest.approx(1e4, rel=1e-5)
 
 
-@pytest.mark.parametrize("film_over_contact, constant",
-                         [(1e-1, 1.2487), (1e-2, 1.2943), (1e-3, 1.3071), (1e-4, 1.3102), (1e-5, 1.3109)])
+@pytest.mark.parametrize(
+    "film_over_contact, constant", [(1e-1, 1.2487), (1e-2, 1.2943), (1e-3, 1.3071), (1e-4, 1.3102), (1e-5, 1.3109)]
+)
 def test_grubin_inlet_constant(film_over_contact, constant):
     assert grubin.inlet_constant(film_over_contact) == pytest.approx(constant, abs=5.1e-5)
 
@@ -164,6 +167,7 @@ def test_grubin_integral_against_adaptive_quadrature():
     def integrand(x):
         gap = 0.5 * (x * math.sqrt(x * x - 1) - math.acosh(x))
         return gap / (0.03 + gap) ** 3
+
     value = integrate.quad(integrand, 1, 3, limit=400)[0] + integrate.quad(integrand, 3, math.inf)[0]
     assert grubin._inlet_integral(0.03) == pytest.approx(value, rel=1e-8)
 
@@ -175,8 +179,9 @@ def test_grubin_film_solves_its_own_inlet_equation():
         assert h == pytest.approx(c * m**-0.125 * l**0.75, rel=1e-10)
 
 
-@pytest.mark.parametrize("m, l, flow", [(5, 5, 4.082), (10, 5, 3.744), (20, 5, 3.423), (100, 5, 2.758),
-                                        (10, 10, 5.491), (50, 10, 4.587)])
+@pytest.mark.parametrize(
+    "m, l, flow", [(5, 5, 4.082), (10, 5, 3.744), (20, 5, 3.423), (100, 5, 2.758), (10, 10, 5.491), (50, 10, 4.587)]
+)
 def test_moes_formula_near_converged_flow_films(m, l, flow):
     assert film.moes_film(m, l) == pytest.approx(flow, rel=0.05)
 
@@ -203,8 +208,11 @@ def test_fitted_formulas_near_converged_solutions():
     """M = 20, L = 5, compressible: H_min 2.568, H(0) 3.084; the fits lie within 13 %."""
     w, speed = film.load_and_speed(20.0, 5.0, **OIL)
     args = dict(load_per_width=w, entrainment_speed=speed, **OIL)
-    unit = OIL["radius"] * math.sqrt(film.speed_number(radius=OIL["radius"], e_prime=OIL["e_prime"],
-                                                       entrainment_speed=speed, viscosity=OIL["viscosity"]))
+    unit = OIL["radius"] * math.sqrt(
+        film.speed_number(
+            radius=OIL["radius"], e_prime=OIL["e_prime"], entrainment_speed=speed, viscosity=OIL["viscosity"]
+        )
+    )
     assert film.dowson_higginson_min_film(**args) / unit == pytest.approx(2.568, rel=0.1)
     assert film.dowson_toyoda_central_film(**args) / unit == pytest.approx(3.084, rel=0.13)
     assert film.moes_flow_film(**args) / unit == pytest.approx(film.moes_film(20.0, 5.0))

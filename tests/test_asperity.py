@@ -24,8 +24,7 @@ def paraboloids(pitch, count=1, radius=RADIUS, height=500e-9, step=STEP):
 
 
 def rough_contact(definition, separation, heights=ROUGH.heights, **changes):
-    return asperity_contact(heights, ROUGH.spacing, E_PRIME, separation=separation, definition=definition,
-                            **changes)
+    return asperity_contact(heights, ROUGH.spacing, E_PRIME, separation=separation, definition=definition, **changes)
 
 
 @pytest.mark.parametrize("definition, tolerance", [("summits", 1e-10), ("patches", 0.01)])
@@ -44,25 +43,33 @@ def test_patch_radius_converges_with_the_grid():
     """The base area is a count of cells: its error falls about as the cell size."""
     errors = []
     for step in (200e-9, 50e-9, 12.5e-9):
-        shifts = [asperity_contact(paraboloids(6e-6, step=step) + 0.0, step, E_PRIME, separation=s,
-                                   definition="patches").radii[0] / RADIUS - 1
-                  for s in np.linspace(430e-9, 460e-9, 16)]
+        shifts = [
+            asperity_contact(
+                paraboloids(6e-6, step=step) + 0.0, step, E_PRIME, separation=s, definition="patches"
+            ).radii[0]
+            / RADIUS
+            - 1
+            for s in np.linspace(430e-9, 460e-9, 16)
+        ]
         errors.append(np.sqrt(np.mean(np.square(shifts))))
     assert errors[0] > 3 * errors[1] > 9 * errors[2]
 
 
 @pytest.mark.parametrize("definition", DEFINITIONS)
 def test_load_per_asperity_does_not_depend_on_spacing(definition):
-    loads = [asperity_contact(paraboloids(pitch, 2), STEP, E_PRIME, separation=480e-9, definition=definition)
-             for pitch in (14e-6, 20e-6, 30e-6, 40e-6)]
+    loads = [
+        asperity_contact(paraboloids(pitch, 2), STEP, E_PRIME, separation=480e-9, definition=definition)
+        for pitch in (14e-6, 20e-6, 30e-6, 40e-6)
+    ]
     assert [r.contacts for r in loads] == [4] * 4
     assert np.ptp([r.load / r.contacts for r in loads]) < 1e-9 * loads[0].load
 
 
 def test_definitions_agree_on_separate_summits_at_small_overlap():
     heights = paraboloids(4e-6, 3, step=12.5e-9)
-    summits, patches = (asperity_contact(heights, 12.5e-9, E_PRIME, separation=490e-9, definition=d)
-                        for d in DEFINITIONS)
+    summits, patches = (
+        asperity_contact(heights, 12.5e-9, E_PRIME, separation=490e-9, definition=d) for d in DEFINITIONS
+    )
     assert patches.contacts == summits.contacts == 9
     assert patches.load == pytest.approx(summits.load, rel=0.01)
 
@@ -97,8 +104,7 @@ def test_similarity(definition):
     """Heights x h and lengths x l: F ~ E' l h, area ~ l^2."""
     h, length = 3.0, 0.5
     a = rough_contact(definition, 100e-9)
-    b = asperity_contact(ROUGH.heights * h, 1e-6 * length, E_PRIME, separation=100e-9 * h,
-                         definition=definition)
+    b = asperity_contact(ROUGH.heights * h, 1e-6 * length, E_PRIME, separation=100e-9 * h, definition=definition)
     assert b.load == pytest.approx(a.load * length * h)
     assert b.contact_area == pytest.approx(a.contact_area * length**2)
 
@@ -116,14 +122,19 @@ def test_a_separation_that_varies_in_space(definition):
 def test_hardness_cuts_the_hertz_pressure_off():
     """Against quadrature of min(p, P_u) over the contact; far below the hardness nothing changes."""
     from scipy import integrate
+
     hardness, delta = 2e9, 60e-9
     result = asperity_contact(paraboloids(14e-6), STEP, E_PRIME, separation=440e-9, hardness=hardness)
     force = hertz.point_load(delta, RADIUS, E_PRIME)
     a = hertz.point_radius(force, RADIUS, E_PRIME)
     peak = hertz.point_peak_pressure(force, RADIUS, E_PRIME)
     assert peak > 1.5 * hardness
-    cut = integrate.quad(lambda r: r * min(hertz.point_pressure(r, force, RADIUS, E_PRIME), hardness),
-                         0, a, points=[a * math.sqrt(1 - (hardness / peak) ** 2)])[0]
+    cut = integrate.quad(
+        lambda r: r * min(hertz.point_pressure(r, force, RADIUS, E_PRIME), hardness),
+        0,
+        a,
+        points=[a * math.sqrt(1 - (hardness / peak) ** 2)],
+    )[0]
     assert result.load == pytest.approx(2 * math.pi * cut, rel=1e-8)
     assert 0 < result.plastic_area_fraction < result.contact_area_fraction
     for definition in DEFINITIONS:
@@ -143,8 +154,7 @@ def test_open_edges_have_no_summits_and_do_not_join_patches():
 
 
 def _patch_count(heights, periodic):
-    return asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8, definition="patches",
-                            periodic=periodic).contacts
+    return asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8, definition="patches", periodic=periodic).contacts
 
 
 def test_a_plateau_of_equal_cells_counts_once_as_a_pair():
@@ -153,16 +163,17 @@ def test_a_plateau_of_equal_cells_counts_once_as_a_pair():
     assert asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8).contacts == 1
 
 
-@pytest.mark.parametrize("definition, pressure",
-                         [("summits", 1e6), ("summits", 2e8), ("patches", 1e6), ("patches", 2e7)])
+@pytest.mark.parametrize(
+    "definition, pressure", [("summits", 1e6), ("summits", 2e8), ("patches", 1e6), ("patches", 2e7)]
+)
 def test_separation_for_load_is_the_inverse(definition, pressure):
-    found = separation_for_load(ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure,
-                                definition=definition, tolerance=0.02)
+    found = separation_for_load(
+        ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure, definition=definition, tolerance=0.02
+    )
     assert found.report.converged and found.mean_pressure == pytest.approx(pressure, rel=0.02)
     assert rough_contact(definition, found.separation).load == found.load
     if definition == "summits":
-        exact = separation_for_load(ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure,
-                                    tolerance=1e-10)
+        exact = separation_for_load(ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-10)
         assert exact.mean_pressure == pytest.approx(pressure, rel=1e-10)
 
 
@@ -179,28 +190,47 @@ def test_patches_cannot_carry_every_load():
 def test_a_jump_over_the_load_is_not_called_converged():
     """When the flat reaches the four neighbours of a top cell the load jumps by sqrt(5)."""
     heights = paraboloids(6e-6, step=500e-9)
-    below, above = (asperity_contact(heights, 500e-9, E_PRIME, definition="patches",
-                                     separation=500e-9 - (500e-9) ** 2 / (2 * RADIUS) + shift).mean_pressure
-                    for shift in (1e-15, -1e-15))
+    below, above = (
+        asperity_contact(
+            heights, 500e-9, E_PRIME, definition="patches", separation=500e-9 - (500e-9) ** 2 / (2 * RADIUS) + shift
+        ).mean_pressure
+        for shift in (1e-15, -1e-15)
+    )
     assert above / below == pytest.approx(math.sqrt(5), rel=1e-5)
     with pytest.raises(ConvergenceError) as error:
         separation_for_load(heights, 500e-9, E_PRIME, mean_pressure=1.5 * below, definition="patches")
     assert error.value.report.status == "stagnated" and error.value.report.residual > 0.3
 
 
-@pytest.mark.parametrize("changes", [
-    {"heights": np.zeros(5)}, {"heights": np.full((4, 4), np.nan)}, {"spacing": 0}, {"e_prime": -1},
-    {"definition": "summit"}, {"hardness": 0}, {"separation": math.nan}, {"separation": np.zeros(3)},
-    {"separation": "low"}])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"heights": np.zeros(5)},
+        {"heights": np.full((4, 4), np.nan)},
+        {"spacing": 0},
+        {"e_prime": -1},
+        {"definition": "summit"},
+        {"hardness": 0},
+        {"separation": math.nan},
+        {"separation": np.zeros(3)},
+        {"separation": "low"},
+    ],
+)
 def test_contact_refuses(changes):
     given = {"heights": ROUGH.heights, "spacing": 1e-6, "e_prime": E_PRIME, "separation": 1e-7} | changes
     with pytest.raises(InputError):
         asperity_contact(given.pop("heights"), given.pop("spacing"), given.pop("e_prime"), **given)
 
 
-@pytest.mark.parametrize("changes", [
-    {"mean_pressure": 0}, {"mean_pressure": -1e6}, {"mean_pressure": math.inf},
-    {"mean_pressure": 1e6, "tolerance": 0}])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mean_pressure": 0},
+        {"mean_pressure": -1e6},
+        {"mean_pressure": math.inf},
+        {"mean_pressure": 1e6, "tolerance": 0},
+    ],
+)
 def test_inverse_refuses(changes):
     with pytest.raises(InputError):
         separation_for_load(ROUGH.heights, 1e-6, E_PRIME, **changes)

@@ -57,9 +57,7 @@ def test_carry_is_the_inverse_of_close(model, reading):
     closure = patch.close(shape + 2e-7, 3.0)
     film = shape + 2e-7 + closure.mean_gap - closure.mean_film
     load, again = patch.carry(film)
-    assert load == pytest.approx(
-        3.0, rel=2e-2 if model == "patches" else 1e-3
-    )  # patches jump where they join
+    assert load == pytest.approx(3.0, rel=2e-2 if model == "patches" else 1e-3)  # patches jump where they join
     assert again.mean_gap == pytest.approx(again.mean_film, rel=1e-5)
     assert patch.carry(shape + 1e-5)[0] == 0
 
@@ -85,30 +83,23 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     paper = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed, fields=True)
     assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
     assert paper.film_load == pytest.approx(load.film_load, rel=2e-3)
-    assert (
-        abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
-    )
+    assert abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
     assert paper.balance.closure.contact.report.solver == "single loop, consistent"
 
 
 def test_the_flat_contact_closes_both_ways():
     curves = [
-        lubfric.stribeck(FLAT.with_(numerics={"closure": c}), np.geomspace(1e-3, 1, 5))
-        for c in ("load", "separation")
+        lubfric.stribeck(FLAT.with_(numerics={"closure": c}), np.geomspace(1e-3, 1, 5)) for c in ("load", "separation")
     ]
     assert np.allclose(curves[0].coefficient, curves[1].coefficient, rtol=1e-3)
 
 
 @pytest.mark.parametrize("model", MODELS)
 def test_the_curve_is_the_law(model):
-    z = lubfric.generate_surface(
-        (128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2
-    ).heights
+    z = lubfric.generate_surface((128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
     law = contact_law(z, 2e-6, E, definition=model)
     separation = 2.2e-7
-    curve = asperity_curve(
-        z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume"
-    )
+    curve = asperity_curve(z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume")
     for level in (2.5e-7, 3.5e-7):
         there = law(level)
         gap, area, _ = curve.at(there.mean_pressure)
@@ -126,9 +117,7 @@ def test_a_load_that_patches_cannot_carry_is_an_error():
 
 
 def test_pressure_at_is_the_inverse_of_the_curve():
-    z = lubfric.generate_surface(
-        (64, 64), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2
-    ).heights
+    z = lubfric.generate_surface((64, 64), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
     curve = contact_curve(z, 2e-6, E, heaviest=2e8)
     for pressure in (2e8, 3e7, 1e4, 1e2, 1.0):
         assert curve.pressure_at(curve.at(pressure)[0]) == pytest.approx(pressure, rel=1e-6)
@@ -140,9 +129,7 @@ def test_johnsons_modulus_keeps_the_strip_and_changes_little_when_the_film_carri
     point = lubfric.friction(scaled, 1e-2, fields=True)
     film = point.balance.film
     assert film.half_width == pytest.approx(CYLINDER.bodies.half_width, rel=1e-12)
-    assert film.e_prime == pytest.approx(
-        CYLINDER.bodies.e_prime * point.film_load / CYLINDER.bodies.load, rel=1e-12
-    )
+    assert film.e_prime == pytest.approx(CYLINDER.bodies.e_prime * point.film_load / CYLINDER.bodies.load, rel=1e-12)
     alone = lubfric.friction(CYLINDER, 1e-2)
     assert point.film_load > alone.film_load  # a flatter gap carries more
     full = [lubfric.friction(s, 1.0).coefficient for s in (scaled, CYLINDER)]

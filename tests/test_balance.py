@@ -33,6 +33,7 @@ def models(speed, stiffness, sigma=1.0, touching=3.0):
     def close(film, contact_load, start):
         gap = touching - sigma * min((contact_load / stiffness) ** (2 / 3), touching * 0.999)
         return Closure(gap, film.thickness, np.zeros(1), np.zeros(1), 0.0, 0.0)
+
     return solve_film, close, calls
 
 
@@ -46,12 +47,13 @@ def test_closes_both_balances_for_any_speed(speed, stiffness):
     if balance.contact_load > 0:
         assert balance.closure.mean_gap == pytest.approx(balance.film.thickness, rel=3e-6)
     else:
-        assert speed >= 3.0                                     # film at full load clears the summits
+        assert speed >= 3.0  # film at full load clears the summits
 
 
 def test_film_share_grows_with_speed():
-    shares = [share_load(1.0, *models(u, 1.0)[:2], guess=0.0, tolerance=1e-8).film_load
-              for u in np.geomspace(1e-4, 10, 30)]
+    shares = [
+        share_load(1.0, *models(u, 1.0)[:2], guess=0.0, tolerance=1e-8).film_load for u in np.geomspace(1e-4, 10, 30)
+    ]
     assert np.all(np.diff(shares) >= 0) and shares[0] < 1e-3 and shares[-1] == 1.0
 
 
@@ -65,7 +67,8 @@ def test_a_neighbour_as_start_saves_evaluations_and_changes_nothing():
 
 def test_an_unclosable_balance_is_reported():
     def close(film, contact_load, start):
-        return Closure(2.0, 1.0, np.zeros(1), np.zeros(1), 0.0, 0.0)      # gap never meets the film
+        return Closure(2.0, 1.0, np.zeros(1), np.zeros(1), 0.0, 0.0)  # gap never meets the film
+
     balance = share_load(1.0, models(1.0, 1.0)[0], close, guess=0.0, tolerance=1e-6)
     assert balance.report.status == ITERATION_LIMIT and balance.report.residual == pytest.approx(1 / 3)
 
@@ -79,12 +82,14 @@ def test_the_strip_counts_cut_cells_by_their_share():
 
 def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance():
     from lubfric import ConvergenceError
+
     solve_film, close, _ = models(0.01, 1.0)
 
     def failing(load, start):
         if load == 1.0:
             raise ConvergenceError("too heavy", Report("film", ITERATION_LIMIT, 1, 1.0, 0.1))
         return solve_film(load, start)
+
     balance = share_load(1.0, failing, close, guess=0.0, tolerance=1e-8)
     reference = share_load(1.0, solve_film, close, guess=0.0, tolerance=1e-8)
     assert balance.film_load == pytest.approx(reference.film_load, rel=1e-6)

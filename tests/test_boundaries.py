@@ -52,9 +52,7 @@ def test_finite_elements_never_import_lubfric():
     assert offenders("verification/fem", ["lubfric", "verification.studies"]) == []
 
 
-@pytest.mark.parametrize(
-    "name", ["exact", "check", "rates", "run", "report", "page", "wording", "meshes", "plotting"]
-)
+@pytest.mark.parametrize("name", ["exact", "check", "rates", "run", "report", "page", "wording", "meshes", "plotting"])
 def test_closed_forms_and_the_framework_never_import_lubfric(name):
     assert not any(n.split(".")[0] == "lubfric" for n in imported(ROOT / "verification" / f"{name}.py"))
 
@@ -87,9 +85,7 @@ def test_this_test_sees_imports_of_every_kind(tmp_path, monkeypatch):
 
 def python(code: str) -> str:
     """Output of a fresh interpreter."""
-    return subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
-    ).stdout
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout
 
 
 def test_lubfric_works_where_the_verification_tools_are_not_installed():

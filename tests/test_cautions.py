@@ -20,12 +20,15 @@ def test_the_paper_scene_needs_none(balance):
     assert cautions(PAPER, balance, ShearForce(0.01, 0.01)) == ()
 
 
-@pytest.mark.parametrize("words, scene, change, shear", [
-    ("extrapolation", PAPER, "heavy film", ShearForce(0.0, 0.0)),
-    ("eyring_stress", PAPER, None, ShearForce(5.0, 0.0)),
-    ("does not tend to f_b", PAPER.with_(bodies={"load": 550.0}), None, ShearForce(0.0, 0.0)),
-    ("not thin", PAPER.with_(bodies={"radius": 1e-6}), None, ShearForce(0.0, 0.0)),
-])
+@pytest.mark.parametrize(
+    "words, scene, change, shear",
+    [
+        ("extrapolation", PAPER, "heavy film", ShearForce(0.0, 0.0)),
+        ("eyring_stress", PAPER, None, ShearForce(5.0, 0.0)),
+        ("does not tend to f_b", PAPER.with_(bodies={"load": 550.0}), None, ShearForce(0.0, 0.0)),
+        ("not thin", PAPER.with_(bodies={"radius": 1e-6}), None, ShearForce(0.0, 0.0)),
+    ],
+)
 def test_each_limit_is_told(balance, words, scene, change, shear):
     if change:
         film = replace(balance.film, pressure=balance.film.pressure * (2e9 / balance.film.pressure.max()))

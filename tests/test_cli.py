@@ -44,7 +44,13 @@ def run(tmp_path_factory):
 
 
 def test_run_writes_its_record(run):
-    assert {p.name for p in run.iterdir()} == {"result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png"}
+    assert {p.name for p in run.iterdir()} == {
+        "result.json",
+        "stribeck.csv",
+        "stribeck.png",
+        "fields.npz",
+        "contact.png",
+    }
     record = json.loads((run / "result.json").read_text())
     assert record["scene"]["bodies"]["hardness"] == 6e9 and record["seed"] == 7
     assert record["versions"]["lubfric"] == lubfric.__version__ and record["seconds"] > 0
@@ -87,9 +93,13 @@ def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
     scene = lubfric.load_scene("paper")
     surface = lubfric.generate_surface((200, 200), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
     lengths = [lubfric.surface.correlation_length(surface, axis) / 0.45e-6 for axis in (0, 1)]
-    for name, value in (("rms slope", f"{lubfric.surface.rms_slope(surface)[2]:.3g}"), ("Sq", "100 nm"),
-                        ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
-                        ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"), ("cells", "40000, about 3.66 MiB")):
+    for name, value in (
+        ("rms slope", f"{lubfric.surface.rms_slope(surface)[2]:.3g}"),
+        ("Sq", "100 nm"),
+        ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
+        ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"),
+        ("cells", "40000, about 3.66 MiB"),
+    ):
         assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
     assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
     np.save(tmp_path / "flat.npy", np.zeros((64, 1)))
@@ -103,6 +113,7 @@ def test_the_memory_said_covers_a_contact_solve():
     import tracemalloc
 
     from lubfric.describe import SOLVE_FIELDS
+
     surface = lubfric.generate_surface((256, 256), 1e-6, sq=1e-7, correlation_length=8e-6, seed=1)
     for boundary in ("periodic", ("free", "periodic")):
         options = {"mean_pressure": 2e7, "boundary": boundary, "tolerance": 1e-3}
@@ -122,9 +133,15 @@ def test_a_map_where_a_gap_is_expected_is_told_apart():
         lubfric.solve_contact(-surface.heights, surface.spacing, 2.3e11, mean_pressure=1e7, start=surface)
 
 
-@pytest.mark.parametrize("arguments, word", [(["run", "papr"], "did you mean 'paper'"), (["info", "nothing.toml"], "nothing.toml"),
-                                             (["run", "paper", "--speeds", "a,b"], "speeds"),
-                                             (["plot", "nowhere"], "stribeck.csv")])
+@pytest.mark.parametrize(
+    "arguments, word",
+    [
+        (["run", "papr"], "did you mean 'paper'"),
+        (["info", "nothing.toml"], "nothing.toml"),
+        (["run", "paper", "--speeds", "a,b"], "speeds"),
+        (["plot", "nowhere"], "stribeck.csv"),
+    ],
+)
 def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
     assert main(arguments) == 2
     error = capsys.readouterr().err
@@ -138,8 +155,21 @@ def test_python_dash_m_is_the_same_command():
 
 def test_speeds_and_fields_can_be_chosen(tmp_path):
     (tmp_path / "small.toml").write_text(SCENE)
-    assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.01:0.1:2",
-                 "--fields", "0.01,1.0"]) == 0
+    assert (
+        main(
+            [
+                "run",
+                str(tmp_path / "small.toml"),
+                "--out",
+                str(tmp_path / "o"),
+                "--speeds",
+                "0.01:0.1:2",
+                "--fields",
+                "0.01,1.0",
+            ]
+        )
+        == 0
+    )
     with np.load(tmp_path / "o" / "fields.npz") as fields:
         np.testing.assert_allclose(fields["speed"], [0.01, 1.0])
         assert "contact_pressure_0" in fields and "contact_pressure_1" not in fields
@@ -147,12 +177,14 @@ def test_speeds_and_fields_can_be_chosen(tmp_path):
 
 def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
     from lubfric import sweep
+
     real = sweep.friction
 
     def failing(model, speed, **kw):
         if speed == 0.01:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
         return real(model, speed, **kw)
+
     monkeypatch.setattr(sweep, "friction", failing)
     (tmp_path / "small.toml").write_text(SCENE)
     assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "o")]) == 1
@@ -163,8 +195,9 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
 
 
 def test_cautions_and_failures_are_said(tmp_path, capsys):
-    (tmp_path / "heavy.toml").write_text(SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6")
-                                         .replace("4e-6", "8e-6"))
+    (tmp_path / "heavy.toml").write_text(
+        SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
+    )
     assert main(["run", str(tmp_path / "heavy.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.01"]) == 0
     said = capsys.readouterr().err
     assert "caution: Newtonian" in said and "scaled" in said

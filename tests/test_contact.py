@@ -34,7 +34,9 @@ def certify(result, gap0, operator, hardness=np.inf, tolerance=1e-6):
     assert result.pressure.min() >= 0 and result.pressure.max() <= hardness
     assert gap[result.pressure < hardness].min(initial=0.0) >= -1.01 * tolerance * scale - rounding
     loaded = (result.pressure > 0) & (result.pressure < hardness)
-    assert (result.pressure * np.abs(gap))[loaded].sum() <= (1.01 * tolerance * scale + rounding) * result.pressure.sum()
+    assert (result.pressure * np.abs(gap))[loaded].sum() <= (
+        1.01 * tolerance * scale + rounding
+    ) * result.pressure.sum()
     assert result.report.converged and result.report.residual <= tolerance
 
 
@@ -43,8 +45,9 @@ def certify(result, gap0, operator, hardness=np.inf, tolerance=1e-6):
 def test_every_boundary_and_law(boundary, hardness):
     gap0 = rough((48, 40))
     operator = half_space(gap0.shape, DX, E_PRIME, boundary)
-    result = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8, hardness=hardness, boundary=boundary,
-                           operator=operator)
+    result = solve_contact(
+        gap0, DX, E_PRIME, mean_pressure=5e8, hardness=hardness, boundary=boundary, operator=operator
+    )
     certify(result, gap0, operator, np.inf if hardness is None else hardness)
     assert result.pressure.mean() == pytest.approx(5e8, rel=1e-12)
     assert (result.plastic_area_fraction > 0) == (hardness is not None)
@@ -52,16 +55,22 @@ def test_every_boundary_and_law(boundary, hardness):
 
 
 @settings(max_examples=60, deadline=None)
-@given(shape=st.tuples(st.integers(1, 37), st.integers(1, 37)), boundary=st.sampled_from(BOUNDARIES),
-       spacing=st.tuples(st.floats(0.2, 5), st.floats(0.2, 5)), exponent=st.floats(-12, -0.5),
-       cap=st.one_of(st.none(), st.floats(0.01, 10)), seed=st.integers(0, 9))
+@given(
+    shape=st.tuples(st.integers(1, 37), st.integers(1, 37)),
+    boundary=st.sampled_from(BOUNDARIES),
+    spacing=st.tuples(st.floats(0.2, 5), st.floats(0.2, 5)),
+    exponent=st.floats(-12, -0.5),
+    cap=st.one_of(st.none(), st.floats(0.01, 10)),
+    seed=st.integers(0, 9),
+)
 def test_any_problem_is_solved_or_said_not_to_be(shape, boundary, spacing, exponent, cap, seed):
     gap0 = np.random.default_rng(seed).random(shape)
     pressure = 10.0**exponent
     hardness = None if cap is None else pressure * (1 + cap)
     operator = half_space(shape, spacing, 1.0, boundary)
-    result = solve_contact(gap0, spacing, 1.0, mean_pressure=pressure, hardness=hardness, boundary=boundary,
-                           operator=operator)
+    result = solve_contact(
+        gap0, spacing, 1.0, mean_pressure=pressure, hardness=hardness, boundary=boundary, operator=operator
+    )
     certify(result, gap0, operator, np.inf if hardness is None else hardness)
 
 
@@ -80,7 +89,8 @@ def test_mirror_transpose_translate_and_offset(boundary, hardness):
     assert pressure_of(gap0[:, ::-1], boundary=boundary, **options)[:, ::-1] == pytest.approx(p, abs=tiny)
     assert pressure_of(gap0.T, boundary=boundary[::-1], **options).T == pytest.approx(p, abs=tiny)
     assert pressure_of(np.roll(gap0, 7, axis=1), boundary=boundary, **options) == pytest.approx(
-        np.roll(p, 7, axis=1), abs=tiny)
+        np.roll(p, 7, axis=1), abs=tiny
+    )
     assert pressure_of(gap0 + 3e-6, boundary=boundary, **options) == pytest.approx(p, abs=tiny)
 
 
@@ -142,8 +152,10 @@ def test_gap_control_returns_the_load(boundary, hardness, pressure):
 def test_gap_control_from_first_touch_to_almost_full():
     gap0 = rough((64, 64), seed=6)
     touching = gap0.mean() - gap0.min()
-    pressures = [solve_contact(gap0, DX, E_PRIME, mean_gap=share * touching).mean_pressure
-                 for share in (0.999, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4)]
+    pressures = [
+        solve_contact(gap0, DX, E_PRIME, mean_gap=share * touching).mean_pressure
+        for share in (0.999, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4)
+    ]
     assert np.all(np.diff(pressures) > 0)
 
 
@@ -197,8 +209,18 @@ def test_more_load_more_area_less_gap():
     assert np.all(np.diff(results, axis=0)[:, 0] >= 0) and np.all(np.diff(results, axis=0)[:, 1:] > 0)
 
 
-@pytest.mark.parametrize("shape, spacing", [((1, 64), DX), ((64, 1), DX), ((1, 1), DX), ((2, 2), DX),
-                                            ((31, 37), DX), ((8, 400), DX), ((4, 200), (DX, 20 * DX))])
+@pytest.mark.parametrize(
+    "shape, spacing",
+    [
+        ((1, 64), DX),
+        ((64, 1), DX),
+        ((1, 1), DX),
+        ((2, 2), DX),
+        ((31, 37), DX),
+        ((8, 400), DX),
+        ((4, 200), (DX, 20 * DX)),
+    ],
+)
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_odd_thin_and_stretched_grids(shape, spacing, boundary):
     gap0 = rough(shape, seed=10, smooth=1.0)
@@ -249,10 +271,12 @@ def test_iteration_limit_raises_with_everything():
 def test_certification_does_not_believe_the_iteration(monkeypatch):
     """An iteration that claims success with a wrong field is found out."""
     from lubfric.contact import solve
+
     honest = solve.load_controlled
 
     def liar(problem, mean_pressure, start):
         from dataclasses import replace
+
         found = honest(problem, mean_pressure, start)
         return replace(found, pressure=np.roll(found.pressure, 1, axis=0))
 
@@ -262,9 +286,15 @@ def test_certification_does_not_believe_the_iteration(monkeypatch):
     assert caught.value.report.residuals["penetration"] > 1e-3
 
 
-@pytest.mark.parametrize("fault, residual", [
-    (lambda p, g: (p * 1.1, g), "load"), (lambda p, g: (p, g - 1e-8), "penetration"),
-    (lambda p, g: (p, g + 1e-8), "complementarity"), (lambda p, g: (np.zeros_like(p), g - 1e-8), "penetration")])
+@pytest.mark.parametrize(
+    "fault, residual",
+    [
+        (lambda p, g: (p * 1.1, g), "load"),
+        (lambda p, g: (p, g - 1e-8), "penetration"),
+        (lambda p, g: (p, g + 1e-8), "complementarity"),
+        (lambda p, g: (np.zeros_like(p), g - 1e-8), "penetration"),
+    ],
+)
 def test_each_residual_sees_its_fault(fault, residual):
     gap0 = rough((32, 32), seed=13)
     good = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8)
@@ -277,18 +307,34 @@ def test_each_residual_sees_its_fault(fault, residual):
 GOOD = {"gap0": np.zeros((4, 4)), "spacing": 1.0, "e_prime": 1.0, "mean_pressure": 1.0}
 
 
-@pytest.mark.parametrize("change, word", [
-    ({"gap0": np.full((4, 4), np.nan)}, "gap0"), ({"gap0": np.zeros(4)}, "axes"), ({"gap0": np.zeros((0, 4))}, "empty"),
-    ({"gap0": [["a"]]}, "gap0"), ({"spacing": 0.0}, "spacing"), ({"spacing": -1.0}, "spacing"),
-    ({"e_prime": 0.0}, "e_prime"), ({"mean_pressure": -1.0}, "mean_pressure"),
-    ({"mean_pressure": np.inf}, "mean_pressure"), ({"mean_gap": 1.0}, "exactly one"),
-    ({"mean_pressure": None}, "exactly one"), ({"mean_pressure": None, "mean_gap": 0.0}, "mean_gap"),
-    ({"hardness": 0.5}, "hardness"), ({"hardness": -1.0}, "hardness"), ({"tolerance": 0.0}, "tolerance"),
-    ({"max_iterations": -1}, "max_iterations"), ({"boundary": ("free", "open")}, "boundary"),
-    ({"start": np.zeros((3, 3))}, "start"), ({"start": np.full((4, 4), -1.0)}, "start"),
-    ({"start": np.full((4, 4), 1e30)}, "start"),
-    ({"operator": half_space((4, 5), 1.0, 1.0)}, "operator"), ({"operator": half_space((4, 4), 2.0, 1.0)}, "spacing"),
-    ({"operator": half_space((4, 4), 1.0, 1.0, "free")}, "boundary")])
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        ({"gap0": np.full((4, 4), np.nan)}, "gap0"),
+        ({"gap0": np.zeros(4)}, "axes"),
+        ({"gap0": np.zeros((0, 4))}, "empty"),
+        ({"gap0": [["a"]]}, "gap0"),
+        ({"spacing": 0.0}, "spacing"),
+        ({"spacing": -1.0}, "spacing"),
+        ({"e_prime": 0.0}, "e_prime"),
+        ({"mean_pressure": -1.0}, "mean_pressure"),
+        ({"mean_pressure": np.inf}, "mean_pressure"),
+        ({"mean_gap": 1.0}, "exactly one"),
+        ({"mean_pressure": None}, "exactly one"),
+        ({"mean_pressure": None, "mean_gap": 0.0}, "mean_gap"),
+        ({"hardness": 0.5}, "hardness"),
+        ({"hardness": -1.0}, "hardness"),
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"max_iterations": -1}, "max_iterations"),
+        ({"boundary": ("free", "open")}, "boundary"),
+        ({"start": np.zeros((3, 3))}, "start"),
+        ({"start": np.full((4, 4), -1.0)}, "start"),
+        ({"start": np.full((4, 4), 1e30)}, "start"),
+        ({"operator": half_space((4, 5), 1.0, 1.0)}, "operator"),
+        ({"operator": half_space((4, 4), 2.0, 1.0)}, "spacing"),
+        ({"operator": half_space((4, 4), 1.0, 1.0, "free")}, "boundary"),
+    ],
+)
 def test_bad_input_is_refused_before_any_work(change, word):
     with pytest.raises(InputError, match=word):
         solve_contact(**(GOOD | change))

@@ -56,8 +56,9 @@ def test_hertz_point():
     n, dx = 120, 3 * a / 120
     x = (np.arange(n) - 0.5 * (n - 1)) * dx
     r = np.hypot(x[:, None], x)
-    result = solve_contact(r**2 / (2 * radius), dx, E_PRIME, mean_pressure=load / (n * dx) ** 2, boundary="free",
-                           tolerance=1e-8)
+    result = solve_contact(
+        r**2 / (2 * radius), dx, E_PRIME, mean_pressure=load / (n * dx) ** 2, boundary="free", tolerance=1e-8
+    )
     exact = hertz.point_pressure(r, load, radius, E_PRIME)
     assert np.linalg.norm(result.pressure - exact) < 0.01 * np.linalg.norm(exact)
     assert result.pressure.max() == pytest.approx(hertz.point_peak_pressure(load, radius, E_PRIME), rel=5e-3)
@@ -84,13 +85,20 @@ def test_westergaard(share):
     result = solve_contact(gap0, length / n, E_PRIME, mean_pressure=share * full, tolerance=1e-9)
     exact = westergaard.line_pressure(x, length, share * full, full)
     assert np.linalg.norm(result.pressure[:, 0] - exact) < 0.02 * np.linalg.norm(exact)
-    assert result.contact_area_fraction == pytest.approx(westergaard.line_contact_fraction(share * full, full),
-                                                         abs=2.1 / n)
+    assert result.contact_area_fraction == pytest.approx(
+        westergaard.line_contact_fraction(share * full, full), abs=2.1 / n
+    )
     assert result.mean_gap == pytest.approx(westergaard.line_mean_gap(height, share * full, full), abs=2e-3 * height)
 
 
-JGH = {0.01: (.03660, .81829), 0.1: (.19120, .38475), 0.3: (.51498, .12488), 0.5: (.70510, .04508),
-       0.7: (.84032, .01113), 0.9: (.95107, .00065)}
+JGH = {
+    0.01: (0.03660, 0.81829),
+    0.1: (0.19120, 0.38475),
+    0.3: (0.51498, 0.12488),
+    0.5: (0.70510, 0.04508),
+    0.7: (0.84032, 0.01113),
+    0.9: (0.95107, 0.00065),
+}
 
 
 @pytest.mark.parametrize("share", JGH)

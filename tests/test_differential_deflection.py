@@ -20,17 +20,27 @@ from lubfric.ehl.problem import Problem
 from lubfric.ehl.result import cubic, smallest
 from lubfric.lubricant import Lubricant
 
-PAPER = {"load_per_width": 5.5 / 6e-3, "radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36,
-             "pressure_viscosity_coefficient": 25e-9}
+PAPER = {
+    "load_per_width": 5.5 / 6e-3,
+    "radius": 2e-3,
+    "e_prime": 231e9,
+    "viscosity": 0.36,
+    "pressure_viscosity_coefficient": 25e-9,
+}
 ALPHA, R, E = 2.2e-8, 0.01, 2.2e11
-ETA = math.exp(ALPHA * 1.96e8 / 0.68 - 9.67)              # Roelands z = 0.68
+ETA = math.exp(ALPHA * 1.96e8 / 0.68 - 9.67)  # Roelands z = 0.68
 
 
 def moes(M, L, **options):
-    load, speed = film.load_and_speed(M, L, radius=R, e_prime=E, viscosity=ETA,
-                                      pressure_viscosity_coefficient=ALPHA)
-    return {"load_per_width": load, "radius": R, "e_prime": E, "entrainment_speed": speed, "viscosity": ETA,
-                "pressure_viscosity_coefficient": ALPHA} | options
+    load, speed = film.load_and_speed(M, L, radius=R, e_prime=E, viscosity=ETA, pressure_viscosity_coefficient=ALPHA)
+    return {
+        "load_per_width": load,
+        "radius": R,
+        "e_prime": E,
+        "entrainment_speed": speed,
+        "viscosity": ETA,
+        "pressure_viscosity_coefficient": ALPHA,
+    } | options
 
 
 def numbers(result):
@@ -40,6 +50,7 @@ def numbers(result):
 
 # The deflection
 
+
 def test_weights_are_the_second_difference_of_the_full_integral():
     mesh = make_mesh(-3.0, 2.0, 201, 8, True)
     s = (mesh.X + 0.5) / 2
@@ -48,7 +59,7 @@ def test_weights_are_the_second_difference_of_the_full_integral():
     np.testing.assert_allclose(convolve(mesh.log_transform, P), full, atol=1e-13)
     bend = convolve(mesh.far_transform, P)
     for k in range(-mesh.bandwidth, mesh.bandwidth + 1):
-        bend += mesh.weights[abs(k)] * np.roll(P, k)           # P = 0 near the ends
+        bend += mesh.weights[abs(k)] * np.roll(P, k)  # P = 0 near the ends
     np.testing.assert_allclose(bend[1:-1], np.diff(full, 2), atol=1e-13)
 
 
@@ -56,19 +67,20 @@ def test_weights_decay_like_the_inverse_square_and_sum_to_zero():
     mesh = make_mesh(0.0, 1.0, 4001, 8, True)
     k = np.arange(100, 4001)
     np.testing.assert_allclose(mesh.weights[k] * k**2, 4 / math.pi * mesh.step, rtol=1e-3)
-    rest = 4 / math.pi * mesh.step * 2 / 4000.5               # what lies beyond the mesh
+    rest = 4 / math.pi * mesh.step * 2 / 4000.5  # what lies beyond the mesh
     assert mesh.weights[0] + 2 * mesh.weights[1:].sum() == pytest.approx(-rest, rel=1e-3)
 
 
 @pytest.mark.parametrize("M, L", [(2, 5), (50, 10)])
 def test_the_answer_does_not_depend_on_the_band(M, L):
-    runs = [solve_differential_deflection(**moes(M, L), nodes=801, bandwidth=m, tolerance=1e-2)
-            for m in (0, 2, 8, 40, 800)]
+    runs = [
+        solve_differential_deflection(**moes(M, L), nodes=801, bandwidth=m, tolerance=1e-2) for m in (0, 2, 8, 40, 800)
+    ]
     films = np.array([numbers(r) for r in runs])
     assert np.max(np.abs(films / films[-1] - 1)) < 2e-5
     solves = [r.report.evaluations for r in runs]
     assert sorted(solves, reverse=True) == solves and solves[0] > 3 * solves[-1]
-    assert solves[-1] == runs[-1].report.iterations           # full band: every step is exact at once
+    assert solves[-1] == runs[-1].report.iterations  # full band: every step is exact at once
 
 
 def test_lagging_the_far_pressures_gives_the_same_answer_more_slowly(monkeypatch):
@@ -81,6 +93,7 @@ def test_lagging_the_far_pressures_gives_the_same_answer_more_slowly(monkeypatch
 
 
 # Against others
+
 
 @pytest.mark.parametrize("M", [1e-3, 0.1, 1, 20, 300])
 @pytest.mark.parametrize("L", [0.1, 5, 15])
@@ -99,8 +112,10 @@ def test_agrees_with_the_default_solver_to_five_digits():
     np.testing.assert_allclose(numbers(ours), numbers(lubfric.solve_ehl(**kw, tolerance=2e-5)), rtol=4e-5)
 
 
-@pytest.mark.parametrize("M, L, smallest_film, flow", [(5, 5, 3.105, 4.082), (20, 5, 2.572, 3.423),
-                                                       (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)])
+@pytest.mark.parametrize(
+    "M, L, smallest_film, flow",
+    [(5, 5, 3.105, 4.082), (20, 5, 2.572, 3.423), (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)],
+)
 def test_converged_table(M, L, smallest_film, flow):
     """An independent solver with its inlet at -6 b, which at M = 5 lies within the inlet zone."""
     h = numbers(solve_differential_deflection(**moes(M, L), tolerance=1e-3))
@@ -127,8 +142,7 @@ def test_grid_of_the_paper(speed):
     """2000 points at 0.8 micrometres. At 1e-4 m/s six of them span a Hertz half-width: the film is within
     1 %, and the solver says that the grid cannot show it."""
     kw = PAPER | {"entrainment_speed": speed}
-    ours = solve_differential_deflection(**kw, nodes=2000, domain=(-1.2e-3, 1999 * 0.8e-6 - 1.2e-3),
-                                         tolerance=0.1)
+    ours = solve_differential_deflection(**kw, nodes=2000, domain=(-1.2e-3, 1999 * 0.8e-6 - 1.2e-3), tolerance=0.1)
     default = lubfric.solve_ehl(**kw, tolerance=3e-4)
     assert np.diff(ours.x)[0] == pytest.approx(0.8e-6)
     error = np.abs(numbers(ours) / numbers(default) - 1)
@@ -137,8 +151,10 @@ def test_grid_of_the_paper(speed):
 
 
 def test_second_order():
-    q = [numbers(solve_differential_deflection(**moes(20, 5), nodes=n + 1, tolerance=0.1))[2]
-         for n in (400, 800, 1600, 3200)]
+    q = [
+        numbers(solve_differential_deflection(**moes(20, 5), nodes=n + 1, tolerance=0.1))[2]
+        for n in (400, 800, 1600, 3200)
+    ]
     change = np.abs(np.diff(q))
     assert 1.7 < math.log2(change[0] / change[2]) / 2 < 2.6
 
@@ -153,6 +169,7 @@ def test_converges_from_cold(log_M, L, density):
 
 
 # What the result says of itself
+
 
 @pytest.fixture(scope="module")
 def heavy():
@@ -193,11 +210,15 @@ def test_starts_from_a_neighbour_and_starts_the_default(heavy):
     np.testing.assert_allclose(numbers(default), numbers(cold), rtol=2e-3)
 
 
-@pytest.mark.parametrize("name, spoil", [
-    ("film", lambda P, H: (P, H * (1 + 1e-3 * (np.arange(H.size) == 300)))),
-    ("mass", lambda P, H: (P * (1 + 1e-3 * (np.arange(H.size) == 300)), H)),
-    ("load", lambda P, H: (1.001 * P, H)),
-    ("complementarity", lambda P, H: (P - 1e-2 * P.max() * (np.arange(H.size) == 5), H))])
+@pytest.mark.parametrize(
+    "name, spoil",
+    [
+        ("film", lambda P, H: (P, H * (1 + 1e-3 * (np.arange(H.size) == 300)))),
+        ("mass", lambda P, H: (P * (1 + 1e-3 * (np.arange(H.size) == 300)), H)),
+        ("load", lambda P, H: (1.001 * P, H)),
+        ("complementarity", lambda P, H: (P - 1e-2 * P.max() * (np.arange(H.size) == 5), H)),
+    ],
+)
 def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
     problem = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA))
@@ -223,17 +244,28 @@ def test_a_domain_that_ends_before_rupture_says_so():
     assert not r.report.converged and "did not rupture" in r.report.notes[-1]
 
 
-@pytest.mark.parametrize("bad, name", [
-    ({"nodes": 20}, "nodes"), ({"bandwidth": -1}, "bandwidth"), ({"domain": (0, 1e-3)}, "domain"),
-    ({"domain": (-1e-3,)}, "domain"), ({"inlet_length": 1e-9}, "inlet_length"), ({"start": 1}, "start"),
-    ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"), ({"tolerance": 0}, "tolerance"),
-    ({"load_per_width": math.nan}, "load_per_width"), ({"entrainment_speed": 0}, "entrainment_speed")])
+@pytest.mark.parametrize(
+    "bad, name",
+    [
+        ({"nodes": 20}, "nodes"),
+        ({"bandwidth": -1}, "bandwidth"),
+        ({"domain": (0, 1e-3)}, "domain"),
+        ({"domain": (-1e-3,)}, "domain"),
+        ({"inlet_length": 1e-9}, "inlet_length"),
+        ({"start": 1}, "start"),
+        ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),
+        ({"tolerance": 0}, "tolerance"),
+        ({"load_per_width": math.nan}, "load_per_width"),
+        ({"entrainment_speed": 0}, "entrainment_speed"),
+    ],
+)
 def test_bad_input(bad, name):
     with pytest.raises(lubfric.InputError, match=name):
         solve_differential_deflection(**moes(5, 5) | bad)
 
 
 # The squeeze term
+
 
 def test_speed_halved_at_once():
     """H(0) and smallest film in units of the first speed, T = U0 t/b, M = 20, L = 5; BDF2, constant step.
@@ -244,11 +276,12 @@ def test_speed_halved_at_once():
     later = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"] / 2, oil)
     stretch, unit = first.length_unit / later.length_unit, later.film_unit / first.film_unit
     b = first.half_width
-    steady = newton(mesh := make_mesh(-4 * b, 1.5 * b, 601, 8, False), first,
-                    *differential_solve._cold(mesh, first), 1e-6, 60)
+    steady = newton(
+        mesh := make_mesh(-4 * b, 1.5 * b, 601, 8, False), first, *differential_solve._cold(mesh, first), 1e-6, 60
+    )
     mesh = make_mesh(-4 * b * stretch, 1.5 * b * stretch, 601, 8, False)
     P, H, step = steady.P * first.pressure_unit / later.pressure_unit, steady.H / unit, 0.05
-    rate = 2 / (step * b * stretch)                            # 1/(U t) of the later speed
+    rate = 2 / (step * b * stretch)  # 1/(U t) of the later speed
     stored, table = [later.density(P)[0] * H], {}
     for k in range(1, 101):
         past = 2 * stored[-1] - 0.5 * stored[-2] if k > 1 else stored[-1]

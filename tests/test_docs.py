@@ -22,13 +22,19 @@ def test_ci_runs_the_readme_test_command():
     readme, ci = (ROOT / "README.md").read_text(), (ROOT / ".ci" / "run").read_text()
     command = next(line for line in readme.splitlines() if line.endswith("-m pytest"))
     environment = command.split("-m venv ")[1].split()[0]
-    assert command.replace(environment, '"$environment"').replace('"$environment"/', '"$environment/').replace(
-        "/bin/pip", '/bin/pip"').replace("/bin/python", '/bin/python"') in ci
+    assert (
+        command.replace(environment, '"$environment"')
+        .replace('"$environment"/', '"$environment/')
+        .replace("/bin/pip", '/bin/pip"')
+        .replace("/bin/python", '/bin/python"')
+        in ci
+    )
 
 
 @pytest.mark.parametrize("script", sorted((ROOT / "docs" / "examples").glob("*.py")), ids=lambda p: p.name)
 def test_examples_run(script, tmp_path, monkeypatch):
     import runpy
+
     monkeypatch.chdir(tmp_path)
     namespace = runpy.run_path(str(script))
     namespace["main"]()
@@ -38,6 +44,7 @@ def test_example_scenes_are_valid_but_for_their_file(tmp_path):
     import numpy as np
 
     import lubfric
+
     np.save(tmp_path / "map.npy", np.zeros((4, 4)))
     for scene in sorted((ROOT / "docs" / "examples").glob("*.toml")):
         measured = "\nfile = " in scene.read_text()

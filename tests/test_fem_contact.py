@@ -106,9 +106,7 @@ def test_full_contact_is_the_inverse_of_the_exact_compliance():
     )
     assert found.touching.all()
     weights = grid.weights.ravel()
-    projected = np.sum(weights * (found.pressure - 2 * amplitude) * wave.ravel()) / np.sum(
-        weights * wave.ravel() ** 2
-    )
+    projected = np.sum(weights * (found.pressure - 2 * amplitude) * wave.ravel()) / np.sum(weights * wave.ravel() ** 2)
     assert projected == pytest.approx(amplitude, rel=2e-3)
     assert found.gap == pytest.approx(0, abs=1e-9 * height)
 
@@ -277,6 +275,4 @@ def test_bad_input_is_refused_before_any_work(change, word):
         raise AssertionError("work was done")
 
     with pytest.raises(InputError, match=word):
-        solve_contact(
-            never, arguments.pop("weights"), arguments.pop("gap0"), arguments.pop("load"), **arguments
-        )
+        solve_contact(never, arguments.pop("weights"), arguments.pop("gap0"), arguments.pop("load"), **arguments)

@@ -198,9 +198,7 @@ def test_solution_obeys_its_equations():
     c = s.contact
     x = np.linspace(s.layout.inlet, s.layout.outlet, 20001)[1:-1] * c.half_width
     p, h = s.at(x)
-    assert np.trapezoid(p, x) == pytest.approx(
-        c.load_per_width, rel=2e-3
-    )  # the rest is the tail of the inlet
+    assert np.trapezoid(p, x) == pytest.approx(c.load_per_width, rel=2e-3)  # the rest is the tail of the inlet
     assert np.trapezoid(p, x) < c.load_per_width
     assert p.min() > -1e-3 * p.max()  # between nodes, next to rupture
     assert h.min() == pytest.approx(s.min_film, rel=1e-5)

@@ -85,9 +85,7 @@ def test_impossible_bodies_are_refused(young, poisson):
 
 
 def box(cells, depth=0.5):
-    return MeshTri.init_tensor(
-        np.linspace(-0.5, 0.5, cells + 1), np.linspace(-depth, 0, round(depth * cells) + 1)
-    )
+    return MeshTri.init_tensor(np.linspace(-0.5, 0.5, cells + 1), np.linspace(-depth, 0, round(depth * cells) + 1))
 
 
 @pytest.mark.parametrize("degree, cells", [(1, (16, 32, 64)), (2, (8, 16, 32))])
@@ -124,12 +122,10 @@ def test_graded_mesh_is_whole_symmetric_and_fine_where_asked():
     ends = mesh.p[:, mesh.facets[:, mesh.boundary_facets()]]
     on_edge = [np.all(np.isclose(ends[i], v), axis=0) for i, v in ((0, -4), (0, 4), (1, -1), (1, 0))]
     assert np.all(np.any(on_edge, axis=0))  # no crack where the two halves meet
-    assert {tuple(p) for p in np.round(mesh.p.T, 9)} == {
-        tuple(p) for p in np.round(mesh.p.T, 9) * [-1, 1] + 0.0
-    }
-    assert 0.5 * np.sum(
-        np.abs(np.linalg.det(np.diff(mesh.p[:, mesh.t], axis=1).transpose(2, 0, 1)))
-    ) == pytest.approx(8)
+    assert {tuple(p) for p in np.round(mesh.p.T, 9)} == {tuple(p) for p in np.round(mesh.p.T, 9) * [-1, 1] + 0.0}
+    assert 0.5 * np.sum(np.abs(np.linalg.det(np.diff(mesh.p[:, mesh.t], axis=1).transpose(2, 0, 1)))) == pytest.approx(
+        8
+    )
     top = np.sort(mesh.p[0, np.isclose(mesh.p[1], 0)])
     assert np.diff(top[np.abs(top) <= 0.5]).max() <= 0.1
 
@@ -168,9 +164,7 @@ def test_layer_refuses_what_it_cannot_be():
 
 
 def brick(nodes, degree, layers=None, depth=1.0, body=UNIT):
-    return Layer3D(
-        body, (1.0, 1.0), graded_levels(depth, layers or nodes // degree, 4.0), (nodes, nodes), degree
-    )
+    return Layer3D(body, (1.0, 1.0), graded_levels(depth, layers or nodes // degree, 4.0), (nodes, nodes), degree)
 
 
 @pytest.mark.parametrize("degree, nodes", [(1, (16, 32)), (2, (16, 32))])
@@ -202,9 +196,7 @@ def test_assembled_layer_is_that_of_scikit_fem(degree, element):
     free = np.random.default_rng(3).standard_normal((layer.planes, nx, ny, 3))
     values = np.concatenate([np.zeros((1, nx, ny, 3)), free])[iz, ix % nx, iy % ny, component]
     whole = linear_elasticity(*lame_parameters(1.0, 0.3)).assemble(basis)
-    assert free.ravel() @ (stiffness(layer) @ free.ravel()) == pytest.approx(
-        values @ (whole @ values), rel=1e-12
-    )
+    assert free.ravel() @ (stiffness(layer) @ free.ravel()) == pytest.approx(values @ (whole @ values), rel=1e-12)
 
 
 @pytest.mark.parametrize("degree", [1, 2])
@@ -224,9 +216,7 @@ def test_bricks_are_reciprocal_and_the_same_from_every_cell():
     p, q = rng.standard_normal((2, 8, 8))
     assert np.sum(q * waves.displacement(p)) == pytest.approx(np.sum(p * waves.displacement(q)), rel=1e-11)
     moved = np.roll(waves.displacement(p), (2, 4), (0, 1))
-    assert waves.displacement(np.roll(p, (2, 4), (0, 1))) == pytest.approx(
-        moved, abs=1e-12 * np.abs(moved).max()
-    )
+    assert waves.displacement(np.roll(p, (2, 4), (0, 1))) == pytest.approx(moved, abs=1e-12 * np.abs(moved).max())
     assert waves.displacement(layer.weights) == pytest.approx(1.0 / UNIT.oedometric, rel=1e-10)
 
 

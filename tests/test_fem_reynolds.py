@@ -62,10 +62,7 @@ def test_the_exact_pad_solves_the_equation():
 @pytest.mark.parametrize("degree", [1, 2])
 def test_slider(degree):
     found = solve_refined(Problem(slider_mesh(10), SLIDER.film, OIL, 1.0, degree), 4)
-    assert (
-        abs(fitted_order([2.0**-i for i in range(5)], [s.error(SLIDER.pressure) for s in found]) - degree - 1)
-        < 0.1
-    )
+    assert abs(fitted_order([2.0**-i for i in range(5)], [s.error(SLIDER.pressure) for s in found]) - degree - 1) < 0.1
     assert np.isclose(found[-1].load, SLIDER.load, rtol=(1e-3, 1e-8)[degree - 1])
     assert np.isclose(found[-1].inflow(0.0), SLIDER.flow, rtol=(1e-4, 1e-9)[degree - 1])
     assert np.isclose(found[-1].inflow(0.0), -found[-1].inflow(SLIDER.length), rtol=1e-8)
@@ -90,9 +87,7 @@ def test_manufactured_solution_has_the_order_of_the_element(kind, degree, stabil
 
 @pytest.mark.parametrize("degree", [1, 2])
 def test_rupture_under_a_parabola(degree):
-    s = solve_refined(Problem(parabola_mesh(50, -10.0), PARABOLA.film, OIL, 1.0, degree, cavitation=True), 4)[
-        -1
-    ]
+    s = solve_refined(Problem(parabola_mesh(50, -10.0), PARABOLA.film, OIL, 1.0, degree, cavitation=True), 4)[-1]
     assert np.isclose(s.load, PARABOLA.load, rtol=1e-4)
     assert np.isclose(s.inflow(s.problem.mesh.p.min()), PARABOLA.flow, rtol=1e-4)
     assert np.isclose(s.friction(1.0)[0], PARABOLA.couette, rtol=0.01)
@@ -143,9 +138,7 @@ def test_piezoviscous_oil_follows_from_the_reduced_pressure(law):
     q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
     alpha = 0.95 / q
     fluid = Fluid(0.1, law, alpha, 0.6)
-    s = solve_refined(Problem(parabola_mesh(100, -10.0), PARABOLA.film, fluid, 1.0, 2, cavitation=True), 2)[
-        -1
-    ]
+    s = solve_refined(Problem(parabola_mesh(100, -10.0), PARABOLA.film, fluid, 1.0, 2, cavitation=True), 2)[-1]
     at = np.linspace(0, s.problem.mesh.nvertices - 1, 31).astype(int)
     reduced = PARABOLA.pressure(s.problem.mesh.p[:, at])
     true = (
@@ -201,9 +194,7 @@ def test_roelands_index_and_slope_at_zero_follow_alpha():
 
 @pytest.mark.parametrize("key", list(ELEMENTS), ids=str)
 def test_prolongation_is_exact_for_linear_fields(key):
-    mesh = {"MeshLine": skfem.MeshLine, "MeshTri": skfem.MeshTri, "MeshQuad": skfem.MeshQuad}[
-        key[0]
-    ]().refined(2)
+    mesh = {"MeshLine": skfem.MeshLine, "MeshTri": skfem.MeshTri, "MeshQuad": skfem.MeshQuad}[key[0]]().refined(2)
     problem = Problem(mesh, lambda x: 1 + 0 * x[0], OIL, 1.0, key[1])
     coarse = solve_reynolds(problem)
     linear = sum((i + 1) * x for i, x in enumerate(coarse.basis.doflocs))
@@ -227,9 +218,7 @@ def test_an_unconverged_solve_raises_and_carries_what_it_had():
 def test_a_runaway_oil_is_not_solved():
     """Barus above the speed where the pressure becomes infinite: no solution exists, none is returned."""
     q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
-    problem = Problem(
-        parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True
-    )
+    problem = Problem(parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True)
     with pytest.raises(SolveError, match="iteration_limit|diverged"):
         solve_reynolds(problem)
 
@@ -248,12 +237,7 @@ def test_a_runaway_oil_is_not_solved():
 )
 def test_input_is_checked(change, message):
     with pytest.raises(InputError, match=message):
-        Problem(
-            **(
-                {"mesh": skfem.MeshLine(), "film": lambda x: 1 + 0 * x[0], "fluid": OIL, "speed": 1.0}
-                | change
-            )
-        )
+        Problem(**({"mesh": skfem.MeshLine(), "film": lambda x: 1 + 0 * x[0], "fluid": OIL, "speed": 1.0} | change))
 
 
 @pytest.mark.parametrize(

@@ -73,9 +73,7 @@ def test_tables_give_what_friction_gives(small, model):
         (table,) = flat_model.film_tables(scene, speed, scaled=scaled, laws=[{}])
         found = flat_model.share(table, flat_model.tabulated(curve), pressure, 0.09)
         direct = lubfric.friction(
-            scene.with_(
-                contact={"model": model}, numerics={"film_deflection": "scaled" if scaled else "hydrodynamic"}
-            ),
+            scene.with_(contact={"model": model}, numerics={"film_deflection": "scaled" if scaled else "hydrodynamic"}),
             speed,
         )
         assert found.coefficient == pytest.approx(direct.coefficient, rel=5e-3)
@@ -103,10 +101,7 @@ def test_the_papers_mean_hertz_pressure():
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])
 def test_the_command_writes_picture_data_and_page(name, tmp_path):
-    assert (
-        main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")])
-        == 0
-    )
+    assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")]) == 0
     picture = (tmp_path / f"{name}.png").read_bytes()
     assert picture.startswith(b"\x89PNG") and 5_000 < len(picture) < 150_000
     with (tmp_path / f"{name}.csv").open() as file:

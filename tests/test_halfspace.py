@@ -29,10 +29,11 @@ def test_love_coefficients_match_quadrature():
     dx, dy, e_prime = 1.5, 0.7, 3.0
     table = love_coefficients((4, 5), (dx, dy), e_prime)
     for i, j in ((1, 0), (0, 2), (3, 4), (1, 1)):
-        value, _ = dblquad(lambda y, x, i=i, j=j: 1 / np.hypot(i * dx - x, j * dy - y), -dx / 2, dx / 2,
-                           -dy / 2, dy / 2, epsabs=1e-11)
+        value, _ = dblquad(
+            lambda y, x, i=i, j=j: 1 / np.hypot(i * dx - x, j * dy - y), -dx / 2, dx / 2, -dy / 2, dy / 2, epsabs=1e-11
+        )
         assert table[i, j] == pytest.approx(2 / (np.pi * e_prime) * value, rel=1e-8)
-    inner, _ = quad(lambda t: 4 * (dx / 2) / np.cos(t), 0, np.arctan(dy / dx))       # polar, around the centre
+    inner, _ = quad(lambda t: 4 * (dx / 2) / np.cos(t), 0, np.arctan(dy / dx))  # polar, around the centre
     outer, _ = quad(lambda t: 4 * (dy / 2) / np.cos(t), 0, np.arctan(dx / dy))
     assert table[0, 0] == pytest.approx(2 / (np.pi * e_prime) * (inner + outer), rel=1e-12)
 
@@ -41,8 +42,10 @@ def test_line_coefficients_match_quadrature():
     dx, e_prime, far = 0.3, 2.0, 7.0
     table = line_coefficients(6, dx, e_prime, far)
     for i in range(6):
-        pieces = [quad(lambda s, i=i: np.log(abs(i * dx - s) / far), *ends, epsabs=1e-13)[0]
-                  for ends in ((-dx / 2, 0.0), (0.0, dx / 2))]
+        pieces = [
+            quad(lambda s, i=i: np.log(abs(i * dx - s) / far), *ends, epsabs=1e-13)[0]
+            for ends in ((-dx / 2, 0.0), (0.0, dx / 2))
+        ]
         assert table[i] == pytest.approx(-4 / (np.pi * e_prime) * sum(pieces), rel=1e-9)
 
 
@@ -53,8 +56,11 @@ def test_semiperiodic_coefficients_match_quadrature():
         k = 2 * np.pi * m / (shape[1] * dy)
         for i in range(shape[0]):
             low, high = (i - 0.5) * dx, (i + 0.5) * dx
-            value = 2 * quad(lambda s, k=k: k0(k * s), 0, high, epsrel=1e-12)[0] if i == 0 else \
-                quad(lambda s, k=k: k0(k * s), low, high, epsrel=1e-12)[0]
+            value = (
+                2 * quad(lambda s, k=k: k0(k * s), 0, high, epsrel=1e-12)[0]
+                if i == 0
+                else quad(lambda s, k=k: k0(k * s), low, high, epsrel=1e-12)[0]
+            )
             assert table[i, m] == pytest.approx(4 / (np.pi * e_prime) * value, abs=1e-13 * table[0, m])
     assert table[:, 0] == pytest.approx(line_coefficients(9, dx, e_prime, 9 * dx))
 
@@ -62,15 +68,20 @@ def test_semiperiodic_coefficients_match_quadrature():
 @pytest.mark.parametrize("cells_per_wavelength", [1e3, 40, 3, 0.2])
 def test_bessel_cells_over_all_scales(cells_per_wavelength):
     from lubfric.halfspace.semiperiodic import bessel_cells
+
     k = 2 * np.pi / cells_per_wavelength
     cells = bessel_cells(12, k)
     for i in range(1, 12):
-        assert cells[i] == pytest.approx(quad(lambda s: k0(k * s), i - .5, i + .5, epsabs=1e-16)[0], abs=2e-14)
+        assert cells[i] == pytest.approx(quad(lambda s: k0(k * s), i - 0.5, i + 0.5, epsabs=1e-16)[0], abs=2e-14)
 
 
 @settings(max_examples=40, deadline=None)
-@given(shape=st.tuples(st.integers(1, 13), st.integers(1, 13)), boundary=st.sampled_from(BOUNDARIES),
-       spacing=st.tuples(st.floats(0.02, 50), st.floats(0.02, 50)), seed=st.integers(0, 99))
+@given(
+    shape=st.tuples(st.integers(1, 13), st.integers(1, 13)),
+    boundary=st.sampled_from(BOUNDARIES),
+    spacing=st.tuples(st.floats(0.02, 50), st.floats(0.02, 50)),
+    seed=st.integers(0, 99),
+)
 def test_reciprocity_and_positivity(shape, boundary, spacing, seed):
     operator = half_space(shape, spacing, 2.0, boundary)
     assert reciprocity_error(operator, seed) < 1e-14
@@ -140,7 +151,7 @@ def test_semiperiodic_is_the_limit_of_a_long_periodic_box():
     for n in (40, 80, 160):
         dx = 8.0 / n
         x, y = (np.arange(n) - 0.5 * (n - 1)) * dx, np.arange(12) / 12
-        p = np.exp(-x[:, None] ** 2) * np.cos(2 * np.pi * y)
+        p = np.exp(-(x[:, None] ** 2)) * np.cos(2 * np.pi * y)
         semi = half_space((n, 12), (dx, 0.5), 2.0, ("free", "periodic")).apply(p)
         long = np.zeros((16 * n, 12))
         long[:n] = p
@@ -159,7 +170,7 @@ def test_free_tends_to_semiperiodic_for_many_periods():
     smooth = np.fft.irfft(np.fft.rfft(p, axis=1) * (np.arange(ny // 2 + 1) < 4), n=ny, axis=1)
     u = half_space((nx, ny), (dx, dx), 2.0, ("free", "periodic")).apply(smooth)
     v = half_space((nx, ny * periods), (dx, dx), 2.0, "free").apply(np.tile(smooth, (1, periods)))
-    middle = v[:, ny * (periods // 2):ny * (periods // 2 + 1)]
+    middle = v[:, ny * (periods // 2) : ny * (periods // 2 + 1)]
     assert np.abs(u - middle).max() < 0.04 * np.abs(u).max()
 
 
@@ -179,11 +190,22 @@ def test_coarsened_operator():
     assert coarse.symbol == pytest.approx(half_space((16, 8), (0.2, 0.4), 2.0).symbol)
 
 
-@pytest.mark.parametrize("arguments, word", [
-    ({"shape": (4,)}, "shape"), ({"shape": (0, 4)}, "shape"), ({"shape": (4, 2.5)}, "shape"),
-    ({"spacing": 0.0}, "spacing"), ({"spacing": (1.0, -1.0)}, "spacing"), ({"spacing": (1, 2, 3)}, "spacing"),
-    ({"e_prime": 0.0}, "e_prime"), ({"e_prime": np.nan}, "e_prime"), ({"boundary": ("periodic",)}, "boundary"),
-    ({"boundary": ("periodic", "fre")}, "free"), ({"workers": 0}, "workers")])
+@pytest.mark.parametrize(
+    "arguments, word",
+    [
+        ({"shape": (4,)}, "shape"),
+        ({"shape": (0, 4)}, "shape"),
+        ({"shape": (4, 2.5)}, "shape"),
+        ({"spacing": 0.0}, "spacing"),
+        ({"spacing": (1.0, -1.0)}, "spacing"),
+        ({"spacing": (1, 2, 3)}, "spacing"),
+        ({"e_prime": 0.0}, "e_prime"),
+        ({"e_prime": np.nan}, "e_prime"),
+        ({"boundary": ("periodic",)}, "boundary"),
+        ({"boundary": ("periodic", "fre")}, "free"),
+        ({"workers": 0}, "workers"),
+    ],
+)
 def test_bad_input(arguments, word):
     with pytest.raises(InputError, match=word):
         half_space(**({"shape": (4, 4), "spacing": 1.0, "e_prime": 1.0} | arguments))

@@ -19,9 +19,7 @@ def test_each_kind_has_its_values():
     assert [ramp.at(t) for t in (0.0, 1.0, 1.5, 2.0, 9.0)] == [1.0, 1.0, 2.0, 3.0, 3.0]
     wave = Harmonic(mean=1.0, amplitude=2.0, frequency=0.5, phase=np.pi / 2)
     assert wave.at(0.0) == pytest.approx(3.0) and wave.at(1.0) == pytest.approx(-1.0)
-    assert (
-        STEP.before(1.0) == 2.0 and STEP.at(1.0) == 5.0 and STEP.at(2.0) == 5.5 and STEP.jumps(3.0) == (1.0,)
-    )
+    assert STEP.before(1.0) == 2.0 and STEP.at(1.0) == 5.0 and STEP.at(2.0) == 5.5 and STEP.jumps(3.0) == (1.0,)
 
 
 def test_a_repeated_table_jumps_every_period():
@@ -38,9 +36,7 @@ KINDS = st.one_of(
         frequency=st.floats(0.05, 5),
         phase=st.floats(-20, 20),
     ),
-    st.builds(
-        Ramp, start=st.floats(-3, 3), end=st.floats(-3, 3), begin=st.just(0.3), until=st.floats(0.4, 9)
-    ),
+    st.builds(Ramp, start=st.floats(-3, 3), end=st.floats(-3, 3), begin=st.just(0.3), until=st.floats(0.4, 9)),
     st.lists(st.floats(-3, 3), min_size=2, max_size=6).map(
         lambda v: Table(times=tuple(np.linspace(0, 4, len(v))), values=tuple(v), repeat=True)
     ),

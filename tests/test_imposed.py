@@ -39,6 +39,7 @@ def make_problem(load, speed, imposed, law="roelands"):
 
 # ------------------------------------------------------------------ the deflection
 
+
 def test_deflection_and_its_slope_are_exact():
     nodes, values = np.array([-1.0, -0.3, 0.2, 0.9]), np.array([0.4, 1.0, 0.7, 0.0])
     points = np.array([-2.0, -0.6, 0.2, 0.5, 3.0])
@@ -71,6 +72,7 @@ def test_jacobian_matches_differences_as_the_rupture_moves_through_the_deflectio
 
 # ------------------------------------------------------------------ limits
 
+
 @pytest.mark.parametrize("speed", [1e-3, 0.3])
 def test_no_pressure_imposed_is_none_imposed(speed):
     case = OIL | {"load_per_width": 3e4, "entrainment_speed": speed}
@@ -84,6 +86,7 @@ def test_no_pressure_imposed_is_none_imposed(speed):
 def rigid_film(gap, film, speed, viscosity, ends):
     """Load over a rigid gap + film with Swift-Stieber rupture, by quadrature of Reynolds' equation."""
     from scipy.optimize import brentq
+
     x = np.linspace(*ends, 40001)
     h = gap(x) + film
 
@@ -102,8 +105,12 @@ def test_a_tiny_own_load_rides_on_the_flattened_cylinder(relative):
     total, b = 1e5, hertz.line_half_width(1e5, R, E)
     film, speed = relative * b**2 / R * 0.05, 1e-7
     load, rupture = rigid_film(lambda x: hertz.line_gap(x, total, R, E), film, speed, 0.1, (-12 * b, 6 * b))
-    found = solve_ehl(**OIL | {"viscosity_law": "constant"}, load_per_width=load, entrainment_speed=speed,
-                      imposed_pressure=semi_ellipse(total, count=257))
+    found = solve_ehl(
+        **OIL | {"viscosity_law": "constant"},
+        load_per_width=load,
+        entrainment_speed=speed,
+        imposed_pressure=semi_ellipse(total, count=257),
+    )
     assert load < 1e-4 * total
     assert found.central_film == pytest.approx(film, rel=0.02)
     assert found.rupture == pytest.approx(rupture, rel=0.01)
@@ -128,7 +135,9 @@ def test_a_heavy_isoviscous_film_grows_as_its_share_to_the_power_of_minus_three_
     """Inlet of Hertz's gap ~ s^(3/2), pressure share s^(1/2) = eta U s/h² at s ~ h^(2/3): h ~ share^(-3/5)."""
     x, p = semi_ellipse(1e6, count=129)
     case = OIL | {"entrainment_speed": 1e-3, "viscosity_law": "constant"}
-    films = [solve_ehl(**case, load_per_width=f * 1e6, imposed_pressure=(x, (1 - f) * p)).flow_film for f in (0.8, 0.4, 0.2)]
+    films = [
+        solve_ehl(**case, load_per_width=f * 1e6, imposed_pressure=(x, (1 - f) * p)).flow_film for f in (0.8, 0.4, 0.2)
+    ]
     np.testing.assert_allclose(np.diff(np.log(films)), 0.6 * math.log(2), rtol=0.12)
 
 
@@ -139,6 +148,7 @@ def test_more_of_the_pressure_imposed_never_thins_the_film():
 
 
 # ------------------------------------------------------------------ numerics
+
 
 @pytest.mark.parametrize("load, imposed", [(2e4, 2e4), (2e3, 6e4)])
 def test_second_order(load, imposed):
@@ -190,8 +200,13 @@ def test_converges_for_other_widths_and_off_the_centre(width, shift, share):
     for total in (1e4, 1e5):
         b = hertz.line_half_width(total, R, E)
         for speed in (1e-3, 1e-2, 0.3) if width >= 1 else (0.3,):
-            r = solve_ehl(**OIL, load_per_width=share * total, entrainment_speed=speed, tolerance=0.01,
-                          imposed_pressure=semi_ellipse((1 - share) * total, width * b, shift * b))
+            r = solve_ehl(
+                **OIL,
+                load_per_width=share * total,
+                entrainment_speed=speed,
+                tolerance=0.01,
+                imposed_pressure=semi_ellipse((1 - share) * total, width * b, shift * b),
+            )
             assert r.film_thickness.min() > 0 and r.report.residual <= 0.01
 
 
@@ -204,8 +219,17 @@ def test_a_gap_with_two_bottoms_has_no_film_that_ruptures_once_and_says_so():
     assert not found.report.converged and found.report.residual > found.report.tolerance
 
 
-@pytest.mark.parametrize("bad", [3, ([0.0], [1.0]), ([0.0, 1.0], [1.0]), ([1.0, 0.0], [1.0, 1.0]), ([0.0, 1.0], [1.0, -1.0]),
-                                 ([0.0, 1.0], [1.0, float("nan")])])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        3,
+        ([0.0], [1.0]),
+        ([0.0, 1.0], [1.0]),
+        ([1.0, 0.0], [1.0, 1.0]),
+        ([0.0, 1.0], [1.0, -1.0]),
+        ([0.0, 1.0], [1.0, float("nan")]),
+    ],
+)
 def test_bad_input(bad):
     with pytest.raises(InputError, match="imposed_pressure"):
         solve_ehl(**OIL, load_per_width=1e4, entrainment_speed=0.1, imposed_pressure=bad)
@@ -214,9 +238,12 @@ def test_bad_input(bad):
 # ------------------------------------------------------------------ load sharing
 
 PAPER = lubfric.load_scene("paper")
-HEAVY = PAPER.with_(bodies={"load": 550.0, "hardness": None}, contact={"spacing": 1.5e-6, "shape": (256, 96)},
-                    surface={"sq": 2e-7, "correlation_length": 8e-6},
-                    lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05})
+HEAVY = PAPER.with_(
+    bodies={"load": 550.0, "hardness": None},
+    contact={"spacing": 1.5e-6, "shape": (256, 96)},
+    surface={"sq": 2e-7, "correlation_length": 8e-6},
+    lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05},
+)
 
 
 def deflected(scene, name, **numerics):
@@ -253,8 +280,10 @@ def test_the_film_is_deflected_by_what_the_contact_presses_and_the_contact_by_it
 
 def test_all_deflections_agree_where_one_pressure_is_all_there_is():
     for speed in (0.0, 1.0):
-        f = [lubfric.friction(deflected(PAPER, name), speed, model="full").coefficient
-             for name in ("hydrodynamic", "scaled", "total")]
+        f = [
+            lubfric.friction(deflected(PAPER, name), speed, model="full").coefficient
+            for name in ("hydrodynamic", "scaled", "total")
+        ]
         assert np.ptp(f) < 1e-6 * f[0]
 
 
@@ -291,7 +320,9 @@ def test_fixed_point_that_does_not_close_is_an_error(monkeypatch):
     assert caught.value.report.residuals["deflection"] > caught.value.report.tolerance
 
 
-@pytest.mark.parametrize("numerics, name", [({"closure": "separation"}, "closure"), ({"film_level": "isoviscous"}, "film_level")])
+@pytest.mark.parametrize(
+    "numerics, name", [({"closure": "separation"}, "closure"), ({"film_level": "isoviscous"}, "film_level")]
+)
 def test_what_does_not_go_with_the_total_pressure(numerics, name):
     with pytest.raises(InputError, match=f"numerics.{name}.*allowed"):
         deflected(PAPER, "total", **numerics)

@@ -1,6 +1,5 @@
 """Film levels against closed forms and the numerical film, their error estimates, grids, and the knob as a whole."""
 
-
 import numpy as np
 import pytest
 
@@ -22,20 +21,43 @@ PAPER = lubfric.load_scene("paper")
 def line_contact(m, l):
     """Keyword arguments of a film with the Moes numbers."""
     u1 = (l / (ALPHA * E)) ** 4
-    return {"load_per_width": m * np.sqrt(u1) * E * R, "radius": R, "e_prime": E, "entrainment_speed": u1 * E * R / (2 * ETA)}
+    return {
+        "load_per_width": m * np.sqrt(u1) * E * R,
+        "radius": R,
+        "e_prime": E,
+        "entrainment_speed": u1 * E * R / (2 * ETA),
+    }
 
 
 def numerical(lubricant, **case):
-    return lubfric.solve_ehl(viscosity=lubricant.viscosity, viscosity_law=lubricant.viscosity_law, tolerance=1e-4,
-                             pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient, **case)
+    return lubfric.solve_ehl(
+        viscosity=lubricant.viscosity,
+        viscosity_law=lubricant.viscosity_law,
+        tolerance=1e-4,
+        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+        **case,
+    )
 
 
 def test_the_isoviscous_film_has_the_friction_of_the_closed_form():
-    film = isoviscous_film(load_per_width=10.0, radius=R, e_prime=E, entrainment_speed=1e-3, lubricant=Lubricant(ETA, 0.0, "constant"))
-    found = shear_force(film, Lubricant(ETA, 0.0, "constant"), entrainment_speed=1e-3, slide_roll_ratio=2.0, radius=R, width=1.0,
-                        contact_fraction=lambda x: 0 * x[1:])
-    assert found.couette == pytest.approx(rigid.couette_friction(film.min_film, radius=R, speed_difference=2e-3, viscosity=ETA), rel=1e-4)
-    assert found.rolling == pytest.approx(rigid.rolling_friction(film.min_film, radius=R, entrainment_speed=1e-3, viscosity=ETA), rel=5e-4)
+    film = isoviscous_film(
+        load_per_width=10.0, radius=R, e_prime=E, entrainment_speed=1e-3, lubricant=Lubricant(ETA, 0.0, "constant")
+    )
+    found = shear_force(
+        film,
+        Lubricant(ETA, 0.0, "constant"),
+        entrainment_speed=1e-3,
+        slide_roll_ratio=2.0,
+        radius=R,
+        width=1.0,
+        contact_fraction=lambda x: 0 * x[1:],
+    )
+    assert found.couette == pytest.approx(
+        rigid.couette_friction(film.min_film, radius=R, speed_difference=2e-3, viscosity=ETA), rel=1e-4
+    )
+    assert found.rolling == pytest.approx(
+        rigid.rolling_friction(film.min_film, radius=R, entrainment_speed=1e-3, viscosity=ETA), rel=5e-4
+    )
     assert film.report.residuals["load"] < 1e-3
 
 
@@ -49,20 +71,26 @@ def test_what_the_rigid_films_leave_out_is_foretold(law, l):
         full = numerical(lubricant, **case).central_film
         thin, thick = (make(lubricant=lubricant, **case) for make in (isoviscous_film, piezoviscous_film))
         assert 1 - thick.central_film / full == pytest.approx(elastic_error(thick, lubricant), rel=0.1, abs=2e-4)
-        assert 1 - thin.central_film / full == pytest.approx(rigid_error(thin, lubricant, thick).total, rel=0.25, abs=3e-4)
+        assert 1 - thin.central_film / full == pytest.approx(
+            rigid_error(thin, lubricant, thick).total, rel=0.25, abs=3e-4
+        )
 
 
 def test_the_elastic_correction_of_the_isoviscous_film_grows_with_the_square_of_the_load():
     lubricant = Lubricant(ETA, 0.0, "constant")
-    errors = [elastic_error(isoviscous_film(lubricant=lubricant, **line_contact(m, 1.0)), lubricant) for m in (0.01, 0.02, 0.04)]
+    errors = [
+        elastic_error(isoviscous_film(lubricant=lubricant, **line_contact(m, 1.0)), lubricant)
+        for m in (0.01, 0.02, 0.04)
+    ]
     np.testing.assert_allclose(np.log2(np.divide(errors[1:], errors[:-1])), 2.0, atol=1e-6)
 
 
 def test_blok_limit_of_the_barus_film():
     lubricant = Lubricant(ETA, ALPHA, "barus")
     case = line_contact(30.0, 15.0)
-    limit = rigid.piezoviscous_min_film(radius=R, entrainment_speed=case["entrainment_speed"], viscosity=ETA,
-                                        pressure_viscosity_coefficient=ALPHA)
+    limit = rigid.piezoviscous_min_film(
+        radius=R, entrainment_speed=case["entrainment_speed"], viscosity=ETA, pressure_viscosity_coefficient=ALPHA
+    )
     assert piezoviscous_film(lubricant=lubricant, **case).min_film == pytest.approx(limit, rel=0.02)
 
 
@@ -72,7 +100,9 @@ def test_a_film_run_backwards_is_mirrored():
     back = piezoviscous_film(lubricant=lubricant, **case | {"entrainment_speed": -case["entrainment_speed"]})
     np.testing.assert_allclose(back.x, -forth.x[::-1])
     np.testing.assert_allclose(back.pressure, forth.pressure[::-1])
-    assert back.rupture == -forth.rupture and elastic_error(back, lubricant) == pytest.approx(elastic_error(forth, lubricant))
+    assert back.rupture == -forth.rupture and elastic_error(back, lubricant) == pytest.approx(
+        elastic_error(forth, lubricant)
+    )
 
 
 def test_levels_rise_with_load_and_with_what_is_asked():
@@ -134,8 +164,12 @@ def test_other_levels_can_be_forced():
     assert none.contact_load == 0 and none.decision.contact == "none" and none.decision.clearance < 0
     dry = lubfric.friction(PAPER.with_(numerics={"film_level": "none"}), 1e-3)
     assert dry.film_load == 0 and dry.coefficient == pytest.approx(0.09)
-    flat = lubfric.friction(PAPER.with_(numerics={"contact_level": "flat"}, contact={"shape": (96, 96)},
-                                        surface={"correlation_length": 4e-6}), 1e-2)
+    flat = lubfric.friction(
+        PAPER.with_(
+            numerics={"contact_level": "flat"}, contact={"shape": (96, 96)}, surface={"correlation_length": 4e-6}
+        ),
+        1e-2,
+    )
     assert "flat" in flat.decision.contact and 0 < flat.contact_load < 5.5
     given = lubfric.friction(PAPER.with_(numerics={"grid": "given"}), 1e-3)
     assert given.decision.shape == (200, 200) and given.decision.coarsening == (1, 1)
@@ -144,7 +178,9 @@ def test_other_levels_can_be_forced():
 
 
 def test_a_map_too_coarse_for_its_roughness_says_so():
-    rough = PAPER.with_(surface={"acf": "exponential", "correlation_length": 4e-6}, contact={"shape": (128, 96), "spacing": 1e-6})
+    rough = PAPER.with_(
+        surface={"acf": "exponential", "correlation_length": 4e-6}, contact={"shape": (128, 96), "spacing": 1e-6}
+    )
     assert "too coarse" in lubfric.friction(rough, 0.03, tolerance=2e-3).decision.text
 
 
@@ -154,7 +190,9 @@ def test_one_curve_serves_every_load_and_lubricant():
     light = flat.with_(bodies={"load": 2.0}, lubricant={"viscosity": 0.1})
     again = prepare(light, like=heavy)
     assert again.patch.curve is heavy.patch.curve
-    assert lubfric.friction(again, 0.02).coefficient == pytest.approx(lubfric.friction(light, 0.02).coefficient, rel=1e-2)
+    assert lubfric.friction(again, 0.02).coefficient == pytest.approx(
+        lubfric.friction(light, 0.02).coefficient, rel=1e-2
+    )
     with pytest.raises(lubfric.InputError, match="heaviest first"):
         prepare(flat.with_(bodies={"load": 100.0}), like=heavy)
     with pytest.raises(lubfric.InputError, match="tighter"):
@@ -165,6 +203,7 @@ def test_one_curve_serves_every_load_and_lubricant():
 
 def test_scenes_of_the_study_keep_the_tolerance():
     from verification.levels import measure
+
     for index in (1, 9, 24, 26, 30):
         row = measure.row(index, measure.points(64)[index])
         for tolerance in measure.TOLERANCES:
@@ -174,6 +213,7 @@ def test_scenes_of_the_study_keep_the_tolerance():
 def test_a_gap_of_a_fiftieth_of_the_roughness_asks_for_a_tighter_contact():
     """683 N/mm on 24 nm of roughness: at the patch's own tolerance the gap is noise, and the balance did not close."""
     from verification.levels.scenes import points, scene
+
     model = prepare(scene(points(200)[187], 187))
     loose, full = lubfric.friction(model), lubfric.friction(model, tolerance=1e-3, model="full")
     assert loose.mean_gap < 0.05 * model.surface.sq
@@ -182,10 +222,18 @@ def test_a_gap_of_a_fiftieth_of_the_roughness_asks_for_a_tighter_contact():
 
 def test_a_spike_that_the_grid_does_not_hold_is_found_by_the_sum_of_the_shear_stress():
     """At L = 23 the film needs 96 cells, its friction ten times as many; with fewer, that is said."""
-    lubricant = {"viscosity": 0.0943, "pressure_viscosity_coefficient": 21.2e-9, "eyring_stress": 5e6,
-                 "limiting_stress_coefficient": 0.05}
-    scene = PAPER.with_(bodies={"load": 495.0, "width": 10e-3, "radius": 5.87e-3}, lubricant=lubricant,
-                        surface={"sq": 1e-9, "seed": 1}, contact={"shape": (128, 32), "spacing": (1.2e-6, 1.2e-6)})
+    lubricant = {
+        "viscosity": 0.0943,
+        "pressure_viscosity_coefficient": 21.2e-9,
+        "eyring_stress": 5e6,
+        "limiting_stress_coefficient": 0.05,
+    }
+    scene = PAPER.with_(
+        bodies={"load": 495.0, "width": 10e-3, "radius": 5.87e-3},
+        lubricant=lubricant,
+        surface={"sq": 1e-9, "seed": 1},
+        contact={"shape": (128, 32), "spacing": (1.2e-6, 1.2e-6)},
+    )
     model = prepare(scene)
     found = lubfric.friction(model, 3.57)
     assert found.decision.contact == "none" and found.balance.film.state.pressure.size > 300

@@ -9,9 +9,9 @@ import lubfric
 from lubfric.analytic import rigid
 from lubfric.mixed import prepare
 
-SCENE = lubfric.load_scene("paper").with_(contact={"shape": (96, 96), "spacing": 0.6e-6},
-                                          surface={"correlation_length": 4e-6},
-                                          numerics={"tolerance": 1e-3})
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (96, 96), "spacing": 0.6e-6}, surface={"correlation_length": 4e-6}, numerics={"tolerance": 1e-3}
+)
 MODEL = prepare(SCENE)
 FLAT = lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing": 8e-6})
 
@@ -24,7 +24,7 @@ def test_without_entrainment_the_contact_carries_everything():
     point = lubfric.friction(MODEL, 0.0)
     assert point.coefficient == pytest.approx(SCENE.bodies.boundary_friction_coefficient, rel=1e-12)
     assert point.contact_load == SCENE.bodies.load and point.film_load == 0 and np.isnan(point.min_film)
-    slow = lubfric.friction(MODEL, 1e-6, model="full")       # the tolerance holds for f; areas want the whole grid
+    slow = lubfric.friction(MODEL, 1e-6, model="full")  # the tolerance holds for f; areas want the whole grid
     assert slow.coefficient == pytest.approx(0.09, rel=1e-3)
     assert slow.real_contact_area_fraction == pytest.approx(point.real_contact_area_fraction, rel=1e-2)
 
@@ -33,9 +33,10 @@ def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder():
     point = lubfric.friction(MODEL, 1.0, fields=True)
     b, film = SCENE.bodies, point.balance.film
     assert point.contact_load == 0 and point.balance.closure.contact is None and point.real_contact_area_fraction == 0
-    exact = (rigid.couette_friction(film.min_film, radius=b.radius, speed_difference=2.0, viscosity=0.36)
-             + rigid.rolling_friction(film.min_film, radius=b.radius, entrainment_speed=1.0, viscosity=0.36))
-    assert point.coefficient == pytest.approx(exact * b.width / b.load, rel=0.05)    # M = 0.05, L = 36: nearly rigid
+    exact = rigid.couette_friction(
+        film.min_film, radius=b.radius, speed_difference=2.0, viscosity=0.36
+    ) + rigid.rolling_friction(film.min_film, radius=b.radius, entrainment_speed=1.0, viscosity=0.36)
+    assert point.coefficient == pytest.approx(exact * b.width / b.load, rel=0.05)  # M = 0.05, L = 36: nearly rigid
 
 
 def test_both_balances_recomputed_from_the_fields():
@@ -46,7 +47,7 @@ def test_both_balances_recomputed_from_the_fields():
     carried = contact.pressure.sum() * dx * dy / length * b.width
     fluid = np.sum(0.5 * (film.pressure[1:] + film.pressure[:-1]) * np.diff(film.x)) * b.width
     assert carried == pytest.approx(point.contact_load, rel=1e-4)
-    assert fluid == pytest.approx(point.film_load, rel=2e-3)             # trapezoid, without the far inlet
+    assert fluid == pytest.approx(point.film_load, rel=2e-3)  # trapezoid, without the far inlet
     assert carried + fluid == pytest.approx(b.load, rel=2e-3)
     x = MODEL.patch.x
     share = np.clip((np.minimum(x + dx / 2, b.half_width) - np.maximum(x - dx / 2, -b.half_width)) / dx, 0, 1)
@@ -59,10 +60,12 @@ def test_both_balances_recomputed_from_the_fields():
 
 def test_what_must_not_change_the_coefficient():
     reference = lubfric.friction(MODEL, 0.01).coefficient
-    same = [lubfric.friction(with_heights(MODEL, lambda z: z + 3e-6), 0.01),                # datum of the map
-            lubfric.friction(with_heights(MODEL, lambda z: np.roll(z, 31, axis=1)), 0.01),  # along the width
-            lubfric.friction(with_heights(MODEL, lambda z: z[:, ::-1]), 0.01),
-            lubfric.friction(with_heights(MODEL, lambda z: z[::-1]), -0.01)]                # run backwards
+    same = [
+        lubfric.friction(with_heights(MODEL, lambda z: z + 3e-6), 0.01),  # datum of the map
+        lubfric.friction(with_heights(MODEL, lambda z: np.roll(z, 31, axis=1)), 0.01),  # along the width
+        lubfric.friction(with_heights(MODEL, lambda z: z[:, ::-1]), 0.01),
+        lubfric.friction(with_heights(MODEL, lambda z: z[::-1]), -0.01),
+    ]  # run backwards
     for point in same:
         assert point.coefficient == pytest.approx(reference, rel=1e-3)
     wide = prepare(SCENE.with_(bodies={"width": 12e-3, "load": 11.0}))
@@ -72,13 +75,19 @@ def test_what_must_not_change_the_coefficient():
 def test_similar_contacts_have_the_same_coefficient():
     """All lengths x 3, load x 9, viscosity/3 at the same speed: every dimensionless group is kept."""
     k = 3.0
-    bigger = prepare(SCENE.with_(
-        bodies={"radius": 2e-3 * k, "width": 6e-3 * k, "load": 5.5 * k**2},
-        lubricant={"viscosity": 0.36 * k, "viscosity_law": "barus"}, motion={"entrainment_speed": 0.01},
-        surface={"sq": 100e-9 * k, "correlation_length": 4e-6 * k}, contact={"spacing": 0.6e-6 * k}))
+    bigger = prepare(
+        SCENE.with_(
+            bodies={"radius": 2e-3 * k, "width": 6e-3 * k, "load": 5.5 * k**2},
+            lubricant={"viscosity": 0.36 * k, "viscosity_law": "barus"},
+            motion={"entrainment_speed": 0.01},
+            surface={"sq": 100e-9 * k, "correlation_length": 4e-6 * k},
+            contact={"spacing": 0.6e-6 * k},
+        )
+    )
     barus = prepare(SCENE.with_(lubricant={"viscosity_law": "barus"}))
-    assert lubfric.friction(bigger, 0.01).coefficient == pytest.approx(lubfric.friction(barus, 0.01).coefficient,
-                                                                       rel=1e-3)
+    assert lubfric.friction(bigger, 0.01).coefficient == pytest.approx(
+        lubfric.friction(barus, 0.01).coefficient, rel=1e-3
+    )
 
 
 def test_a_warm_start_changes_the_time_not_the_answer():
@@ -136,6 +145,7 @@ def flat():
 
 def test_flat_contact_follows_its_curve(flat):
     from lubfric.contact import solve_contact
+
     point = lubfric.friction(flat, 0.05)
     pressure = point.contact_load / flat.patch.area
     heights = flat.surface.heights
@@ -161,4 +171,6 @@ def test_a_bad_speed_is_an_error(speed):
 def test_a_height_map_in_memory_is_used_as_it_is():
     surface = MODEL.surface
     same = lubfric.prepare(SCENE.with_(surface={"sq": 1e-6}), surface)
-    assert lubfric.friction(same, 0.01).coefficient == pytest.approx(lubfric.friction(MODEL, 0.01).coefficient, rel=1e-6)
+    assert lubfric.friction(same, 0.01).coefficient == pytest.approx(
+        lubfric.friction(MODEL, 0.01).coefficient, rel=1e-6
+    )

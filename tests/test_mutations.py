@@ -32,9 +32,7 @@ def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
     from lubfric import mixed
 
     original = mixed.centred_axis
-    gone = Mutant(
-        "gone", "", {"lubfric.mixed:centred_axis": lambda f: f, "lubfric.mixed:no_such": lambda f: f}
-    )
+    gone = Mutant("gone", "", {"lubfric.mixed:centred_axis": lambda f: f, "lubfric.mixed:no_such": lambda f: f})
     with pytest.raises(AttributeError, match="no_such"), applied(gone):
         pass
     assert mixed.centred_axis is original
@@ -77,9 +75,7 @@ def test_a_crash_is_not_a_catch():
     assert not Trial("half_cell", "", (failure,), 3, "TypeError: x", 5, 0.1).passed
     assert not Trial("half_cell", "", (), 3, "", 5, 0.1).passed
     assert not Trial(NONE, "", (failure,), 3, "", 0, 0.1).passed
-    text = table(
-        [good, Trial("x", "", (), 3, "", 5, 0.1), Trial("y", "", (failure,), 3, "TypeError", 5, 0.1)], 1.0
-    )
+    text = table([good, Trial("x", "", (), 3, "", 5, 0.1), Trial("y", "", (failure,), 3, "TypeError", 5, 0.1)], 1.0)
     assert "1 of 3 mutants caught" in text and "x (NOT CAUGHT)" in text and "y (CRASHED)" in text
 
 

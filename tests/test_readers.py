@@ -30,9 +30,25 @@ def heights(shape=(7, 5)):
 
 # --- X3P: a writer that can also lie ----------------------------------------------------------
 
-def write_x3p(path, z, kind="D", *, mask=None, increment=None, offset=0.0, size=None, data=None, xml=None,
-              data_name="bindata/data.bin", stored_name=None, point_md5=None, main_md5=None, skip=(),
-              extra=()):
+
+def write_x3p(
+    path,
+    z,
+    kind="D",
+    *,
+    mask=None,
+    increment=None,
+    offset=0.0,
+    size=None,
+    data=None,
+    xml=None,
+    data_name="bindata/data.bin",
+    stored_name=None,
+    point_md5=None,
+    main_md5=None,
+    skip=(),
+    extra=(),
+):
     """An X3P file of z[ix, iy]; the keywords override single parts of a correct file."""
     types = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
     raw = z if increment is None else np.rint((z - offset) / increment)
@@ -57,8 +73,11 @@ def write_x3p(path, z, kind="D", *, mask=None, increment=None, offset=0.0, size=
   <DataLink>{links}</DataLink></Record3>
  <Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>"""
     text = text.encode() if xml is None else xml(text)
-    members = [("main.xml", text), (stored_name or data_name, data),
-               ("md5checksum.hex", f"{main_md5 or hashlib.md5(text).hexdigest()} *main.xml".encode())]
+    members = [
+        ("main.xml", text),
+        (stored_name or data_name, data),
+        ("md5checksum.hex", f"{main_md5 or hashlib.md5(text).hexdigest()} *main.xml".encode()),
+    ]
     members += [("bindata/valid.bin", valid)] if valid is not None else []
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in [m for m in members if m[0] not in skip] + list(extra):
@@ -66,8 +85,9 @@ def write_x3p(path, z, kind="D", *, mask=None, increment=None, offset=0.0, size=
     return path
 
 
-@pytest.mark.parametrize("kind, increment, tolerance",
-                         [("D", None, 0), ("F", None, 2e-14), ("I", 1e-11, 5.1e-12), ("L", 1e-15, 5.1e-16)])
+@pytest.mark.parametrize(
+    "kind, increment, tolerance", [("D", None, 0), ("F", None, 2e-14), ("I", 1e-11, 5.1e-12), ("L", 1e-15, 5.1e-16)]
+)
 def test_x3p_every_number_type(tmp_path, kind, increment, tolerance):
     """Negative heights included: 16 and 32 bit integers are signed."""
     z = heights()
@@ -104,8 +124,12 @@ def test_x3p_masks(tmp_path, kind, increment):
 
 
 def test_x3p_without_checksums_says_so(tmp_path):
-    path = write_x3p(tmp_path / "a.x3p", heights(), skip=("md5checksum.hex",),
-                     xml=lambda t: t.replace("MD5ChecksumPointData", "Nothing").encode())
+    path = write_x3p(
+        tmp_path / "a.x3p",
+        heights(),
+        skip=("md5checksum.hex",),
+        xml=lambda t: t.replace("MD5ChecksumPointData", "Nothing").encode(),
+    )
     assert sum("no checksum" in note for note in read_surface(path).notes) == 2
 
 
@@ -113,7 +137,7 @@ def swap(old, new):
     return lambda text: text.replace(old, new).encode()
 
 
-BOMB = ('<!DOCTYPE a [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]>')
+BOMB = '<!DOCTYPE a [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]>'
 HOSTILE = {
     "no main.xml": {"skip": ("main.xml",)},
     "no data": {"skip": ("bindata/data.bin",)},
@@ -133,8 +157,9 @@ HOSTILE = {
     "windows path": {"data_name": "C:\\data.bin"},
     "linked elsewhere": {"stored_name": "bindata/other.bin"},
     "entity expansion": {"xml": swap("<p:ISO5436_2", BOMB + "<p:ISO5436_2")},
-    "entity expansion in UTF-16": {"xml": lambda t: t.replace("UTF-8", "UTF-16").replace(
-        "<p:ISO5436_2", BOMB + "<p:ISO5436_2", 1).encode("utf-16")},
+    "entity expansion in UTF-16": {
+        "xml": lambda t: t.replace("UTF-8", "UTF-16").replace("<p:ISO5436_2", BOMB + "<p:ISO5436_2", 1).encode("utf-16")
+    },
     "broken XML": {"xml": swap("</Record1>", "")},
     "unknown encoding": {"xml": swap("UTF-8", "klingon")},
     "empty XML": {"xml": lambda t: b""},
@@ -147,8 +172,7 @@ HOSTILE = {
     "increment not a number": {"xml": swap("<Increment>1e-06", "<Increment>one")},
     "unknown type": {"xml": swap("<DataType>D", "<DataType>Q")},
     "integers without increment": {"kind": "L"},
-    "scaled floats": {"xml": swap("<DataType>D</DataType>",
-                                  "<DataType>D</DataType><Increment>1e-9</Increment>")},
+    "scaled floats": {"xml": swap("<DataType>D</DataType>", "<DataType>D</DataType><Increment>1e-9</Increment>")},
     "nothing measured": {"mask": np.zeros((7, 5), bool)},
     "infinite heights": {"data": np.full((7, 5), np.inf).tobytes()},
     "huge XML": {"xml": lambda t: t.encode() + b" " * 2**23},
@@ -168,6 +192,7 @@ def test_x3p_refuses(tmp_path, case):
 def test_x3p_refuses_a_bomb_before_unpacking_it(tmp_path):
     """100 MB of zeros in 100 kB, declared as a 7 x 5 map: the declared size is read, not the data."""
     import tracemalloc
+
     path = write_x3p(tmp_path / "a.x3p", heights(), skip=("bindata/data.bin",))
     with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("bindata/data.bin", bytes(100 * 2**20))
@@ -191,12 +216,13 @@ def test_x3p_refuses_every_truncation_and_damage(tmp_path):
         data[rng.integers(len(data))] ^= 1 << rng.integers(8)
         broken.write_bytes(data)
         try:
-            assert np.array_equal(read_surface(broken).heights, good)    # a flipped date is harmless
+            assert np.array_equal(read_surface(broken).heights, good)  # a flipped date is harmless
         except InputError:
             pass
 
 
 # --- text, npy, xyz ---------------------------------------------------------------------------
+
 
 def test_npy(tmp_path):
     z = heights()
@@ -253,7 +279,9 @@ def test_xyz_without_a_whole_line_of_points(tmp_path):
     surface = read_surface(path, **RAW)
     assert np.array_equal(surface.mask, keep) and surface.spacing == pytest.approx(STEP, rel=1e-5)
     assert np.allclose(surface.heights[keep], z[keep])
-    np.savetxt(path, np.where(np.arange(3) == 2, np.where(keep.reshape(-1, 1), points(z), np.nan), points(z)), fmt="%.12e")
+    np.savetxt(
+        path, np.where(np.arange(3) == 2, np.where(keep.reshape(-1, 1), points(z), np.nan), points(z)), fmt="%.12e"
+    )
     assert np.array_equal(read_surface(path, **RAW).mask, keep)
 
 
@@ -265,9 +293,15 @@ def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
     scattered[:, :2] = np.random.default_rng(0).random((35, 2))
     stretched = good.copy()
     stretched[:, 1] = stretched[:, 1] ** 1.5
-    for table, words in ((uneven, "not uniform"), (scattered, "uniform"), (stretched, "not uniform"),
-                         (np.vstack([good, good[:1]]), "more than once"), (good[:, :2], "columns"),
-                         (good[:1], "one value"), (np.where(good == good[3], np.nan, good), "NaN")):
+    for table, words in (
+        (uneven, "not uniform"),
+        (scattered, "uniform"),
+        (stretched, "not uniform"),
+        (np.vstack([good, good[:1]]), "more than once"),
+        (good[:, :2], "columns"),
+        (good[:1], "one value"),
+        (np.where(good == good[3], np.nan, good), "NaN"),
+    ):
         np.savetxt(path, table, fmt="%.9e")
         with pytest.raises(InputError, match=words):
             read_surface(path, unit="um")
@@ -275,11 +309,12 @@ def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
 
 # --- text: decimal commas, titles, units ------------------------------------------------------
 
+
 @pytest.mark.parametrize("separator", [";", "\t", " ", "   ", "; ", ";\t"])
 @pytest.mark.parametrize("number", ["%.9f", "%.9e", "%.9g"])
 def test_decimal_commas_are_read_where_something_else_separates(tmp_path, separator, number):
     z, path = np.round(heights() * 1e9, 6), tmp_path / "a.csv"
-    z[0], z[2, 3] = np.arange(5), np.nan                            # a line without any comma under %g
+    z[0], z[2, 3] = np.arange(5), np.nan  # a line without any comma under %g
     text = "\n".join(separator.join(number % v for v in row) for row in z)
     path.write_text(text.replace(".", ","))
     surface = read_surface(path, spacing=STEP, unit="nm", **RAW)
@@ -296,29 +331,38 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
     path.write_text("X;Y;Z\n\u00b5m;\u00b5m;\u00b5m\n" + path.read_text().replace(".", ","), encoding="utf-8")
     surface = read_surface(path, unit="um", **RAW)
     assert np.allclose(surface.heights, z, atol=1e-15) and surface.spacing == pytest.approx(STEP)
-    assert surface.notes == ("line 1 skipped as a title: 'X;Y;Z'", "line 2 skipped as a title: '\u00b5m;\u00b5m;\u00b5m'",
-                             "decimal comma")
+    assert surface.notes == (
+        "line 1 skipped as a title: 'X;Y;Z'",
+        "line 2 skipped as a title: '\u00b5m;\u00b5m;\u00b5m'",
+        "decimal comma",
+    )
     with pytest.raises(InputError, match="line 2 .*names um, and unit is not given.*unit = 'um'"):
         read_surface(path)
 
 
-@pytest.mark.parametrize("text, found", [
-    ("1,2,3\n4,5,7\n", [[1, 2, 3], [4, 5, 7]]),
-    ("1.5,2\n3,5\n", [[1.5, 2], [3, 5]]),
-    ("1, 2\n3, 5\n", [[1, 2], [3, 5]]),
-    ("1,2\n3,-5\n", [[1, 2], [3, -5]]),
-    ("1,2\n3,nan\n", [[1, 2], [3, np.nan]]),
-    ("1,2,4,\n3,5,6,\n", [[1, 2, 4], [3, 5, 6]]),
-    ("1;2;\n3;5;\n", [[1, 2], [3, 5]]),
-    ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
-    ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
-    ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]])])
+@pytest.mark.parametrize(
+    "text, found",
+    [
+        ("1,2,3\n4,5,7\n", [[1, 2, 3], [4, 5, 7]]),
+        ("1.5,2\n3,5\n", [[1.5, 2], [3, 5]]),
+        ("1, 2\n3, 5\n", [[1, 2], [3, 5]]),
+        ("1,2\n3,-5\n", [[1, 2], [3, -5]]),
+        ("1,2\n3,nan\n", [[1, 2], [3, np.nan]]),
+        ("1,2,4,\n3,5,6,\n", [[1, 2, 4], [3, 5, 6]]),
+        ("1;2;\n3;5;\n", [[1, 2], [3, 5]]),
+        ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
+        ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
+        ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]]),
+    ],
+)
 def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
     (tmp_path / "a.txt").write_text(text)
     assert np.allclose(read_surface(tmp_path / "a.txt", spacing=1.0, **RAW).heights, found, rtol=1e-14, equal_nan=True)
 
 
-@pytest.mark.parametrize("text", ["1,2\n3,5\n", "1,5,2,5\n3,5,4,5\n", "-1,5E-07, 2,5E-07\n3,5E-07, 4,5E-07\n", "6, -9,8\n7, 1,5\n"])
+@pytest.mark.parametrize(
+    "text", ["1,2\n3,5\n", "1,5,2,5\n3,5,4,5\n", "-1,5E-07, 2,5E-07\n3,5E-07, 4,5E-07\n", "6, -9,8\n7, 1,5\n"]
+)
 def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     path = tmp_path / "a.csv"
     path.write_text(text)
@@ -334,25 +378,29 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
             read_surface(path, spacing=1.0, decimal=",")
 
 
-@pytest.mark.parametrize("text, options, words", [
-    ("1 2\n3 4\nfoo\n5 6\n", {}, "line 3 has 'foo'"),
-    ("# c\n\n1;2\n3;4;5\n", {}, "line 4 has 3 values, the first one 2"),
-    ("1 2\n3 BAD\n", {}, "line 2 has 'BAD'.*'nan' where unmeasured"),
-    ("1,5;2.5\n3;4\n", {}, "line 1 .*point where commas"),
-    ("1,5 2.5\n3 4\n", {}, "line 1"),
-    ("1.000,5;2\n3;4\n", {}, "thousands"),
-    ("1;2,5\n3;4\n", {"decimal": "."}, "line 1 .*decimal = ','"),
-    ("1,5,2,5,\n3,5,4,5,\n", {}, "decimal = '.'"),
-    ("1.5 2\n3 4\n", {"decimal": ","}, "line 1 .*point"),
-    ("1 2\n3 4\n", {"decimal": ";"}, "decimal = ';'"),
-    ("Scan 5\n1 2\n3 4\n", {}, "line 1 'Scan 5'"),
-    ("one 2\n3 4\n", {}, "line 1"),
-    ("NA NA\n3 4\n", {}, "line 1 .*unmeasured"),
-    ("--- ---\n3 4\n", {}, "line 1"),
-    ("only words\n", {}, "no numbers"),
-    ("z (nm)\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
-    ("x/mm z/um\n3 4\n1 2\n", {}, "mm and um"),
-    ("1\t\t2\n3\t4\t5\n", {}, "line 1 has ''")])
+@pytest.mark.parametrize(
+    "text, options, words",
+    [
+        ("1 2\n3 4\nfoo\n5 6\n", {}, "line 3 has 'foo'"),
+        ("# c\n\n1;2\n3;4;5\n", {}, "line 4 has 3 values, the first one 2"),
+        ("1 2\n3 BAD\n", {}, "line 2 has 'BAD'.*'nan' where unmeasured"),
+        ("1,5;2.5\n3;4\n", {}, "line 1 .*point where commas"),
+        ("1,5 2.5\n3 4\n", {}, "line 1"),
+        ("1.000,5;2\n3;4\n", {}, "thousands"),
+        ("1;2,5\n3;4\n", {"decimal": "."}, "line 1 .*decimal = ','"),
+        ("1,5,2,5,\n3,5,4,5,\n", {}, "decimal = '.'"),
+        ("1.5 2\n3 4\n", {"decimal": ","}, "line 1 .*point"),
+        ("1 2\n3 4\n", {"decimal": ";"}, "decimal = ';'"),
+        ("Scan 5\n1 2\n3 4\n", {}, "line 1 'Scan 5'"),
+        ("one 2\n3 4\n", {}, "line 1"),
+        ("NA NA\n3 4\n", {}, "line 1 .*unmeasured"),
+        ("--- ---\n3 4\n", {}, "line 1"),
+        ("only words\n", {}, "no numbers"),
+        ("z (nm)\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
+        ("x/mm z/um\n3 4\n1 2\n", {}, "mm and um"),
+        ("1\t\t2\n3\t4\t5\n", {}, "line 1 has ''"),
+    ],
+)
 def test_text_errors_name_the_line(tmp_path, text, options, words):
     (tmp_path / "a.txt").write_text(text)
     with pytest.raises(InputError, match=words):
@@ -367,6 +415,7 @@ def test_options_that_do_not_apply_are_refused(tmp_path):
 
 
 # --- form -------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("holes", [0.0, 0.2])
 def test_second_order_form_is_taken_off(tmp_path, holes):
@@ -392,39 +441,48 @@ def test_second_order_form_is_taken_off(tmp_path, holes):
 def test_second_order_form_of_short_and_thin_maps():
     thin = Surface(np.arange(6.0)[:, None] ** 2, 1.0)
     assert not thin.level("quadratic").heights.round(12).any() and thin.level().heights.round(12).any()
-    saddle = Surface(np.array([[1.0, 0.0], [0.0, 1.0]]), 1.0)       # two points an axis: only the mixed term is left
+    saddle = Surface(np.array([[1.0, 0.0], [0.0, 1.0]]), 1.0)  # two points an axis: only the mixed term is left
     assert not saddle.level("quadratic").heights.round(12).any() and np.allclose(np.abs(saddle.level().heights), 0.5)
     mask = np.zeros((6, 6), bool)
-    mask[[1, 4]] = True                                            # two lines: no curvature across them
+    mask[[1, 4]] = True  # two lines: no curvature across them
     with pytest.raises(InputError, match="'quadratic'"):
         Surface(np.zeros((6, 6)), 1.0, mask=mask).level("quadratic")
 
 
-HUGE_NPY = (b"\x93NUMPY\x01\x00v\x00"
-            + b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999, 99999999), }".ljust(117) + b"\n")
+HUGE_NPY = (
+    b"\x93NUMPY\x01\x00v\x00"
+    + b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999, 99999999), }".ljust(117)
+    + b"\n"
+)
 
 
-@pytest.mark.parametrize("name, content, options", [
-    ("missing.npy", None, {"spacing": 1e-6}),
-    ("a.npy", b"", {"spacing": 1e-6}),
-    ("a.npy", HUGE_NPY, {"spacing": 1e-6}),
-    ("a.npy", b"not an array at all", {"spacing": 1e-6}),
-    ("a.txt", b"", {"spacing": 1e-6}),
-    ("a.txt", b"1 2 3\n4 5\n", {"spacing": 1e-6}),
-    ("a.txt", b"1 2\nthree 4\n", {"spacing": 1e-6}),
-    ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
-    ("a.csv", b"1,5;2,5\n3,5;4.5\n", {"spacing": 1e-6}),
-    ("a.csv", b"1,,3\n4,5,6\n", {"spacing": 1e-6}),
-    ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
-    ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
-    ("a.txt", b"1 2\n3 4\n", {}),
-    ("a.txt", b"1 2\n3 4\n", {"spacing": 0}),
-    ("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"}),
-    ("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6}),
-    ("a.txt", b"# spacing = fine\n1 2\n3 4\n", {}),
-    ("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}),
-    ("a.bmp", b"BM", {"spacing": 1e-6}),
-    ("a.x3p", b"PK", {}), ("a.x3p", b"PK", {"spacing": 1e-6}), ("a.x3p", b"PK", {"unit": "m"})])
+@pytest.mark.parametrize(
+    "name, content, options",
+    [
+        ("missing.npy", None, {"spacing": 1e-6}),
+        ("a.npy", b"", {"spacing": 1e-6}),
+        ("a.npy", HUGE_NPY, {"spacing": 1e-6}),
+        ("a.npy", b"not an array at all", {"spacing": 1e-6}),
+        ("a.txt", b"", {"spacing": 1e-6}),
+        ("a.txt", b"1 2 3\n4 5\n", {"spacing": 1e-6}),
+        ("a.txt", b"1 2\nthree 4\n", {"spacing": 1e-6}),
+        ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
+        ("a.csv", b"1,5;2,5\n3,5;4.5\n", {"spacing": 1e-6}),
+        ("a.csv", b"1,,3\n4,5,6\n", {"spacing": 1e-6}),
+        ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
+        ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
+        ("a.txt", b"1 2\n3 4\n", {}),
+        ("a.txt", b"1 2\n3 4\n", {"spacing": 0}),
+        ("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"}),
+        ("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6}),
+        ("a.txt", b"# spacing = fine\n1 2\n3 4\n", {}),
+        ("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}),
+        ("a.bmp", b"BM", {"spacing": 1e-6}),
+        ("a.x3p", b"PK", {}),
+        ("a.x3p", b"PK", {"spacing": 1e-6}),
+        ("a.x3p", b"PK", {"unit": "m"}),
+    ],
+)
 def test_reader_refuses(tmp_path, name, content, options):
     if content is not None:
         (tmp_path / name).write_bytes(content)
@@ -446,6 +504,7 @@ def test_folders_are_refused(tmp_path):
 
 # --- measured files, where they are -----------------------------------------------------------
 
+
 def test_ground_surface():
     """Sq and size as its supplier states; its lay runs along y (the slow axis of the file)."""
     path = measured("ground-77nm.x3p")
@@ -460,8 +519,10 @@ def test_ground_surface():
     assert correlation_length(surface.transposed(), 1) == across
 
 
-@pytest.mark.parametrize("name, raw, levelled, missing", [("areal-optical.al3d", 7.69e-6, 0.290e-6, 0),
-                                                          ("areal-missing.sur", 17.52e-9, 17.10e-9, 117)])
+@pytest.mark.parametrize(
+    "name, raw, levelled, missing",
+    [("areal-optical.al3d", 7.69e-6, 0.290e-6, 0), ("areal-missing.sur", 17.52e-9, 17.10e-9, 117)],
+)
 def test_other_instrument_formats(name, raw, levelled, missing):
     pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
     path = measured(name)

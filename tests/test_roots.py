@@ -18,11 +18,19 @@ def counted(f):
     def g(x):
         calls.append(x)
         return f(x), x
+
     return g, calls
 
 
-@pytest.mark.parametrize("f, root", [(lambda x: x**3 - 2, 2 ** (1 / 3)), (lambda x: math.tanh(x - 3), 3.0),
-                                     (lambda x: 1 - math.exp(5 - x), 5.0), (lambda x: math.atan(1e6 * (x + 7)), -7.0)])
+@pytest.mark.parametrize(
+    "f, root",
+    [
+        (lambda x: x**3 - 2, 2 ** (1 / 3)),
+        (lambda x: math.tanh(x - 3), 3.0),
+        (lambda x: 1 - math.exp(5 - x), 5.0),
+        (lambda x: math.atan(1e6 * (x + 7)), -7.0),
+    ],
+)
 def test_finds_known_roots(f, root):
     g, calls = counted(f)
     found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9)

@@ -21,24 +21,32 @@ def write(folder, text):
 
 def toml(**changes):
     """A small valid scene; ``section__key=text`` replaces or adds a line, None removes it."""
-    sections = {"bodies": {"radius": "2e-3", "width": "6e-3", "load": "5.5", "e_prime": "231e9",
-                           "boundary_friction_coefficient": "0.09"},
-                "lubricant": {"viscosity": "0.36", "pressure_viscosity_coefficient": "25e-9"},
-                "motion": {"entrainment_speed": "0.01"},
-                "surface": {"sq": "1e-7", "correlation_length": "8e-6"},
-                "contact": {"shape": "[64, 64]", "spacing": "0.9e-6"}}
+    sections = {
+        "bodies": {
+            "radius": "2e-3",
+            "width": "6e-3",
+            "load": "5.5",
+            "e_prime": "231e9",
+            "boundary_friction_coefficient": "0.09",
+        },
+        "lubricant": {"viscosity": "0.36", "pressure_viscosity_coefficient": "25e-9"},
+        "motion": {"entrainment_speed": "0.01"},
+        "surface": {"sq": "1e-7", "correlation_length": "8e-6"},
+        "contact": {"shape": "[64, 64]", "spacing": "0.9e-6"},
+    }
     for place, value in changes.items():
         section, key = place.split("__")
         sections.setdefault(section, {})[key] = value
-    return "\n".join(f"[{s}]\n" + "\n".join(f"{k} = {v}" for k, v in t.items() if v is not None)
-                     for s, t in sections.items())
+    return "\n".join(
+        f"[{s}]\n" + "\n".join(f"{k} = {v}" for k, v in t.items() if v is not None) for s, t in sections.items()
+    )
 
 
 def test_paper_tables():
     assert set(builtin_scenes()) >= {"paper", "flat"}
     b = PAPER.bodies
     assert (b.radius, b.width, b.load, b.e_prime, b.hardness) == (2e-3, 6e-3, 5.5, 231e9, 6e9)
-    assert b.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)       # Sec. 3.2
+    assert b.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)  # Sec. 3.2
     assert b.half_width == pytest.approx(4.5e-6, rel=5e-3)
     assert PAPER.contact.shape == (200, 200) and PAPER.contact.spacing == 0.45e-6
     assert PAPER.motion.slide_roll_ratio == 2 and len(PAPER.motion.speeds) >= 20
@@ -48,49 +56,57 @@ def test_paper_tables():
 
 def test_a_file_equals_its_short_forms(tmp_path):
     plain = lubfric.load_scene(write(tmp_path, toml(motion__entrainment_speed="0.3", motion__slide_roll_ratio="2.0")))
-    short = lubfric.load_scene(write(tmp_path, toml(motion__entrainment_speed=None,
-                                                    motion__surface_speeds="[0.0, 0.6]")))
+    short = lubfric.load_scene(
+        write(tmp_path, toml(motion__entrainment_speed=None, motion__surface_speeds="[0.0, 0.6]"))
+    )
     assert short.motion == plain.motion
     nu, e = 0.3, 210e9
-    moduli = lubfric.load_scene(write(tmp_path, toml(bodies__e_prime=None, bodies__young_modulus=f"[{e}, {e}]",
-                                                     bodies__poisson_ratio=f"[{nu}, {nu}]")))
+    moduli = lubfric.load_scene(
+        write(
+            tmp_path,
+            toml(bodies__e_prime=None, bodies__young_modulus=f"[{e}, {e}]", bodies__poisson_ratio=f"[{nu}, {nu}]"),
+        )
+    )
     assert moduli.bodies.e_prime == pytest.approx(e / (1 - nu**2))
     ranged = lubfric.load_scene(write(tmp_path, toml(motion__speed_range="[1e-3, 1.0, 4]")))
     np.testing.assert_allclose(ranged.motion.speeds, [1e-3, 1e-2, 1e-1, 1.0])
 
 
-@pytest.mark.parametrize("changes, words", [
-    ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
-    ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
-    ({"lubricant__viscocity": "1"}, ["did you mean 'viscosity'"]),
-    ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "(0", " N"]),
-    ({"bodies__load": "nan"}, ["bodies.load", "nan"]),
-    ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
-    ({"bodies__load": None}, ["[bodies] needs 'load'"]),
-    ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
-    ({"bodies__young_modulus": "[1e9, 1e9]"}, ["e_prime", "poisson_ratio"]),
-    ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),
-    ({"lubricant__viscosity": "-0.1"}, ["viscosity", "-0.1", "Pa s"]),
-    ({"lubricant__pressure_viscosity_coefficient": "0.0"}, ["pressure_viscosity_coefficient", "constant"]),
-    ({"lubricant__viscosity_law": "'rolands'"}, ["did you mean 'roelands'"]),
-    ({"surface__sq": None}, ["surface", "'sq'"]),
-    ({"surface__correlation_length": "-1e-6"}, ["correlation_length", "m"]),
-    ({"surface__file": "'nowhere.npy'", "surface__correlation_length": None}, ["nowhere.npy", "no such file"]),
-    ({"surface__file": "'nowhere.npy'"}, ["nowhere.npy"]),
-    ({"contact__geometry": "'cylindre'"}, ["did you mean 'cylinder'"]),
-    ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
-    ({"contact__spacing": "0.0"}, ["contact.spacing", "m"]),
-    ({"numerics__tolerance": "0.0"}, ["numerics.tolerance"]),
-    ({"contact__shape": "200"}, ["contact.shape", "pair"]),
-    ({"contact__shape": "[200000, 200000]"}, ["contact.shape", "4e+10 cells"]),
-    ({"numerics__tolerance": "1e-6"}, ["numerics.tolerance", "0.0001"]),
-    ({"bodies__e_prime": "231.0"}, ["bodies.e_prime", "231", "Pa"]),
-    ({"lubricant__pressure_viscosity_coefficient": "25.0"}, ["pressure_viscosity_coefficient", "25", "1/Pa"]),
-    ({"motion__speeds": "'0.1'"}, ["motion.speeds", "list"]),
-    ({"motion__speed_range": "[1.0, 1e-3, 4]"}, ["speed_range highest"]),
-    ({"motion__surface_speeds": "[0.0, 0.6]"}, ["surface_speeds", "not both"]),
-    ({"motion__speeds": "[0.1]", "motion__speed_range": "[1e-3, 1.0, 4]"}, ["speeds or speed_range"]),
-])
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
+        ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
+        ({"lubricant__viscocity": "1"}, ["did you mean 'viscosity'"]),
+        ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "(0", " N"]),
+        ({"bodies__load": "nan"}, ["bodies.load", "nan"]),
+        ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
+        ({"bodies__load": None}, ["[bodies] needs 'load'"]),
+        ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
+        ({"bodies__young_modulus": "[1e9, 1e9]"}, ["e_prime", "poisson_ratio"]),
+        ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),
+        ({"lubricant__viscosity": "-0.1"}, ["viscosity", "-0.1", "Pa s"]),
+        ({"lubricant__pressure_viscosity_coefficient": "0.0"}, ["pressure_viscosity_coefficient", "constant"]),
+        ({"lubricant__viscosity_law": "'rolands'"}, ["did you mean 'roelands'"]),
+        ({"surface__sq": None}, ["surface", "'sq'"]),
+        ({"surface__correlation_length": "-1e-6"}, ["correlation_length", "m"]),
+        ({"surface__file": "'nowhere.npy'", "surface__correlation_length": None}, ["nowhere.npy", "no such file"]),
+        ({"surface__file": "'nowhere.npy'"}, ["nowhere.npy"]),
+        ({"contact__geometry": "'cylindre'"}, ["did you mean 'cylinder'"]),
+        ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
+        ({"contact__spacing": "0.0"}, ["contact.spacing", "m"]),
+        ({"numerics__tolerance": "0.0"}, ["numerics.tolerance"]),
+        ({"contact__shape": "200"}, ["contact.shape", "pair"]),
+        ({"contact__shape": "[200000, 200000]"}, ["contact.shape", "4e+10 cells"]),
+        ({"numerics__tolerance": "1e-6"}, ["numerics.tolerance", "0.0001"]),
+        ({"bodies__e_prime": "231.0"}, ["bodies.e_prime", "231", "Pa"]),
+        ({"lubricant__pressure_viscosity_coefficient": "25.0"}, ["pressure_viscosity_coefficient", "25", "1/Pa"]),
+        ({"motion__speeds": "'0.1'"}, ["motion.speeds", "list"]),
+        ({"motion__speed_range": "[1.0, 1e-3, 4]"}, ["speed_range highest"]),
+        ({"motion__surface_speeds": "[0.0, 0.6]"}, ["surface_speeds", "not both"]),
+        ({"motion__speeds": "[0.1]", "motion__speed_range": "[1e-3, 1.0, 4]"}, ["speeds or speed_range"]),
+    ],
+)
 def test_bad_input_is_a_clear_error(tmp_path, changes, words):
     with pytest.raises(lubfric.InputError) as caught:
         lubfric.load_scene(write(tmp_path, toml(**changes)))
@@ -107,7 +123,7 @@ def test_missing_files_and_broken_toml(tmp_path):
 
 def test_text_of_other_encodings(tmp_path):
     path = tmp_path / "scene.toml"
-    path.write_bytes(b"\xef\xbb\xbf" + toml().encode())                  # a byte order mark is no part of the text
+    path.write_bytes(b"\xef\xbb\xbf" + toml().encode())  # a byte order mark is no part of the text
     assert lubfric.load_scene(path).bodies.load == 5.5
     path.write_bytes("# \u00b5".encode("latin-1") + toml().encode())
     with pytest.raises(lubfric.InputError, match="UTF-8"):
@@ -122,13 +138,17 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
         lubfric.load_scene("paper", surface_file=tmp_path / "nothing.npy")
 
 
-@pytest.mark.parametrize("changes, words", [
-    ({"spacing": 0.4}, ["rms slope", "both in m"]),
-    ({"spacing": 9e-6}, ["contact.spacing", "half-width"]),
-    ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip"]),
-])
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        ({"spacing": 0.4}, ["rms slope", "both in m"]),
+        ({"spacing": 9e-6}, ["contact.spacing", "half-width"]),
+        ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip"]),
+    ],
+)
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
     from lubfric.rough_map import check_grid
+
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)
     heights = rng.standard_normal(patch["shape"]) * (1.0 if "rms slope" in words else 1e-8)
@@ -151,15 +171,22 @@ def test_with_replaces_one_value_and_is_strict():
         PAPER.with_(bodies=3)
 
 
-@pytest.mark.parametrize("sections, words", [
-    ({"motion": {"surface_speeds": [0, 1]}}, ["entrainment_speed = (u1 + u2)/2", "slide_roll_ratio", "allowed: entrainment_speed"]),
-    ({"motion": {"speed_range": [1, 2, 3]}}, ["give speeds"]),
-    ({"motion": {"slide_ratio": 1}}, ["did you mean 'slide_roll_ratio'", "speeds"]),
-    ({"bodies": {"young_modulus": [2e11, 2e11]}}, ["give e_prime"]),
-    ({"transient": {"duration": 1.0}}, ["transient", "allowed: a Transient"]),
-    ({"transient": 3}, ["transient = 3", "Transient"]),
-    ({"name": {"x": 1}}, ["name", "a str"]),
-    ({"surface": lubfric.Surface(np.zeros((300, 300)), 1e-6)}, ["surface = a Surface", "a Roughness"])])
+@pytest.mark.parametrize(
+    "sections, words",
+    [
+        (
+            {"motion": {"surface_speeds": [0, 1]}},
+            ["entrainment_speed = (u1 + u2)/2", "slide_roll_ratio", "allowed: entrainment_speed"],
+        ),
+        ({"motion": {"speed_range": [1, 2, 3]}}, ["give speeds"]),
+        ({"motion": {"slide_ratio": 1}}, ["did you mean 'slide_roll_ratio'", "speeds"]),
+        ({"bodies": {"young_modulus": [2e11, 2e11]}}, ["give e_prime"]),
+        ({"transient": {"duration": 1.0}}, ["transient", "allowed: a Transient"]),
+        ({"transient": 3}, ["transient = 3", "Transient"]),
+        ({"name": {"x": 1}}, ["name", "a str"]),
+        ({"surface": lubfric.Surface(np.zeros((300, 300)), 1e-6)}, ["surface = a Surface", "a Roughness"]),
+    ],
+)
 def test_with_names_what_is_allowed(sections, words):
     with pytest.raises(lubfric.InputError) as caught:
         PAPER.with_(**sections)
@@ -174,8 +201,14 @@ def test_form_and_decimal_mark_of_a_file(tmp_path):
     rough = 1e-8 * np.cos(2 * np.pi * x / 9e-6)[:, None] * np.cos(2 * np.pi * y / 9e-6)
     np.savetxt(tmp_path / "map.csv", rough - x[:, None] ** 2 / 2e-3, fmt="%.12e", delimiter=";")
     (tmp_path / "map.csv").write_text((tmp_path / "map.csv").read_text().replace(".", ","))
-    given = {"surface__sq": None, "surface__correlation_length": None, "contact__shape": None, "contact__spacing": None,
-             "surface__file": "'map.csv'", "surface__spacing": "0.45e-6"}
+    given = {
+        "surface__sq": None,
+        "surface__correlation_length": None,
+        "contact__shape": None,
+        "contact__spacing": None,
+        "surface__file": "'map.csv'",
+        "surface__spacing": "0.45e-6",
+    }
     plane = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
     given |= {"surface__form": "'quadratic'", "surface__decimal": "','"}
     quadratic = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
@@ -189,5 +222,6 @@ def test_form_and_decimal_mark_of_a_file(tmp_path):
 
 def test_the_resolved_scene_is_plain_data():
     import json
+
     record = json.loads(json.dumps(scene_as_dict(PAPER)))
     assert record["bodies"]["load"] == 5.5 and record["surface"]["seed"] == PAPER.surface.seed

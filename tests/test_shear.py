@@ -14,8 +14,16 @@ OIL = Lubricant(ETA, 1e-13, "barus")
 
 
 def film(speed=U, tolerance=1e-4):
-    return lubfric.solve_ehl(load_per_width=100.0, radius=R, e_prime=231e12, entrainment_speed=speed, viscosity=ETA,
-                             pressure_viscosity_coefficient=1e-13, viscosity_law="barus", tolerance=tolerance)
+    return lubfric.solve_ehl(
+        load_per_width=100.0,
+        radius=R,
+        e_prime=231e12,
+        entrainment_speed=speed,
+        viscosity=ETA,
+        pressure_viscosity_coefficient=1e-13,
+        viscosity_law="barus",
+        tolerance=tolerance,
+    )
 
 
 def evenly(share):
@@ -23,8 +31,16 @@ def evenly(share):
 
 
 def force(result, slide_roll_ratio=2.0, contact_fraction=evenly(0.0), lubricant=OIL, **kw):
-    return shear_force(result, lubricant, entrainment_speed=result.entrainment_speed, radius=R, width=B,
-                       slide_roll_ratio=slide_roll_ratio, contact_fraction=contact_fraction, **kw)
+    return shear_force(
+        result,
+        lubricant,
+        entrainment_speed=result.entrainment_speed,
+        radius=R,
+        width=B,
+        slide_roll_ratio=slide_roll_ratio,
+        contact_fraction=contact_fraction,
+        **kw,
+    )
 
 
 def test_rigid_isoviscous_friction():
@@ -55,7 +71,7 @@ def test_reversed_motion_gives_the_same_force():
 def test_contact_spots_carry_no_shear():
     result = film()
     full, half = force(result), force(result, contact_fraction=evenly(0.5))
-    inlet_share = half.couette / full.couette - 0.5            # only the far inlet is left whole
+    inlet_share = half.couette / full.couette - 0.5  # only the far inlet is left whole
     assert 0 <= inlet_share < 0.15
     one_sided = force(result, contact_fraction=lambda x: np.where(x[1:] < 0, 0.0, 1.0))
     other = force(result, contact_fraction=lambda x: np.where(x[1:] < 0, 1.0, 0.0))
@@ -78,6 +94,7 @@ def test_shear_thinning_lowers_couette_only():
 @pytest.mark.parametrize("floor", [1e-6, -1e-5, 0.0, 1e-12])
 def test_upstream_integrals_against_quadrature(floor):
     from scipy.integrate import quad
+
     distance, radius = 1e-3, 2e-3
     first, second = _upstream(floor + distance**2 / (2 * radius), distance, radius)
     for power, value in ((1, first), (2, second)):

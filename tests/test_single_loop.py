@@ -66,9 +66,7 @@ def test_agrees_with_the_load_controlled_contact(method, shape, hardness):
     gap = film - z - found.approach + options["operator"].apply(found.pressure)
     assert np.allclose(gap, found.gap, atol=1e-14)
     area = options["weight"]
-    assert np.sum(area * np.maximum(gap, 0)) / area.sum() == pytest.approx(
-        np.sum(area * film) / area.sum(), rel=1e-5
-    )
+    assert np.sum(area * np.maximum(gap, 0)) / area.sum() == pytest.approx(np.sum(area * film) / area.sum(), rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -111,9 +109,7 @@ def test_the_separation_test_alone_stops_too_early_and_is_not_believed():
     assert not early.report.converged and early.report.residual > 0.1 and early.report.iterations < 5
     honest = single_loop(z, film, D, E, **options)
     assert "Eq. (23) met at iteration 1" in honest.report.notes[0]
-    strict = single_loop(
-        z, film, D, E, form="printed", stop="separation", separation_tolerance=1e-12, **options
-    )
+    strict = single_loop(z, film, D, E, form="printed", stop="separation", separation_tolerance=1e-12, **options)
     assert strict.report.converged and difference(strict, direct) < 1e-4
 
 
@@ -153,8 +149,6 @@ def test_a_warm_start_saves_iterations():
     ],
 )
 def test_bad_input(change, match):
-    z = lubfric.generate_surface(
-        (32, 32), D, sq=1e-7, correlation_length=3e-6, acf="gaussian", seed=1
-    ).heights
+    z = lubfric.generate_surface((32, 32), D, sq=1e-7, correlation_length=3e-6, acf="gaussian", seed=1).heights
     with pytest.raises(lubfric.InputError, match=match):
         single_loop(z, **({"film": 1e-7, "spacing": D, "e_prime": E} | change))

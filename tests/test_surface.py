@@ -25,6 +25,7 @@ def waves(shape=(64, 48), spacing=(1e-6, 2e-6), amplitude=1e-7, modes=(3, 2)):
 
 # --- generation -------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("acf", ["exponential", "gaussian"])
 def test_generation_meets_sq_exactly_and_repeats(acf):
     surface = generated(acf=acf, seed=3)
@@ -36,7 +37,7 @@ def test_generation_meets_sq_exactly_and_repeats(acf):
     assert sum("correlation length" in note for note in surface.notes) == 2
 
 
-FORMS = {"exponential": lambda r: np.exp(-r), "gaussian": lambda r: np.exp(-r**2)}
+FORMS = {"exponential": lambda r: np.exp(-r), "gaussian": lambda r: np.exp(-(r**2))}
 
 
 @pytest.mark.parametrize("acf", FORMS)
@@ -46,13 +47,19 @@ def test_ensemble_autocorrelation_is_the_one_asked_for(acf):
     maps = (generated(acf=acf, correlation_length=scale, seed=seed) for seed in range(40))
     mean = np.mean([autocorrelation(surface, 0)[1] for surface in maps], axis=0)
     lags = np.arange(n // 2 + 1) * d
-    offset = (2 if acf == "exponential" else 1) * np.pi * scale**2 / (n * d) ** 2        # mean of the ACF
+    offset = (2 if acf == "exponential" else 1) * np.pi * scale**2 / (n * d) ** 2  # mean of the ACF
     assert np.abs(mean - (FORMS[acf](lags / scale) - offset) / (1 - offset))[:30].max() < 0.025
 
 
-@pytest.mark.parametrize("acf, level, factor",
-                         [("exponential", 0.1, 2.302585), ("exponential", 0.2, 1.609438),
-                          ("gaussian", 0.1, 1.517427), ("gaussian", 0.2, 1.268636)])
+@pytest.mark.parametrize(
+    "acf, level, factor",
+    [
+        ("exponential", 0.1, 2.302585),
+        ("exponential", 0.2, 1.609438),
+        ("gaussian", 0.1, 1.517427),
+        ("gaussian", 0.2, 1.268636),
+    ],
+)
 def test_decay_level_conventions(acf, level, factor):
     """One surface, three lengths: at 1/e, at 0.1 and at 0.2."""
     same = generated(acf=acf, correlation_length=16e-6 * factor, decay_level=level)
@@ -89,14 +96,27 @@ def test_cutoff_removes_short_waves_and_odd_shapes_work():
     assert surface.sq == pytest.approx(240e-9, rel=1e-12)
 
 
-@pytest.mark.parametrize("changes, words", [
-    ({"sq": -1e-9}, "sq"), ({"sq": math.nan}, "sq"), ({"correlation_length": 0}, "correlation_length"),
-    ({"correlation_length": 3e-6}, "cells"), ({"correlation_length": 200e-6}, "quarter"),
-    ({"correlation_length": 80e-6}, "larger map"), ({"acf": "gausian"}, "did you mean 'gaussian'"),
-    ({"decay_level": 0}, "decay_level"), ({"decay_level": 1.0}, "decay_level"), ({"seed": -1}, "seed"),
-    ({"seed": 1.5}, "seed"), ({"shape": (256,)}, "shape"), ({"shape": (256, 0)}, "shape"),
-    ({"spacing": -1e-6}, "spacing"), ({"cutoff": 1e-6}, "cutoff"),
-    ({"cutoff": 100e-6}, "correlation_length")])
+@pytest.mark.parametrize(
+    "changes, words",
+    [
+        ({"sq": -1e-9}, "sq"),
+        ({"sq": math.nan}, "sq"),
+        ({"correlation_length": 0}, "correlation_length"),
+        ({"correlation_length": 3e-6}, "cells"),
+        ({"correlation_length": 200e-6}, "quarter"),
+        ({"correlation_length": 80e-6}, "larger map"),
+        ({"acf": "gausian"}, "did you mean 'gaussian'"),
+        ({"decay_level": 0}, "decay_level"),
+        ({"decay_level": 1.0}, "decay_level"),
+        ({"seed": -1}, "seed"),
+        ({"seed": 1.5}, "seed"),
+        ({"shape": (256,)}, "shape"),
+        ({"shape": (256, 0)}, "shape"),
+        ({"spacing": -1e-6}, "spacing"),
+        ({"cutoff": 1e-6}, "cutoff"),
+        ({"cutoff": 100e-6}, "correlation_length"),
+    ],
+)
 def test_generation_refuses(changes, words):
     with pytest.raises(InputError, match=words):
         generated(**changes)
@@ -108,8 +128,18 @@ def test_flat_surface_is_allowed():
 
 # --- the data type ----------------------------------------------------------------------------
 
-@pytest.mark.parametrize("heights", [np.zeros(5), np.zeros((0, 3)), np.array([[1.0, math.nan]]),
-                                     np.array([[math.inf, 0.0]]), [["a", "b"]], np.zeros((2, 2, 2))])
+
+@pytest.mark.parametrize(
+    "heights",
+    [
+        np.zeros(5),
+        np.zeros((0, 3)),
+        np.array([[1.0, math.nan]]),
+        np.array([[math.inf, 0.0]]),
+        [["a", "b"]],
+        np.zeros((2, 2, 2)),
+    ],
+)
 def test_surface_refuses_bad_heights(heights):
     with pytest.raises(InputError, match="heights"):
         Surface(heights, 1e-6)
@@ -139,6 +169,7 @@ def test_surface_owns_its_heights():
 
 
 # --- levelling, filling -----------------------------------------------------------------------
+
 
 @settings(max_examples=30, deadline=None)
 @given(st.tuples(*[st.floats(-1e-2, 1e-2) for _ in range(2)]), st.floats(-1e-3, 1e-3))
@@ -198,13 +229,13 @@ def test_too_much_missing_and_unfilled_maps_are_refused():
     surface = Surface(np.where(mask, 1.0, np.nan), 1e-6, mask=mask)
     with pytest.raises(InputError, match="missing fraction"):
         surface.fill()
-    for work in (lambda: surface.periodic(), lambda: surface.resampled(shape=(5, 5)),
-                 lambda: surface.patch((5, 5))):
+    for work in (lambda: surface.periodic(), lambda: surface.resampled(shape=(5, 5)), lambda: surface.patch((5, 5))):
         with pytest.raises(InputError, match="unmeasured"):
             work()
 
 
 # --- scaling, turning, closing, resampling ----------------------------------------------------
+
 
 def test_scaled_and_transposed():
     surface = generated((128, 256), correlation_length=(8e-6, 16e-6), acf="gaussian")
@@ -269,7 +300,7 @@ def test_resampling_an_open_map():
             old, new = (-np.diff(np.cos(7 * np.linspace(0, 1, m + 1))) * m / 7 for m in (n, count))
             changed = Surface(old[:, None] * np.ones(3), (1 / n, 1.0)).resampled(shape=(count, 3))
             assert changed.heights.mean() == pytest.approx(old.mean(), rel=1e-12)
-            errors.append(np.abs(changed.heights[:, 0] - new)[count // 4:3 * count // 4].max())
+            errors.append(np.abs(changed.heights[:, 0] - new)[count // 4 : 3 * count // 4].max())
     assert errors[0] / errors[2] > 7 and errors[1] / errors[3] > 7
 
 
@@ -304,6 +335,7 @@ def test_cropping_outside_is_refused():
 
 
 # --- statistics -------------------------------------------------------------------------------
+
 
 def test_statistics_of_a_cosine():
     surface = waves()
@@ -341,9 +373,14 @@ def test_statistics_do_not_see_a_periodic_shift(i, j):
 
 def test_statistics_refuse_what_they_cannot_give():
     flat, ramp = Surface(np.zeros((4, 4)), 1e-6), Surface(np.arange(16.0).reshape(16, 1) * np.ones(4), 1e-6)
-    for work in (lambda: flat.ssk, lambda: correlation_length(flat), lambda: rms_slope(ramp, "spectral"),
-                 lambda: correlation_length(waves((64, 64), modes=(0, 1)), 0),
-                 lambda: correlation_length(waves(), 2), lambda: rms_slope(ramp, "other")):
+    for work in (
+        lambda: flat.ssk,
+        lambda: correlation_length(flat),
+        lambda: rms_slope(ramp, "spectral"),
+        lambda: correlation_length(waves((64, 64), modes=(0, 1)), 0),
+        lambda: correlation_length(waves(), 2),
+        lambda: rms_slope(ramp, "other"),
+    ):
         with pytest.raises(InputError):
             work()
 

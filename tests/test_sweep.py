@@ -10,8 +10,9 @@ import lubfric
 from lubfric import sweep
 from lubfric.mixed import prepare
 
-SCENE = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.9e-6},
-                                          surface={"correlation_length": 4e-6})
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+)
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 
 
@@ -24,7 +25,7 @@ def test_the_curve_has_the_shape_of_stribeck(curve):
     f = curve.coefficient
     low = int(np.argmin(f))
     assert f[0] == pytest.approx(0.09, rel=0.01) and 0 < low < SPEEDS.size - 1
-    assert np.all(np.diff(f[:low + 1]) < 0) and np.all(np.diff(f[low:]) > 0)
+    assert np.all(np.diff(f[: low + 1]) < 0) and np.all(np.diff(f[low:]) > 0)
     assert np.all(np.diff(curve.contact_load) <= 0) and curve.contact_load[-1] == 0
     assert np.all(np.abs(curve.load_residual) < 1e-12)
     assert np.all(np.abs(curve.volume_residual[curve.contact_load > 0]) <= SCENE.numerics.volume_tolerance)
@@ -52,6 +53,7 @@ def test_a_failing_point_loses_nothing(monkeypatch, curve):
         if speed == bad:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
         return real(model, speed, **kw)
+
     monkeypatch.setattr(sweep, "friction", failing)
     with pytest.raises(lubfric.ConvergenceError, match="injected") as caught:
         lubfric.stribeck(prepare(SCENE), SPEEDS)
@@ -85,7 +87,9 @@ def test_a_lost_worker_loses_only_its_own_speeds():
 
 def test_progress_counts_every_point():
     seen = []
-    lubfric.stribeck(prepare(SCENE), SPEEDS[:3], on_point=lambda done, total, speed, point: seen.append((done, total, speed)))
+    lubfric.stribeck(
+        prepare(SCENE), SPEEDS[:3], on_point=lambda done, total, speed, point: seen.append((done, total, speed))
+    )
     assert seen == [(1, 3, SPEEDS[2]), (2, 3, SPEEDS[1]), (3, 3, SPEEDS[0])]
 
 

@@ -116,9 +116,7 @@ def test_second_order_in_space():
     assert np.all(orders > 1.7) and abs(errors[-1]) < 1e-3
 
 
-TABLE = np.array(
-    [[3.081, 2.567], [3.079, 2.301], [3.076, 2.119], [2.490, 1.982], [1.963, 1.939], [1.914, 1.621]]
-)
+TABLE = np.array([[3.081, 2.567], [3.079, 2.301], [3.076, 2.119], [2.490, 1.982], [1.963, 1.939], [1.914, 1.621]])
 
 
 @pytest.mark.parametrize("solver", [solve_transient_ehl, solve_differential_transient])
@@ -150,9 +148,7 @@ def test_direction_and_units_do_not_matter():
     keywords["tolerance"] = 3e-3
     base = solve_transient_ehl(**keywords | {"entrainment_speed": jump(speed, 0.3)}, times=times)
     back = solve_transient_ehl(**keywords | {"entrainment_speed": jump(-speed, 0.3)}, times=times)
-    np.testing.assert_allclose(
-        back.pressure[:, ::-1], base.pressure, rtol=1e-6, atol=1e-8 * base.pressure.max()
-    )
+    np.testing.assert_allclose(back.pressure[:, ::-1], base.pressure, rtol=1e-6, atol=1e-8 * base.pressure.max())
     np.testing.assert_allclose(back.min_film, base.min_film, rtol=1e-8)
     barus = keywords | {"viscosity_law": "barus"}
     one = solve_transient_ehl(**barus | {"entrainment_speed": jump(speed, 0.3)}, times=times)
@@ -282,9 +278,7 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
     slope = lambda s: 6 * nu * (flow + rate * (s - a) - speed * h(s)) / h(s) ** 3  # noqa: E731
     pressure, load = outside(a, film, c, nu, speed, flow, rate)
     assert pressure.value == pytest.approx(-quad(slope, a, np.inf, epsrel=1e-11)[0], rel=1e-8)
-    assert load.value == pytest.approx(
-        -quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8
-    )
+    assert load.value == pytest.approx(-quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8)
     reach, shear = outside_shear(a, film, c, nu, speed, flow, rate)
     assert reach == pytest.approx(quad(lambda s: 1 / h(s), a, np.inf)[0], rel=1e-8)
     assert shear == pytest.approx(quad(lambda s: 0.5 * h(s) * slope(s), a, np.inf)[0], rel=1e-8)

@@ -80,9 +80,7 @@ def test_a_reciprocating_contact_becomes_periodic_and_mirrors_itself():
     found = run(Transient(0.025, speed=wave), np.arange(51) * 5e-4)
     f = found.coefficient
     np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)  # one period later
-    np.testing.assert_allclose(
-        f[20:41], f[10:31], rtol=5e-3
-    )  # run backwards (the map itself is not symmetric)
+    np.testing.assert_allclose(f[20:41], f[10:31], rtol=5e-3)  # run backwards (the map itself is not symmetric)
     assert f.max() > 1.5 * f.min()
 
 
@@ -147,9 +145,7 @@ def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
     monkeypatch.setattr(setup, "share_step", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
-    assert (
-        caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
-    )
+    assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
 
 
 @pytest.mark.parametrize(
@@ -225,9 +221,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
     text = (Path(__file__).parents[1] / "docs" / "examples" / "stop_and_start.toml").read_text()
     scene = tmp_path / "scene.toml"
     scene.write_text(
-        text.replace("[200, 200]", "[64, 64]")
-        .replace("0.45e-6", "0.8e-6")
-        .replace("outputs = 200", "outputs = 6")
+        text.replace("[200, 200]", "[64, 64]").replace("0.45e-6", "0.8e-6").replace("outputs = 200", "outputs = 6")
     )
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}

@@ -104,9 +104,7 @@ def test_vtu_round_trip(mesh, tmp_path):
 
 def test_gmsh_round_trip(tmp_path):
     mesh = skfem.MeshTri().refined(2)
-    points, cells, _ = meshes.read_gmsh(
-        meshes.write_gmsh(tmp_path / "m.msh", mesh.p.T, {"triangle": mesh.t.T})
-    )
+    points, cells, _ = meshes.read_gmsh(meshes.write_gmsh(tmp_path / "m.msh", mesh.p.T, {"triangle": mesh.t.T}))
     assert np.array_equal(points[:, :2], mesh.p.T) and np.array_equal(cells["triangle"], mesh.t.T)
 
 

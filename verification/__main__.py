@@ -18,8 +18,13 @@ from .run import run
 from .studies import STUDIES, Study
 
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
-SUBCOMMANDS: dict[str, str] = {"figures": "verification.figures", "levels": "verification.levels", "mutations": "verification.mutations",
-                               "charts": "verification.charts.command", "stability": "verification.stability.command"}
+SUBCOMMANDS: dict[str, str] = {
+    "figures": "verification.figures",
+    "levels": "verification.levels",
+    "mutations": "verification.mutations",
+    "charts": "verification.charts.command",
+    "stability": "verification.stability.command",
+}
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -91,9 +96,7 @@ def run_all(studies: tuple[Study, ...], level: str, out: Path) -> int:
     outcomes, interrupted = [], False
 
     def save(complete: bool) -> reports.Report:
-        so_far = reports.Report(
-            level, names, tuple(outcomes), complete, started, time.perf_counter() - start, machine
-        )
+        so_far = reports.Report(level, names, tuple(outcomes), complete, started, time.perf_counter() - start, machine)
         reports.save(so_far, out)
         return so_far
 

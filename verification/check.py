@@ -61,9 +61,7 @@ class Check:
                 "allowed: finite, tolerance >= 0"
             )
         if self.kind == RELATIVE and self.expected == 0:
-            raise ValueError(
-                f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'"
-            )
+            raise ValueError(f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'")
 
     @property
     def deviation(self) -> float:
@@ -99,9 +97,7 @@ class Table:
         object.__setattr__(self, "rows", tuple(tuple(row) for row in self.rows))
         wrong = [row for row in self.rows if len(row) != len(self.columns)]
         if wrong:
-            raise ValueError(
-                f"table {self.name!r}: a row has {len(wrong[0])} values for {len(self.columns)} columns"
-            )
+            raise ValueError(f"table {self.name!r}: a row has {len(wrong[0])} values for {len(self.columns)} columns")
 
 
 @dataclass(frozen=True)

@@ -76,9 +76,7 @@ class Parabola:
     @property
     def exit(self) -> float:
         """Xe, where both P and dP/dX vanish."""
-        return float(
-            brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15)
-        )
+        return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
     def film(self, x):
         """Film thickness at x[0] in m."""
@@ -111,12 +109,7 @@ class Parabola:
     @property
     def couette(self) -> float:
         """``integral eta dx/h`` from inlet to exit, friction for unit sliding speed, N s/m^2."""
-        return (
-            self.viscosity
-            * self.scale
-            / self.film_thickness
-            * float(np.arctan(self.exit) - np.arctan(self.inlet))
-        )
+        return self.viscosity * self.scale / self.film_thickness * float(np.arctan(self.exit) - np.arctan(self.inlet))
 
     @property
     def rolling(self) -> float:
@@ -215,9 +208,7 @@ class ExponentialPad:
         third, second = np.expm1(3 * g * length) / (3 * g), np.expm1(2 * g * length) / (2 * g)
         neck = second / third  # Q/U times 1/inlet: makes the pressure vanish at both ends
         scale = 12 * self.viscosity * self.speed / self.inlet**2
-        lift = quad(
-            lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length, epsrel=1e-13
-        )[0]
+        lift = quad(lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length, epsrel=1e-13)[0]
         return scale * lift
 
     @property

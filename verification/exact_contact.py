@@ -35,9 +35,7 @@ class Line:
     def gap(self, x):
         """Gap in m at x: twice the integral of the slope ``sqrt(x^2 - b^2)/(2R)`` beyond the edge."""
         t = np.maximum(np.abs(x) / self.half_width, 1.0)
-        return (
-            self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
-        )
+        return self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
 
     def mean_gap(self, half: float) -> float:
         """Over |x| < half, m."""

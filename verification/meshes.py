@@ -44,10 +44,7 @@ def read_gmsh(path) -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.nda
     physical = mesh.cell_data.get("gmsh:physical", [np.zeros(len(b.data), dtype=int) for b in mesh.cells])
     names = dict.fromkeys(block.type for block in mesh.cells)
     cells = {n: np.concatenate([b.data for b in mesh.cells if b.type == n]) for n in names}
-    groups = {
-        n: np.concatenate([g for b, g in zip(mesh.cells, physical, strict=True) if b.type == n])
-        for n in names
-    }
+    groups = {n: np.concatenate([g for b, g in zip(mesh.cells, physical, strict=True) if b.type == n]) for n in names}
     return np.asarray(mesh.points, dtype=float), cells, groups
 
 

@@ -89,9 +89,7 @@ def main(argv: list[str]) -> int:
     """Exit code 0: every mutant was caught and the library as it is passed."""
     known = [NONE, *(m.name for m in MUTANTS)]
     p = argparse.ArgumentParser("python -m verification mutations", description=__doc__)
-    p.add_argument(
-        "--only", nargs="+", choices=known, metavar="NAME", help=f"run only these: {', '.join(known)}"
-    )
+    p.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=f"run only these: {', '.join(known)}")
     p.add_argument("--all-checks", action="store_true", help="go on after the first study that fails")
     p.add_argument("--workers", type=int, default=2, help="processes (default: %(default)s)")
     p.add_argument("--json", type=Path, metavar="FILE", help="write the table here, too")
@@ -102,9 +100,7 @@ def main(argv: list[str]) -> int:
         found.append(t)
     print(table(found, time.perf_counter() - start))
     if options.json:
-        options.json.write_text(
-            json.dumps([asdict(t) | {"passed": t.passed} for t in found], indent=1) + "\n"
-        )
+        options.json.write_text(json.dumps([asdict(t) | {"passed": t.passed} for t in found], indent=1) + "\n")
     return 0 if all(t.passed for t in found) else 1
 
 

@@ -111,8 +111,7 @@ def section(outcome) -> str:
     parts += [data_table(t) for t in outcome.tables]
     if outcome.fields:
         files = "".join(
-            f"<li>{escape(outcome.study.name)}_{escape(f.name)}.vtu: {escape(f.caption)}</li>"
-            for f in outcome.fields
+            f"<li>{escape(outcome.study.name)}_{escape(f.name)}.vtu: {escape(f.caption)}</li>" for f in outcome.fields
         )
         parts.append(f"<h3>Fields, beside this page as VTU</h3><ul>{files}</ul>")
     return "\n".join(parts)
@@ -137,9 +136,7 @@ def checks_table(checks) -> str:
 def data_table(table) -> str:
     """A table of a study; a wide one scrolls inside its own box."""
     head = "".join(f"<th>{escape(str(c))}</th>" for c in table.columns)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows
-    )
+    body = "".join("<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows)
     return (
         f'<div class="scroll"><table><caption>{escape(table.caption)}</caption><thead><tr>{head}</tr></thead>'
         f"<tbody>{body}</tbody></table></div>"
@@ -152,8 +149,7 @@ def html_table(columns, rows) -> str:
     body = "".join(
         "<tr>"
         + "".join(
-            f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>'
-            for c, v in zip(columns, row, strict=True)
+            f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>' for c, v in zip(columns, row, strict=True)
         )
         + "</tr>"
         for row in rows

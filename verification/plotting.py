@@ -49,9 +49,7 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     return Figure(name, caption, stream.getvalue(), format)
 
 
-def convergence(
-    name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = ""
-) -> Figure:
+def convergence(name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = "") -> Figure:
     """Errors against mesh size, log-log, each with its fitted order and a line of the expected one.
 
     ``series`` maps a label to ``(sizes, errors, expected_order)``; ``expected_order`` may be None.

@@ -102,12 +102,9 @@ def outcome_dict(outcome: Outcome) -> dict:
             for t in outcome.tables
         ],
         "figures": [
-            {"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption}
-            for f in outcome.figures
+            {"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption} for f in outcome.figures
         ],
-        "fields": [
-            {"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields
-        ],
+        "fields": [{"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields],
     }
 
 

@@ -141,9 +141,7 @@ def explain(exc: BaseException) -> str:
 
 def raised(study: Study, error: str) -> Check:
     """The failed check that stands for a study that did not reach its end."""
-    return Check(
-        f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error
-    )
+    return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
 
 
 def peak_memory() -> int:

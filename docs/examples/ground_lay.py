@@ -1,6 +1,6 @@
 """The same measured ground surface, sliding along and across its lay, at several places of the map.
 
-    python docs/examples/ground_lay.py path/to/ground-77nm.x3p [figure.png]
+python docs/examples/ground_lay.py path/to/ground-77nm.x3p [figure.png]
 """
 
 import sys
@@ -38,12 +38,15 @@ def solve(surface_file, places=5):
 def visualize(curves, path):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+
     figure = Figure(figsize=(7, 4.2), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots()
     for (direction, rows), colour in zip(curves.items(), ("#1f5a94", "#b3392f")):
         axes.fill_between(SPEEDS, rows.min(axis=0), rows.max(axis=0), color=colour, alpha=0.2, lw=0)
-        axes.semilogx(SPEEDS, rows.mean(axis=0), "o-", ms=4, color=colour, label=f"{direction} the lay: mean and range of places")
+        axes.semilogx(
+            SPEEDS, rows.mean(axis=0), "o-", ms=4, color=colour, label=f"{direction} the lay: mean and range of places"
+        )
     axes.set(xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)", ylim=(0, None))
     axes.legend(frameon=False)
     figure.savefig(path, dpi=130)

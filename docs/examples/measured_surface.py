@@ -6,14 +6,14 @@ import lubfric
 
 
 def solve():
-    rng = np.random.default_rng(5)                      # stands in for an instrument's file
+    rng = np.random.default_rng(5)  # stands in for an instrument's file
     ridges = np.sin(np.arange(180) * 0.9)[:, None] + 0.3 * rng.standard_normal((180, 160))
     np.save("map.npy", 60e-9 * ridges)
 
     surface = lubfric.read_surface("map.npy", spacing=0.5e-6)
     scene = lubfric.load_scene("paper").with_(
         surface={"file": "map.npy", "spacing": 0.5e-6, "sq": None, "correlation_length": None},
-        contact={"shape": None, "spacing": None},        # keep the map's own grid
+        contact={"shape": None, "spacing": None},  # keep the map's own grid
     )
     return surface, lubfric.stribeck(scene, np.geomspace(1e-3, 1.0, 7))
 

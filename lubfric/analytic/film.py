@@ -20,18 +20,16 @@ def speed_number(*, radius, e_prime, entrainment_speed, viscosity) -> float:
     return viscosity * 2 * entrainment_speed / (e_prime * radius)
 
 
-def moes_numbers(*, load_per_width, radius, e_prime, entrainment_speed, viscosity,
-                 pressure_viscosity_coefficient) -> tuple[float, float]:
+def moes_numbers(
+    *, load_per_width, radius, e_prime, entrainment_speed, viscosity, pressure_viscosity_coefficient
+) -> tuple[float, float]:
     """(M, L) from w [N/m], R [m], E' [Pa], U > 0 [m/s], eta0 [Pa s], alpha [1/Pa]."""
     validate.positive("entrainment_speed", entrainment_speed, "m/s")
-    u1 = speed_number(radius=radius, e_prime=e_prime, entrainment_speed=entrainment_speed,
-                      viscosity=viscosity)
-    return (load_per_width / (e_prime * radius * math.sqrt(u1)),
-            pressure_viscosity_coefficient * e_prime * u1**0.25)
+    u1 = speed_number(radius=radius, e_prime=e_prime, entrainment_speed=entrainment_speed, viscosity=viscosity)
+    return (load_per_width / (e_prime * radius * math.sqrt(u1)), pressure_viscosity_coefficient * e_prime * u1**0.25)
 
 
-def load_and_speed(m, l, *, radius, e_prime, viscosity,
-                   pressure_viscosity_coefficient) -> tuple[float, float]:
+def load_and_speed(m, l, *, radius, e_prime, viscosity, pressure_viscosity_coefficient) -> tuple[float, float]:
     """(load_per_width [N/m], entrainment_speed [m/s]) that have the Moes numbers M > 0, L > 0.
 
     L = 0 fixes no speed: raises `InputError`.
@@ -60,36 +58,60 @@ def moes_film(m, l) -> float:
     return (isoviscous + (h_rp**-3.5 + h_ep**-3.5) ** (-2 * s / 7)) ** (1 / s)
 
 
-def moes_flow_film(*, load_per_width, radius, e_prime, entrainment_speed, viscosity,
-                   pressure_viscosity_coefficient) -> float:
+def moes_flow_film(
+    *, load_per_width, radius, e_prime, entrainment_speed, viscosity, pressure_viscosity_coefficient
+) -> float:
     """`moes_film` in metres."""
-    m, l = moes_numbers(load_per_width=load_per_width, radius=radius, e_prime=e_prime,
-                        entrainment_speed=entrainment_speed, viscosity=viscosity,
-                        pressure_viscosity_coefficient=pressure_viscosity_coefficient)
-    u1 = speed_number(radius=radius, e_prime=e_prime, entrainment_speed=entrainment_speed,
-                      viscosity=viscosity)
+    m, l = moes_numbers(
+        load_per_width=load_per_width,
+        radius=radius,
+        e_prime=e_prime,
+        entrainment_speed=entrainment_speed,
+        viscosity=viscosity,
+        pressure_viscosity_coefficient=pressure_viscosity_coefficient,
+    )
+    u1 = speed_number(radius=radius, e_prime=e_prime, entrainment_speed=entrainment_speed, viscosity=viscosity)
     return radius * math.sqrt(u1) * moes_film(m, l)
 
 
-def dowson_higginson_min_film(*, load_per_width, radius, e_prime, entrainment_speed, viscosity,
-                              pressure_viscosity_coefficient) -> float:
+def dowson_higginson_min_film(
+    *, load_per_width, radius, e_prime, entrainment_speed, viscosity, pressure_viscosity_coefficient
+) -> float:
     """*Minimum* film [m]: h_min/R = 2.65 U^0.70 G^0.54 W^-0.13, U = eta0 U/(E' R), G = alpha E'.
 
     Fitted in the piezoviscous-elastic regime (about U 1e-13..1e-11, W 1e-5..3e-4, G 2500..7500).
     """
-    return _power_law(2.65, 0.70, 0.54, -0.13, load_per_width, radius, e_prime, entrainment_speed * viscosity,
-                      pressure_viscosity_coefficient)
+    return _power_law(
+        2.65,
+        0.70,
+        0.54,
+        -0.13,
+        load_per_width,
+        radius,
+        e_prime,
+        entrainment_speed * viscosity,
+        pressure_viscosity_coefficient,
+    )
 
 
-def dowson_toyoda_central_film(*, load_per_width, radius, e_prime, entrainment_speed, viscosity,
-                               pressure_viscosity_coefficient) -> float:
+def dowson_toyoda_central_film(
+    *, load_per_width, radius, e_prime, entrainment_speed, viscosity, pressure_viscosity_coefficient
+) -> float:
     """*Central* film [m] of a compressible lubricant: h_c/R = 3.06 U^0.69 G^0.56 W^-0.10, numbers as
     in `dowson_higginson_min_film`. Up to 13 % from converged solutions at M 5..100, L 5..10."""
-    return _power_law(3.06, 0.69, 0.56, -0.10, load_per_width, radius, e_prime, entrainment_speed * viscosity,
-                      pressure_viscosity_coefficient)
+    return _power_law(
+        3.06,
+        0.69,
+        0.56,
+        -0.10,
+        load_per_width,
+        radius,
+        e_prime,
+        entrainment_speed * viscosity,
+        pressure_viscosity_coefficient,
+    )
 
 
-def _power_law(factor, speed, material, load, load_per_width, radius, e_prime, speed_viscosity,
-               alpha) -> float:
+def _power_law(factor, speed, material, load, load_per_width, radius, e_prime, speed_viscosity, alpha) -> float:
     u, g, w = speed_viscosity / (e_prime * radius), alpha * e_prime, load_per_width / (e_prime * radius)
     return radius * factor * u**speed * g**material * w**load

@@ -38,6 +38,7 @@ def inlet_constant(film_over_contact: float) -> float:
 def flow_film(m: float, l: float) -> float:
     """H, the film where dp/dx = 0 in Moes units, from the inlet equation at M > 0, L > 0."""
     from scipy.optimize import brentq
+
     validate.positive("m", m, "(-)")
     validate.positive("l", l, "(-)")
     scale = 8 * m / math.pi

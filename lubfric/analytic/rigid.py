@@ -51,6 +51,7 @@ class RigidConstants:
 def rigid_constants() -> RigidConstants:
     """Solve the rupture equation and derive every constant from its root."""
     from scipy.optimize import brentq
+
     angle = brentq(lambda t: _reduced(t, t), 0.1, 1.0, xtol=1e-15, rtol=1e-15)
     ratio = 1 / math.cos(angle) ** 2
     swept = angle + math.pi / 2
@@ -58,10 +59,17 @@ def rigid_constants() -> RigidConstants:
     rolling = 3 * math.sqrt(2) * (swept - ratio * (swept / 2 + math.sin(2 * angle) / 4))
     peak = float(_reduced(-angle, angle))
     blok = (6 * math.sqrt(2) * peak) ** (2 / 3)
-    return RigidConstants(rupture=math.tan(angle), load=load, flow_film_ratio=ratio,
-                          couette=math.sqrt(2) * swept, rolling=rolling, min_film=load / 2,
-                          flow_film=load * ratio / 2, piezoviscous_min_film=blok,
-                          piezoviscous_flow_film=blok * ratio)
+    return RigidConstants(
+        rupture=math.tan(angle),
+        load=load,
+        flow_film_ratio=ratio,
+        couette=math.sqrt(2) * swept,
+        rolling=rolling,
+        min_film=load / 2,
+        flow_film=load * ratio / 2,
+        piezoviscous_min_film=blok,
+        piezoviscous_flow_film=blok * ratio,
+    )
 
 
 def pressure(x, min_film, *, radius, entrainment_speed, viscosity):

@@ -131,6 +131,4 @@ def _by_root(contact: Imposed, pressure) -> Outcome:
         max_evaluations=contact.problem.max_iterations,
     )
     pressure, offset = root.payload
-    return Outcome(
-        pressure, offset, root.status, len(root.history), inner.convolutions, list(root.history), []
-    )
+    return Outcome(pressure, offset, root.status, len(root.history), inner.convolutions, list(root.history), [])

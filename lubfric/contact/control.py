@@ -12,9 +12,9 @@ from ..roots import increasing_root
 from .nested import approach_controlled, load_controlled
 from .residual import length_scale
 
-FLATTENED = 10.0      # times E' height/spacing: 1.1 would do for a periodic ripple
-LOOSEST = 1e-2        # tolerance of a solve whose mean gap is far off
-CERTAIN = 20.0        # a surplus so many times its uncertainty away from zero has a certain sign
+FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
+LOOSEST = 1e-2  # tolerance of a solve whose mean gap is far off
+CERTAIN = 20.0  # a surplus so many times its uncertainty away from zero has a certain sign
 
 
 def gap_controlled(problem, mean_gap: float, start=None):
@@ -24,8 +24,10 @@ def gap_controlled(problem, mean_gap: float, start=None):
     Otherwise, or should that solve fail, the load is found.
     """
     guess = pressure_guess(problem)
-    if problem.roughness > 0:       # the smaller the gap, the more exactly its zeros have to be met
-        problem = replace(problem, tolerance=max(problem.tolerance * min(1.0, 0.3 * mean_gap / problem.roughness), 1e-13))
+    if problem.roughness > 0:  # the smaller the gap, the more exactly its zeros have to be met
+        problem = replace(
+            problem, tolerance=max(problem.tolerance * min(1.0, 0.3 * mean_gap / problem.roughness), 1e-13)
+        )
     if problem.operator.boundary == ("periodic", "periodic") and math.isinf(problem.hardness):
         approach = float(problem.gap0.mean()) - mean_gap
         found = approach_controlled(problem, approach, guess, start)
@@ -74,9 +76,15 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
     if start is not None and start.any():
         guess = float(start.mean())
     upper = math.log(min(problem.hardness, flattening_pressure(problem)))
-    root = increasing_root(surplus, math.log(guess), step=0.7, bounds=(-300.0, upper),
-                           tolerance=0.5 * problem.tolerance)
+    root = increasing_root(
+        surplus, math.log(guess), step=0.7, bounds=(-300.0, upper), tolerance=0.5 * problem.tolerance
+    )
     found = root.payload
-    return replace(found, iterations=iterations, convolutions=spent, history=tuple(root.history),
-                   status=root.status if found.status == CONVERGED else found.status,
-                   solver="bracketed load, preconditioned conjugate gradient")
+    return replace(
+        found,
+        iterations=iterations,
+        convolutions=spent,
+        history=tuple(root.history),
+        status=root.status if found.status == CONVERGED else found.status,
+        solver="bracketed load, preconditioned conjugate gradient",
+    )

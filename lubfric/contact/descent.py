@@ -19,8 +19,8 @@ from ..halfspace.operator import filtered, wavenumber
 from .projection import with_load
 from .residual import deflection_scale, dot
 
-CAPACITY = 0.999       # of hardness times the set, beyond which the set has to grow
-MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3     # measured: fewest iterations from one spot to 99.99 % contact
+CAPACITY = 0.999  # of hardness times the set, beyond which the set has to grow
+MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3  # measured: fewest iterations from one spot to 99.99 % contact
 
 
 @dataclass(frozen=True)

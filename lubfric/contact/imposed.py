@@ -109,9 +109,7 @@ class Imposed:
     def touchless(self) -> ContactResult:
         """The result when the film keeps the surfaces apart."""
         zero = np.zeros_like(self.problem.gap0)
-        state = Outcome(
-            zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"]
-        )
+        state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
         return self.certify(state, "none")
 
 
@@ -136,13 +134,9 @@ def impose(
     film = _on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
     if weight.min() < 0 or weight.sum() == 0:
-        raise InputError(
-            "weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)"
-        )
+        raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
-    problem = make_problem(
-        film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations
-    )
+    problem = make_problem(film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
     return Imposed(problem, weight, mean_film), starting_pressure(problem, start)
 
@@ -154,7 +148,5 @@ def _on_grid(name, value, shape, unit) -> np.ndarray:
     try:
         field = np.broadcast_to(field, shape)
     except ValueError:
-        raise InputError(
-            f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]"
-        ) from None
+        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
     return validate.array(name, field, unit, ndim=2)

@@ -14,9 +14,9 @@ import numpy as np
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED
 from .descent import Descent
 
-REFRESH = 1e-3          # fall of the residual between recomputations
-MARGIN = 0.9            # of the tolerance: leaves room for the final check
-PATIENCE = 40           # iterations without a better residual
+REFRESH = 1e-3  # fall of the residual between recomputations
+MARGIN = 0.9  # of the tolerance: leaves room for the final check
+PATIENCE = 40  # iterations without a better residual
 
 
 @dataclass(frozen=True)
@@ -62,5 +62,12 @@ def conjugate_gradient(problem, pressure, *, load=None, level=None) -> Found:
         d, slope = state.search(work, restart=changed or not moving)
         moving, previous = state.advance(work, d, slope), work.cells
         fresh = not moving
-    return Found(state.pressure, float(state.approach), status, "preconditioned conjugate gradient", iteration,
-                 state.convolutions, tuple(history))
+    return Found(
+        state.pressure,
+        float(state.approach),
+        status,
+        "preconditioned conjugate gradient",
+        iteration,
+        state.convolutions,
+        tuple(history),
+    )

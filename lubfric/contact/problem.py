@@ -11,10 +11,10 @@ from .. import validate
 from ..errors import InputError
 from ..halfspace import HalfSpace, half_space
 
-COARSEST = 24              # cells along an axis below which it is not halved
-COARSE_TOLERANCE = 1e-2    # coarse grids only give a start
+COARSEST = 24  # cells along an axis below which it is not halved
+COARSE_TOLERANCE = 1e-2  # coarse grids only give a start
 COARSE_ITERATIONS = 60
-ABSURD = 1e6               # times E': no start has such a pressure
+ABSURD = 1e6  # times E': no start has such a pressure
 
 
 @dataclass(frozen=True)
@@ -33,20 +33,32 @@ class Problem:
 
     def coarsened(self) -> Problem | None:
         """The same on cells twice as long (mean gap0) along every axis that can be halved, if any."""
-        factors = [2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
-                   for kept, padded in zip(self.operator.shape, self.operator.padded)]
+        factors = [
+            2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
+            for kept, padded in zip(self.operator.shape, self.operator.padded)
+        ]
         if factors == [1, 1]:
             return None
         (nx, ny), (fx, fy) = self.gap0.shape, factors
         gap0 = self.gap0.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
-        return Problem(gap0, self.offset, self.roughness, self.operator.coarsened(factors), self.hardness, COARSE_TOLERANCE, COARSE_ITERATIONS)
+        return Problem(
+            gap0,
+            self.offset,
+            self.roughness,
+            self.operator.coarsened(factors),
+            self.hardness,
+            COARSE_TOLERANCE,
+            COARSE_ITERATIONS,
+        )
 
 
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
     """Validated problem; builds the operator when none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
-        raise InputError("gap0 is a height map, not an array; allowed: gap0 = -surface.heights in m (heights point out of "
-                         "the body: the gap is smallest at summits), plus the shape of bodies that are not flat")
+        raise InputError(
+            "gap0 is a height map, not an array; allowed: gap0 = -surface.heights in m (heights point out of "
+            "the body: the gap is smallest at summits), plus the shape of bodies that are not flat"
+        )
     gap0 = validate.array("gap0", gap0, "m", ndim=2)
     hardness = math.inf if hardness is None else validate.positive("hardness", hardness, "Pa")
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-14, maximum=0.1)
@@ -54,8 +66,13 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
     if operator is None:
         operator = half_space(gap0.shape, spacing, e_prime, boundary)
     else:
-        _check_operator(operator, gap0.shape, validate.spacing("spacing", spacing),
-                        validate.positive("e_prime", e_prime, "Pa"), boundary)
+        _check_operator(
+            operator,
+            gap0.shape,
+            validate.spacing("spacing", spacing),
+            validate.positive("e_prime", e_prime, "Pa"),
+            boundary,
+        )
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
     return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
@@ -79,8 +96,10 @@ def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
         return
     validate.nonnegative("mean_pressure", mean_pressure, "Pa")
     if mean_pressure > problem.hardness:
-        raise InputError(f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
-                         f"{problem.hardness:g} Pa, at which the whole area yields")
+        raise InputError(
+            f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
+            f"{problem.hardness:g} Pa, at which the whole area yields"
+        )
 
 
 def starting_pressure(problem: Problem, start) -> np.ndarray | None:
@@ -92,6 +111,7 @@ def starting_pressure(problem: Problem, start) -> np.ndarray | None:
         raise InputError(f"start has shape {pressure.shape}; allowed: {problem.gap0.shape}, the shape of gap0")
     limit = ABSURD * problem.operator.e_prime
     if pressure.min() < 0 or pressure.max() > limit:
-        raise InputError(f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; "
-                         f"allowed: 0 to {limit:g} Pa")
-    return np.ascontiguousarray(np.minimum(pressure, problem.hardness))      # the solver writes through ravel()
+        raise InputError(
+            f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; allowed: 0 to {limit:g} Pa"
+        )
+    return np.ascontiguousarray(np.minimum(pressure, problem.hardness))  # the solver writes through ravel()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-NEWTON = 12          # steps before every other one halves the bracket
+NEWTON = 12  # steps before every other one halves the bracket
 
 
 def with_load(pressure, load: float, hardness: float) -> np.ndarray:
@@ -28,7 +28,7 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
             break
         halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
         shift = 0.5 * (lower + upper) if halve else newton
-    if not result.any() and load > 0:          # a load below the rounding of the highest pressure: one cell bears it
+    if not result.any() and load > 0:  # a load below the rounding of the highest pressure: one cell bears it
         result[np.argmax(pressure)] = min(load, hardness)
     elastic = result < hardness
     carried = result[elastic].sum()

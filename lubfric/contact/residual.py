@@ -44,6 +44,8 @@ def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressur
     total = pressure.sum()
     if total == 0:
         return {"complementarity": 0.0, "penetration": math.inf if overlap > 0 else 0.0, "load": 0.0}
-    return {"complementarity": dot(pressure, misfit) / (total * scale),
-            "penetration": max(0.0, float(overlap) / scale),
-            "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure)}
+    return {
+        "complementarity": dot(pressure, misfit) / (total * scale),
+        "penetration": max(0.0, float(overlap) / scale),
+        "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure),
+    }

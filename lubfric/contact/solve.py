@@ -14,9 +14,21 @@ from .residual import contact_residuals, length_scale
 from .result import ContactResult
 
 
-def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, hardness=None,
-                  boundary=("periodic", "periodic"), tolerance=1e-6, start=None, operator=None,
-                  max_iterations=2000, raise_on_failure=True) -> ContactResult:
+def solve_contact(
+    gap0,
+    spacing,
+    e_prime,
+    *,
+    mean_pressure=None,
+    mean_gap=None,
+    hardness=None,
+    boundary=("periodic", "periodic"),
+    tolerance=1e-6,
+    start=None,
+    operator=None,
+    max_iterations=2000,
+    raise_on_failure=True,
+) -> ContactResult:
     """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
     ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``; with a hardness H also ``p <= H``,
@@ -69,10 +81,18 @@ def solve_contact(gap0, spacing, e_prime, *, mean_pressure=None, mean_gap=None, 
 def _separated(problem, mean_gap) -> ContactResult:
     approach = float(problem.gap0.mean() - mean_gap)
     zero = np.zeros_like(problem.gap0)
-    report = Report("none", CONVERGED, 0, 0.0, problem.tolerance, notes=("the bodies carry no load",),
-                    residuals={"complementarity": 0.0, "penetration": 0.0, "load": 0.0})
-    return ContactResult(zero, problem.gap0 - approach, zero.copy(), approach + problem.offset, 0.0,
-                         float(mean_gap), 0.0, 0.0, report)
+    report = Report(
+        "none",
+        CONVERGED,
+        0,
+        0.0,
+        problem.tolerance,
+        notes=("the bodies carry no load",),
+        residuals={"complementarity": 0.0, "penetration": 0.0, "load": 0.0},
+    )
+    return ContactResult(
+        zero, problem.gap0 - approach, zero.copy(), approach + problem.offset, 0.0, float(mean_gap), 0.0, 0.0, report
+    )
 
 
 def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
@@ -82,17 +102,37 @@ def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
     gap -= found.approach
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator)
     carried = float(pressure.mean())
-    residuals = contact_residuals(pressure, gap, scale, problem.hardness,
-                                  carried if mean_pressure is None else mean_pressure)
+    residuals = contact_residuals(
+        pressure, gap, scale, problem.hardness, carried if mean_pressure is None else mean_pressure
+    )
     volume = float(np.maximum(gap, 0.0).mean())
     if mean_gap is not None:
         del residuals["load"]
         residuals["volume"] = abs(volume - mean_gap) / min(scale, mean_gap)
     worst = max(residuals.values())
-    status = CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED
-                                                           else ITERATION_LIMIT)
-    report = Report(found.solver, status, found.iterations, worst if math.isfinite(worst) else math.inf,
-                    problem.tolerance, residuals, tuple(found.history), found.convolutions + 1, tuple(found.notes))
+    status = (
+        CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED else ITERATION_LIMIT)
+    )
+    report = Report(
+        found.solver,
+        status,
+        found.iterations,
+        worst if math.isfinite(worst) else math.inf,
+        problem.tolerance,
+        residuals,
+        tuple(found.history),
+        found.convolutions + 1,
+        tuple(found.notes),
+    )
     saturated = float(np.count_nonzero(pressure >= problem.hardness)) / pressure.size
-    return ContactResult(pressure, gap, displacement, float(found.approach) + problem.offset, carried, volume,
-                         np.count_nonzero(pressure) / pressure.size, saturated, report)
+    return ContactResult(
+        pressure,
+        gap,
+        displacement,
+        float(found.approach) + problem.offset,
+        carried,
+        volume,
+        np.count_nonzero(pressure) / pressure.size,
+        saturated,
+        report,
+    )

@@ -79,12 +79,14 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     if centre > 2.0 * tolerance:
         notes += (f"central_film changed by {centre:.1e} between the last two grids",)
     notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
-    return Report("line-contact EHL, Newton on nested grids", status, steps, residual, tolerance, residuals,
-                  history, steps, notes)
+    return Report(
+        "line-contact EHL, Newton on nested grids", status, steps, residual, tolerance, residuals, history, steps, notes
+    )
 
 
-def assemble(problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, sign: float,
-            notes: tuple) -> EHLResult:
+def assemble(
+    problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, sign: float, notes: tuple
+) -> EHLResult:
     """The result in SI units of solutions on nested grids; sign -1 mirrors it."""
     last = levels[-1]
     t, M = last.terms, problem.M
@@ -93,27 +95,42 @@ def assemble(problem: Problem, levels: list[Solution], first: list[Solution], to
     P = np.concatenate([t.P, np.zeros_like(X_out)])
     error = grid_error(levels)
     tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet_length is None else 0.0
-    residuals = {"discretisation": error, "domain": domain_error(problem, last),
-                 "mass": float(np.max(np.abs(t.flux / t.q - 1.0))),
-                 "load": abs((last.grid.weights @ t.P + tail) / M - 1.0),
-                 "complementarity": complementarity(last, H_out)}
+    residuals = {
+        "discretisation": error,
+        "domain": domain_error(problem, last),
+        "mass": float(np.max(np.abs(t.flux / t.q - 1.0))),
+        "load": abs((last.grid.weights @ t.P + tail) / M - 1.0),
+        "complementarity": complementarity(last, H_out),
+    }
     report = _report(problem, levels, first, tolerance, residuals, notes)
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
     deflecting = last.grid.weights @ t.P
     if problem.imposed is not None:
         deflecting += problem.imposed_load
-    with np.errstate(over="ignore"):        # Barus far above its range: infinite beyond e^709
+    with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
         viscosity = problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
     return EHLResult(
-        x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
+        x=(sign * X * length)[order],
+        pressure=(P * problem.pressure_unit)[order],
         film_thickness=(H * film)[order],
         viscosity=viscosity[order],
-        density_ratio=problem.density(P)[0][order], min_film=smallest(X, H) * film,
-        central_film=float(_interpolated(problem, X, H, np.zeros(1))[0]) * film, flow_film=float(t.q) * film,
-        flux=float(t.q) * film * problem.speed * sign, rupture=float(last.z[-1]) * length * sign,
-        approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film, half_width=b * length,
-        hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit, load=problem.load,
-        radius=problem.radius, e_prime=problem.e_prime, entrainment_speed=sign * problem.speed,
-        load_number=M, material_number=problem.L, report=report, state=solution_state(problem, last, error),
-        imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored())
+        density_ratio=problem.density(P)[0][order],
+        min_film=smallest(X, H) * film,
+        central_film=float(_interpolated(problem, X, H, np.zeros(1))[0]) * film,
+        flow_film=float(t.q) * film,
+        flux=float(t.q) * film * problem.speed * sign,
+        rupture=float(last.z[-1]) * length * sign,
+        approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film,
+        half_width=b * length,
+        hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit,
+        load=problem.load,
+        radius=problem.radius,
+        e_prime=problem.e_prime,
+        entrainment_speed=sign * problem.speed,
+        load_number=M,
+        material_number=problem.L,
+        report=report,
+        state=solution_state(problem, last, error),
+        imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored(),
+    )

@@ -15,10 +15,10 @@ import numpy as np
 
 from .kernel import hat_kernel
 
-FAR_INLET = 30.0              # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
-RISE_CELL, RISE_GROWTH = 0.3, 0.35        # smallest cell where the pressure rises / rise length; growth
+FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
+RISE_CELL, RISE_GROWTH = 0.3, 0.35  # smallest cell where the pressure rises / rise length; growth
 RUPTURE_CELL, RUPTURE_GROWTH = 0.1, 0.28  # the same at the rupture point, where film and pressure spike are
-CORE = 1.2                    # cells spread evenly over the contact, relative to the above
+CORE = 1.2  # cells spread evenly over the contact, relative to the above
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,18 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     inner, outer = RISE_CELL * rise, RUPTURE_CELL * rise
 
     def index(x):
-        return (np.arcsinh(RISE_GROWTH * (x + width) / inner) / RISE_GROWTH
-                + np.arcsinh(RUPTURE_GROWTH * x / outer) / RUPTURE_GROWTH + CORE * np.arcsinh(x / scale))
+        return (
+            np.arcsinh(RISE_GROWTH * (x + width) / inner) / RISE_GROWTH
+            + np.arcsinh(RUPTURE_GROWTH * x / outer) / RUPTURE_GROWTH
+            + CORE * np.arcsinh(x / scale)
+        )
 
     def density(x):
-        return (1.0 / np.hypot(inner, RISE_GROWTH * (x + width)) + 1.0 / np.hypot(outer, RUPTURE_GROWTH * x)
-                + CORE / np.hypot(scale, x))
+        return (
+            1.0 / np.hypot(inner, RISE_GROWTH * (x + width))
+            + 1.0 / np.hypot(outer, RUPTURE_GROWTH * x)
+            + CORE / np.hypot(scale, x)
+        )
 
     scale = 2.0 * half_width + 0.7 * l
     away = np.geomspace(0.05 * outer, 2.0 * max(far, scale), 300)
@@ -83,8 +89,11 @@ def make_grid(xi: np.ndarray) -> Grid:
     n = cells.size
     face_film = np.zeros((n, n + 1))
     face_film[np.arange(n)[:, None], columns] = values
-    face_kernel = (values[:, :1] * kernel[columns[:, 0]] + values[:, 1:2] * kernel[columns[:, 1]]
-                   + values[:, 2:] * kernel[columns[:, 2]])
+    face_kernel = (
+        values[:, :1] * kernel[columns[:, 0]]
+        + values[:, 1:2] * kernel[columns[:, 1]]
+        + values[:, 2:] * kernel[columns[:, 2]]
+    )
     return Grid(xi, kernel, face_film, face_kernel, cells, weights)
 
 
@@ -94,6 +103,9 @@ def _upwind(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     columns = np.maximum(np.arange(n), 1)[:, None] + np.array([-1, 0, 1])
     a, b, c = x[columns].T
     f = 0.5 * (x[1:] + x[:-1])
-    weights = [(f - b) * (f - c) / ((a - b) * (a - c)), (f - a) * (f - c) / ((b - a) * (b - c)),
-               (f - a) * (f - b) / ((c - a) * (c - b))]
+    weights = [
+        (f - b) * (f - c) / ((a - b) * (a - c)),
+        (f - a) * (f - c) / ((b - a) * (b - c)),
+        (f - a) * (f - b) / ((c - a) * (c - b)),
+    ]
     return columns, np.stack(weights, axis=1)

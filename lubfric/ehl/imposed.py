@@ -10,8 +10,8 @@ import numpy as np
 from ..errors import InputError
 from ..validate import array
 
-FLATTEST = 1e8      # radius of a seat, in radii of the cylinder
-FLAT_WINDOW = 0.8   # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
+FLATTEST = 1e8  # radius of a seat, in radii of the cylinder
+FLAT_WINDOW = 0.8  # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
 
 
 @dataclass(frozen=True)
@@ -82,8 +82,10 @@ def find_seats(problem) -> tuple[Seat, ...]:
 def _window(problem, ratio: float) -> tuple[float, float]:
     """Half-width [m] of the dry contact and length [m] of the film on a cylinder of ``ratio`` radii."""
     seated = replace(problem, seat=Seat(0.0, ratio))
-    return (seated.seat_half_width * problem.length_unit,
-            math.sqrt(2.0 * seated.film_guess * ratio) * problem.length_unit)
+    return (
+        seated.seat_half_width * problem.length_unit,
+        math.sqrt(2.0 * seated.film_guess * ratio) * problem.length_unit,
+    )
 
 
 def line_pressure(value) -> LinePressure | None:
@@ -97,8 +99,10 @@ def line_pressure(value) -> LinePressure | None:
     x = array("imposed_pressure[0]", value[0], "m", ndim=1)
     pressure = array("imposed_pressure[1]", value[1], "Pa", ndim=1)
     if x.size != pressure.size or x.size < 2 or not np.all(np.diff(x) > 0.0):
-        raise InputError(f"imposed_pressure has {x.size} positions and {pressure.size} pressures; allowed: as many of "
-                         "each, at least 2, the positions [m] ascending")
+        raise InputError(
+            f"imposed_pressure has {x.size} positions and {pressure.size} pressures; allowed: as many of "
+            "each, at least 2, the positions [m] ascending"
+        )
     if pressure.min() < 0.0:
         raise InputError(f"imposed_pressure falls to {pressure.min():.4g} Pa; allowed: 0 and above")
     loaded = np.flatnonzero(pressure)

@@ -11,8 +11,8 @@ from .grid import Grid
 from .problem import Problem
 from .reynolds import Terms, linearise, residual
 
-VISCOSITY_STEP = 3.0     # largest change of ln(eta) in one step
-FILM_STEP = 0.7          # largest share of the film (or flux) that one step may remove
+VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
+FILM_STEP = 0.7  # largest share of the film (or flux) that one step may remove
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,7 @@ class Solution:
     history: tuple[float, ...]
 
 
-def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float,
-           max_steps: int) -> Solution:
+def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
     """Solve the equations from unknowns z and film H > 0 to max(|residual|, |defect|/H) <= ``tolerance``.
 
     A step that overflows ends the iteration as "diverged"."""

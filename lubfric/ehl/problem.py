@@ -20,7 +20,7 @@ import numpy as np
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
 from .imposed import LinePressure, Seat, line_deflection
 
-STARVED = 0.1       # film of a badly starved contact, relative to the square of the inlet length
+STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
 
 
 @dataclass(frozen=True)
@@ -103,8 +103,13 @@ class Problem:
 
     def alone(self) -> Problem:
         """The cylinder of the seat, without imposed pressure."""
-        return replace(self, radius=self.radius * self.seat.radius, e_prime=self.e_prime * self.seat.modulus,
-                       imposed=None, seat=Seat())
+        return replace(
+            self,
+            radius=self.radius * self.seat.radius,
+            e_prime=self.e_prime * self.seat.modulus,
+            imposed=None,
+            seat=Seat(),
+        )
 
     @property
     def film_guess(self) -> float:

@@ -91,10 +91,12 @@ def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
     first = np.clip(np.searchsorted(nodes, x) - 2, 0, nodes.size - 4)
     a, b, c, d = (nodes[first + k] for k in range(4))
     ta, tb, tc, td = x - a, x - b, x - c, x - d
-    return (values[first] * tb * tc * td / ((a - b) * (a - c) * (a - d))
-            + values[first + 1] * ta * tc * td / ((b - a) * (b - c) * (b - d))
-            + values[first + 2] * ta * tb * td / ((c - a) * (c - b) * (c - d))
-            + values[first + 3] * ta * tb * tc / ((d - a) * (d - b) * (d - c)))
+    return (
+        values[first] * tb * tc * td / ((a - b) * (a - c) * (a - d))
+        + values[first + 1] * ta * tc * td / ((b - a) * (b - c) * (b - d))
+        + values[first + 2] * ta * tb * td / ((c - a) * (c - b) * (c - d))
+        + values[first + 3] * ta * tb * tc / ((d - a) * (d - b) * (d - c))
+    )
 
 
 def smallest(x: np.ndarray, values: np.ndarray) -> float:

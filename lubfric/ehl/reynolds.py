@@ -33,16 +33,16 @@ class Terms:
     P: np.ndarray
     H: np.ndarray
     X: np.ndarray
-    defect: np.ndarray       # H00 + X²/2 + K P + imposed deflection - H
-    by_rupture: np.ndarray   # d(H00 + X²/2 + imposed deflection)/de
+    defect: np.ndarray  # H00 + X²/2 + K P + imposed deflection - H
+    by_rupture: np.ndarray  # d(H00 + X²/2 + imposed deflection)/de
     q: float
-    slope: np.ndarray        # d ln(eta)/dP at the nodes
-    density: tuple           # rho and d rho/dP at the nodes
+    slope: np.ndarray  # d ln(eta)/dP at the nodes
+    density: tuple  # rho and d rho/dP at the nodes
     face_density: np.ndarray
     face_H: np.ndarray
-    fluidity: tuple          # logarithmic mean and its derivatives by ln(eta) left, right
-    gradient: np.ndarray     # (dP/dX)/6
-    flux: np.ndarray         # mass flux towards +X, Couette minus Poiseuille
+    fluidity: tuple  # logarithmic mean and its derivatives by ln(eta) left, right
+    gradient: np.ndarray  # (dP/dX)/6
+    flux: np.ndarray  # mass flux towards +X, Couette minus Poiseuille
 
 
 def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -71,7 +71,7 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     """Residual (n + 3) at the film H and the `Terms` that the Jacobian needs."""
     n = grid.n
     P = np.append(z[:n], 0.0)
-    q, e = z[n + 1:]
+    q, e = z[n + 1 :]
     X = grid.xi + e
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
@@ -91,8 +91,9 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
     film, by_rupture = elastic_film(grid, problem, z)
-    return R, Terms(P, H, X, film - H, by_rupture, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient,
-                    flux)
+    return R, Terms(
+        P, H, X, film - H, by_rupture, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux
+    )
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:

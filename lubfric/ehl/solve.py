@@ -20,17 +20,30 @@ from .result import EHLResult
 from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, LAST_START, FINEST = 48, 768, 3072
-WIDE = 2000.0             # of M: beyond it COARSEST cells do not hold the inlet
-COARSE_TOLERANCE = 5e-3   # from here on two grids are enough for a cold start
-DOUBLINGS = 8             # of the speed, to begin with a film too thick to feel an imposed pressure
-EASY, STAGE = 4.0, 1.4    # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
+COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
+DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
+EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
 
-def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float,
-              viscosity: float, pressure_viscosity_coefficient: float, viscosity_law: str = "roelands",
-              density: str = "constant", tolerance: float = 3e-3, inlet_length: float | None = None,
-              imposed_pressure=None, start: EHLResult | None = None, least_cells: int = 0, max_iterations: int = 60,
-              raise_on_failure: bool = True) -> EHLResult:
+def solve_ehl(
+    *,
+    load_per_width: float,
+    radius: float,
+    e_prime: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_viscosity_coefficient: float,
+    viscosity_law: str = "roelands",
+    density: str = "constant",
+    tolerance: float = 3e-3,
+    inlet_length: float | None = None,
+    imposed_pressure=None,
+    start: EHLResult | None = None,
+    least_cells: int = 0,
+    max_iterations: int = 60,
+    raise_on_failure: bool = True,
+) -> EHLResult:
     """Film of a smooth line contact: Reynolds, elastic half-spaces, load.
 
     Solves d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx with p = dp/dx = 0 at the rupture point
@@ -76,16 +89,23 @@ def solve_ehl(*, load_per_width: float, radius: float, e_prime: float, entrainme
     if speed == 0.0:
         raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density)
-    problem = Problem(positive("load_per_width", load_per_width, "N/m"), positive("radius", radius, "m"),
-                      positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
-                      None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+    problem = Problem(
+        positive("load_per_width", load_per_width, "N/m"),
+        positive("radius", radius, "m"),
+        positive("e_prime", e_prime, "Pa"),
+        abs(speed),
+        lubricant,
+        None if inlet_length is None else positive("inlet_length", inlet_length, "m"),
+    )
     imposed = line_pressure(imposed_pressure)
     if imposed is not None:
         imposed = imposed if speed > 0 else imposed.mirrored()
         problem = replace(problem, imposed=imposed)
     if inlet_length is not None and inlet_length <= problem.flat_half_width * problem.length_unit:
-        raise InputError(f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
-                         f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m")
+        raise InputError(
+            f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
+            f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m"
+        )
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     least_cells = min(integer("least_cells", least_cells, minimum=0), FINEST)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
@@ -117,8 +137,9 @@ def _warm(problem: Problem, tolerance: float, least: int, max_steps: int, state:
     return _ascend(problem, tolerance, least, max_steps, state, n, 2)
 
 
-def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
-          max_steps: int) -> tuple[Problem, list[Solution], list[Solution], tuple]:
+def _cold(
+    problem: Problem, seats: tuple, tolerance: float, least: int, max_steps: int
+) -> tuple[Problem, list[Solution], list[Solution], tuple]:
     """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
     solutions; the solutions that led there, and notes."""
     spent, notes = [], ()
@@ -132,8 +153,8 @@ def _cold(problem: Problem, seats: tuple, tolerance: float, least: int,
             return problem, levels, spent + first, notes
         spent += first + levels
         if levels[0].status == CONVERGED and levels[-1].grid.n >= LAST_START:
-            break                                            # it is not the start that fails
-    return problem, levels, spent[:-len(levels)], notes
+            break  # it is not the start that fails
+    return problem, levels, spent[: -len(levels)], notes
 
 
 def _coarsest(problem: Problem) -> int:
@@ -147,11 +168,14 @@ def _attempts(seats: tuple, coarsest: int) -> list[tuple]:
     grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
     if len(seats) == 1:
         return [(n, seats[0], 0) for n in grids]
-    return [(n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))]
+    return [
+        (n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))
+    ]
 
 
-def _ascend(problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int,
-            fewest: int) -> list[Solution]:
+def _ascend(
+    problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int, fewest: int
+) -> list[Solution]:
     """Solutions on ``fewest`` or more grids of n, 2n, ... cells until there are ``least`` and the error is below ``tolerance``."""
     rupture = rupture_guess(problem)
     levels: list[Solution] = []

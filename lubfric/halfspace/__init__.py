@@ -10,5 +10,11 @@ from .operator import HalfSpace, half_space
 from .reciprocity import reciprocity_error
 from .semiperiodic import semiperiodic_coefficients
 
-__all__ = ["HalfSpace", "half_space", "line_coefficients", "love_coefficients", "reciprocity_error",
-           "semiperiodic_coefficients"]
+__all__ = [
+    "HalfSpace",
+    "half_space",
+    "line_coefficients",
+    "love_coefficients",
+    "reciprocity_error",
+    "semiperiodic_coefficients",
+]

@@ -54,7 +54,7 @@ class HalfSpace:
         shape = tuple(n // f for n, f in zip(self.shape, factors))
         padded = tuple(m // f for m, f in zip(self.padded, factors))
         spacing = tuple(d * f for d, f in zip(self.spacing, factors))
-        symbol = np.ascontiguousarray(self.symbol[:padded[0] // 2 + 1, :padded[1] // 2 + 1])
+        symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
     def shortened(self, count: int) -> HalfSpace:
@@ -63,12 +63,18 @@ class HalfSpace:
         Raises `InputError` unless x is free and ``count`` at most as long as it is.
         """
         if self.boundary[0] != "free" or not 1 <= count <= self.shape[0]:
-            raise InputError(f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
-                             "all cells of a free axis")
+            raise InputError(
+                f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
+                "all cells of a free axis"
+            )
         coefficients = fft.irfft(self.symbol, n=self.padded[0], axis=0)[:count]
         length = _padded_length(count)
-        return replace(self, shape=(count, self.shape[1]), padded=(length, self.padded[1]),
-                       symbol=_even_transform(coefficients, length, axis=0))
+        return replace(
+            self,
+            shape=(count, self.shape[1]),
+            padded=(length, self.padded[1]),
+            symbol=_even_transform(coefficients, length, axis=0),
+        )
 
 
 def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
@@ -78,7 +84,7 @@ def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], wor
     spectrum = fft.fft(spectrum, n=mx, axis=0, workers=workers, overwrite_x=True)
     half = mx // 2 + 1
     spectrum[:half] *= symbol
-    spectrum[half:] *= symbol[(mx - 1) // 2:0:-1]
+    spectrum[half:] *= symbol[(mx - 1) // 2 : 0 : -1]
     spectrum = fft.ifft(spectrum, axis=0, workers=workers, overwrite_x=True)[:nx]
     return fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)[:, :ny]
 
@@ -121,8 +127,10 @@ def _grid_shape(shape) -> tuple[int, int]:
     pair = tuple(shape)
     if len(pair) != 2:
         raise InputError(f"shape = {pair} has {len(pair)} axes; allowed: (nx, ny)")
-    return tuple(validate.integer(f"shape[{axis}]", int(n) if isinstance(n, np.integer) else n, minimum=1)
-                 for axis, n in enumerate(pair))
+    return tuple(
+        validate.integer(f"shape[{axis}]", int(n) if isinstance(n, np.integer) else n, minimum=1)
+        for axis, n in enumerate(pair)
+    )
 
 
 def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
@@ -155,6 +163,6 @@ def _even_transform(coefficients: np.ndarray, length: int, axis: int) -> np.ndar
     """Real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of ``length``."""
     c = np.moveaxis(coefficients, axis, 0)
     even = np.zeros((length, *c.shape[1:]))
-    even[:len(c)] = c
-    even[length - len(c) + 1:] = c[:0:-1]
+    even[: len(c)] = c
+    even[length - len(c) + 1 :] = c[:0:-1]
     return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))

@@ -12,8 +12,8 @@ import numpy as np
 
 from .line import line_coefficients
 
-FAR = 42.0         # K0 beyond it is below 1e-19
-NEAR_CELLS, LONG_CELL = 4, 6.0      # from there on few points do, unless k times the cell exceeds LONG_CELL
+FAR = 42.0  # K0 beyond it is below 1e-19
+NEAR_CELLS, LONG_CELL = 4, 6.0  # from there on few points do, unless k times the cell exceeds LONG_CELL
 NEAR_RULE, FAR_RULE = np.polynomial.legendre.leggauss(24), np.polynomial.legendre.leggauss(7)
 
 
@@ -27,7 +27,7 @@ def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
     (nx, ny), (dx, dy) = shape, spacing
     kernel = np.zeros((nx, ny // 2 + 1))
     kernel[:, 0] = line_coefficients(nx, dx, e_prime, reference_length=nx * dx)
-    step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx       # k_y dx
+    step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx  # k_y dx
     for column, k in enumerate(step, start=1):
         count = min(nx, int(FAR / k) + 2)
         kernel[:count, column] = 4 / (np.pi * e_prime) * dx * bessel_cells(count, k)
@@ -41,6 +41,7 @@ def bessel_cells(count: int, k: float) -> np.ndarray:
     more of them close to the logarithm and where the exponential falls fast.
     """
     from scipy.special import iti0k0
+
     cells = np.empty(count)
     cells[0] = 2 / k * iti0k0(k / 2)[1]
     near = count if k > LONG_CELL else min(count, NEAR_CELLS)
@@ -51,5 +52,6 @@ def bessel_cells(count: int, k: float) -> np.ndarray:
 
 def _gauss_cells(centres: np.ndarray, k: float, rule) -> np.ndarray:
     from scipy.special import k0
+
     node, weight = rule
     return k0(k * (centres[:, None] + node / 2)) @ (weight / 2)

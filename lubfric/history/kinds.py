@@ -91,9 +91,7 @@ class Table(Constant):
         times = validate.array("history times", self.times, "s", ndim=1)
         values = validate.array("history values", self.values, "(SI)", ndim=1)
         if times.size != values.size or times.size < 2:
-            raise InputError(
-                f"history has {times.size} times and {values.size} values; allowed: as many, at least two"
-            )
+            raise InputError(f"history has {times.size} times and {values.size} values; allowed: as many, at least two")
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:
             i = int(falls[0])
@@ -103,8 +101,7 @@ class Table(Constant):
             )
         if times[0] > 0.0 or times[-1] <= times[0]:
             raise InputError(
-                f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a "
-                "later time"
+                f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a later time"
             )
         if self.repeat and times[0] != 0.0:
             raise InputError(f"history times start at {times[0]:g} s; allowed for repeat: 0 s")

@@ -52,6 +52,4 @@ class Transient:
             if given is not None:
                 given = history(f"transient.{name}", given)
                 object.__setattr__(self, name, given)
-                check_history(
-                    f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s")
-                )
+                check_history(f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s"))

@@ -29,8 +29,7 @@ def history(name: str, given, folder: Path = Path()) -> Constant:
     for key in table:
         if key not in allowed:
             raise InputError(
-                f"unknown key {key!r} in {name}{validate.nearest(key, allowed)}; "
-                f"allowed: {', '.join(sorted(allowed))}"
+                f"unknown key {key!r} in {name}{validate.nearest(key, allowed)}; allowed: {', '.join(sorted(allowed))}"
             )
     try:
         if kind == "file":
@@ -39,9 +38,7 @@ def history(name: str, given, folder: Path = Path()) -> Constant:
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
     except (TypeError, KeyError) as error:
-        raise InputError(
-            f"{name}: {kind} needs more: {error}; allowed keys: {', '.join(sorted(allowed))}"
-        ) from None
+        raise InputError(f"{name}: {kind} needs more: {error}; allowed keys: {', '.join(sorted(allowed))}") from None
 
 
 def read_history(path, column: str, *, time_column: str = "time", repeat: bool = False) -> Table:
@@ -67,9 +64,7 @@ def read_history(path, column: str, *, time_column: str = "time", repeat: bool =
         try:
             columns.append(tuple(float(row[k]) for row in rows[1:]))
         except (ValueError, IndexError):
-            raise InputError(
-                f"history file {path.name}, column {name!r}: not a number in every row"
-            ) from None
+            raise InputError(f"history file {path.name}, column {name!r}: not a number in every row") from None
     return Table(times=columns[0], values=columns[1], repeat=repeat)
 
 
@@ -82,6 +77,4 @@ def check_history(name: str, unit: str, given: Constant, duration: float, *, pos
         )
     lowest = given.range(duration)[0]
     if positive and lowest <= 0.0:
-        raise InputError(
-            f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times"
-        )
+        raise InputError(f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times")

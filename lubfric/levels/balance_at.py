@@ -67,15 +67,29 @@ def balance_at(model, patch, speed: float, settings: Settings, start: Balance | 
     solve_film, close, carry = _parts(model, patch, speed, settings)
     reference = max(2 * model.surface.sq, 1e-12)
     film_share = 4.895 * lubricant.viscosity * abs(speed) * bodies.radius * bodies.width / (reference * bodies.load)
-    share = min(film_share, 0.9)                       # rigid isoviscous film of two sigma
-    options = {"guess": math.log(share / (1 - share)), "tolerance": settings.volume_tolerance,
-               "touching": settings.touching}
+    share = min(film_share, 0.9)  # rigid isoviscous film of two sigma
+    options = {
+        "guess": math.log(share / (1 - share)),
+        "tolerance": settings.volume_tolerance,
+        "touching": settings.touching,
+    }
     if start is not None:
         options |= {"start": carried_over(start, patch), "shift": _shift(start, speed)}
     if numerics.film_deflection == "total":
+
         def joint(film_load, contact_load, film, contact):
-            return film_and_contact(scene, patch, solve_film, close, film_load, contact_load, film, contact,
-                                    0.5 * min(settings.volume_tolerance, settings.film_tolerance))
+            return film_and_contact(
+                scene,
+                patch,
+                solve_film,
+                close,
+                film_load,
+                contact_load,
+                film,
+                contact,
+                0.5 * min(settings.volume_tolerance, settings.film_tolerance),
+            )
+
         found = sharing.share_load(bodies.load, solve_film, close, joint=joint, **options)
         return told(scene, found)
     if numerics.closure == "load":
@@ -86,16 +100,24 @@ def balance_at(model, patch, speed: float, settings: Settings, start: Balance | 
 def separated_at(model, patch, speed: float, settings: Settings, start: Balance | None = None) -> Balance:
     """The film with all the load: in balance where the volume residual of its closure is <= 0."""
     solve_film, close, _ = _parts(model, patch, speed, settings)
-    return sharing.separated(model.scene.bodies.load, solve_film, close, settings.volume_tolerance,
-                             start.film if start else None)
+    return sharing.separated(
+        model.scene.bodies.load, solve_film, close, settings.volume_tolerance, start.film if start else None
+    )
 
 
 def dry(model, patch) -> Balance:
     """No film: the contact carries the whole load under the undeformed cylinder."""
     bodies = model.scene.bodies
     closure = patch.close(patch.x**2 / (2 * bodies.radius), bodies.load)
-    report = Report("load sharing", CONVERGED, 0, 0.0, model.scene.numerics.volume_tolerance,
-                    residuals={"volume": 0.0, "load": 0.0}, notes=("no entrainment: all contact",))
+    report = Report(
+        "load sharing",
+        CONVERGED,
+        0,
+        0.0,
+        model.scene.numerics.volume_tolerance,
+        residuals={"volume": 0.0, "load": 0.0},
+        notes=("no entrainment: all contact",),
+    )
     return Balance(0.0, bodies.load, None, closure, report)
 
 
@@ -111,19 +133,30 @@ def forces(scene, speed: float, balance: Balance) -> Forces:
     if balance.slope and balance.contact_load > 0:
         gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))
     known = 0 < total < math.inf
-    return Forces((boundary + shear.total) / bodies.load, boundary, shear, gain * moved / total if known else 1.0,
-                  shear.quadrature / total if known else 0.0)
+    return Forces(
+        (boundary + shear.total) / bodies.load,
+        boundary,
+        shear,
+        gain * moved / total if known else 1.0,
+        shear.quadrature / total if known else 0.0,
+    )
 
 
 def _shear(scene, speed, balance: Balance) -> ShearForce:
     film, closure = balance.film, balance.closure
     if film is None:
         return ShearForce(0.0, 0.0)
-    with np.errstate(over="ignore", invalid="ignore"):                          # a rigid film far above its range
-        return shear_force(film, scene.lubricant, entrainment_speed=speed, radius=scene.bodies.radius,
-                           width=scene.bodies.width, slide_roll_ratio=scene.motion.slide_roll_ratio,
-                           cavitated=scene.numerics.cavitated_shear,
-                           contact_fraction=closure.touching)
+    with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
+        return shear_force(
+            film,
+            scene.lubricant,
+            entrainment_speed=speed,
+            radius=scene.bodies.radius,
+            width=scene.bodies.width,
+            slide_roll_ratio=scene.motion.slide_roll_ratio,
+            cavitated=scene.numerics.cavitated_shear,
+            contact_fraction=closure.touching,
+        )
 
 
 def carried_over(start: Balance, patch) -> Balance:
@@ -156,11 +189,19 @@ def _shift(start: Balance, speed: float) -> float:
 
 def _parts(model, patch, speed, settings):
     scene = model.scene
-    cells = []               # of the films so far: one and the same grid from the second on, or the root has a jump
+    cells = []  # of the films so far: one and the same grid from the second on, or the root has a jump
 
     def solve_film(load, start, imposed=None):
-        film = film_at_level(settings.level, scene, speed, load, tolerance=settings.film_tolerance,
-                             cells=max([settings.film_cells, *cells[1:]]), imposed=imposed, start=start)
+        film = film_at_level(
+            settings.level,
+            scene,
+            speed,
+            load,
+            tolerance=settings.film_tolerance,
+            cells=max([settings.film_cells, *cells[1:]]),
+            imposed=imposed,
+            start=start,
+        )
         cells.append(0 if isinstance(film, RigidFilm) else film.state.pressure.size)
         return film
 

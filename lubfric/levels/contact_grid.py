@@ -9,10 +9,10 @@ import numpy as np
 from ..contact.problem import COARSEST
 from ..patch.cylinder import CylinderPatch, strip_weight
 
-LEAST_ROUGHNESS = 0.9      # of Sq, kept by the averages over the largest cells
-MARGIN = 0.1               # of the length in contact, kept free on each side
+LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
+MARGIN = 0.1  # of the length in contact, kept free on each side
 MARGIN_CELLS = 4
-TOUCH = 1e-3               # of Sq: an overlap that is none
+TOUCH = 1e-3  # of Sq: an overlap that is none
 
 
 def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch | None:
@@ -23,16 +23,24 @@ def coarsened(patch: CylinderPatch, half_width: float | None) -> CylinderPatch |
     """
     operator = patch.operator
     wide = half_width is not None and 2 * patch.spacing[0] > half_width
-    factors = tuple(2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST and not fixed else 1
-                    for kept, padded, fixed in zip(operator.shape, operator.padded, (wide, False)))
+    factors = tuple(
+        2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST and not fixed else 1
+        for kept, padded, fixed in zip(operator.shape, operator.padded, (wide, False))
+    )
     if factors == (1, 1):
         return None
     (nx, ny), (fx, fy) = operator.shape, factors
     heights = patch.heights.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
     x = patch.x.reshape(-1, fx).mean(axis=1)
     coarse = operator.coarsened(factors)
-    return replace(patch, heights=heights, spacing=coarse.spacing, x=x, operator=coarse,
-                   region_weight=_weight(x, coarse.spacing[0], half_width))
+    return replace(
+        patch,
+        heights=heights,
+        spacing=coarse.spacing,
+        x=x,
+        operator=coarse,
+        region_weight=_weight(x, coarse.spacing[0], half_width),
+    )
 
 
 def grids(model) -> list:
@@ -63,8 +71,13 @@ def cut(patch: CylinderPatch, ends: tuple[float, float]) -> CylinderPatch:
         return patch
     first = int(min(max(0, first), patch.x.size - count))
     keep = slice(first, first + count)
-    return replace(patch, heights=patch.heights[keep], x=patch.x[keep], region_weight=patch.region_weight[keep],
-                   operator=patch.operator.shortened(count))
+    return replace(
+        patch,
+        heights=patch.heights[keep],
+        x=patch.x[keep],
+        region_weight=patch.region_weight[keep],
+        operator=patch.operator.shortened(count),
+    )
 
 
 def holds(patch: CylinderPatch, whole: CylinderPatch, under: np.ndarray, contact) -> bool:
@@ -76,9 +89,9 @@ def holds(patch: CylinderPatch, whole: CylinderPatch, under: np.ndarray, contact
         return True
     first = int(np.searchsorted(whole.x, patch.x[0] - 0.5 * patch.spacing[0]))
     pressure = np.zeros(whole.heights.shape)
-    pressure[first:first + patch.x.size] = contact.pressure
+    pressure[first : first + patch.x.size] = contact.pressure
     gap = whole.operator.apply(pressure) + under[:, None] - whole.heights - contact.approach
-    gap[first:first + patch.x.size] = 0.0
+    gap[first : first + patch.x.size] = 0.0
     return bool(gap.min() >= -TOUCH * whole.heights.std())
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from .film_error import FilmError
 from .film_level import EHL, WORDS
 
-FILM_SHARE, GRID_SHARE = 0.2, 0.4      # of the tolerance on f; the solvers' own shares are those of `Numerics`
+FILM_SHARE, GRID_SHARE = 0.2, 0.4  # of the tolerance on f; the solvers' own shares are those of `Numerics`
 
 
 @dataclass(frozen=True)
@@ -46,9 +46,15 @@ class Decision:
         if self.film == EHL:
             text += f", tolerance {_percent(self.film_tolerance)}"
         elif self.film_error.total > 0:
-            parts = [f"{name} correction {_percent(value)}" for name, value in
-                     (("elastic", self.film_error.elastic), ("piezoviscous", self.film_error.piezoviscous),
-                      ("density", self.film_error.density)) if value > 0]
+            parts = [
+                f"{name} correction {_percent(value)}"
+                for name, value in (
+                    ("elastic", self.film_error.elastic),
+                    ("piezoviscous", self.film_error.piezoviscous),
+                    ("density", self.film_error.density),
+                )
+                if value > 0
+            ]
             text += f", {' + '.join(parts)}"
             limit = FILM_SHARE * self.tolerance
             reached = self.film_error.total * self.sensitivity
@@ -69,8 +75,10 @@ class Decision:
             text += f", cells of {self.coarsening[0]} x {self.coarsening[1]}"
         if self.grid_error is not None:
             limit = GRID_SHARE * self.tolerance
-            text += (f", estimated error {_percent(self.grid_error)} of f {'<' if self.grid_error <= limit else '>'} "
-                     f"{_percent(limit)} budget")
+            text += (
+                f", estimated error {_percent(self.grid_error)} of f {'<' if self.grid_error <= limit else '>'} "
+                f"{_percent(limit)} budget"
+            )
         else:
             text += ", the map's own"
         return text + (" (forced)" if "grid" in self.forced else "")

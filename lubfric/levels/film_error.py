@@ -12,8 +12,8 @@ from ..ehl.kernel import hat_kernel
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
 from ..rigid_film import CELLS, RigidFilm, unit_nodes
 
-STRIDE = 2                # of the nodes: the deflection is smooth
-STIFFEST = 50.0           # ln(eta/eta0): a rigid film of such pressures means nothing
+STRIDE = 2  # of the nodes: the deflection is smooth
+STIFFEST = 50.0  # ln(eta/eta0): a rigid film of such pressures means nothing
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def elastic_error(film: RigidFilm, lubricant: Lubricant) -> float:
     nodes, kernel = _unit_deflection()
     sign = math.copysign(1.0, film.entrainment_speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
-    p = film.pressure[order][:CELLS + 1:STRIDE]
+    p = film.pressure[order][: CELLS + 1 : STRIDE]
     rise = log_viscosity_ratio(lubricant, p)[0]
     if not rise.max() < STIFFEST:
         return math.inf

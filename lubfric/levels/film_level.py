@@ -18,19 +18,32 @@ def higher(level: str, other: str) -> str:
     return max(level, other, key=order.index)
 
 
-def film_at_level(level: str, scene: Scene, speed: float, load: float, *, tolerance: float, cells: int = 0, imposed=None,
-                  start=None):
+def film_at_level(
+    level: str, scene: Scene, speed: float, load: float, *, tolerance: float, cells: int = 0, imposed=None, start=None
+):
     """The film that carries ``load`` [N] at ``speed`` [m/s]: a `RigidFilm`, or an `EHLResult` to ``tolerance`` on ``cells`` or
     more, deflected by the pressure ``imposed`` (of `solve_ehl`) too."""
     bodies, lubricant = scene.bodies, scene.lubricant
     share = load / bodies.load if scene.numerics.film_deflection == "scaled" else 1.0
-    common = dict(load_per_width=load / bodies.width, radius=bodies.radius, e_prime=bodies.e_prime * share,
-                  entrainment_speed=speed)
+    common = dict(
+        load_per_width=load / bodies.width,
+        radius=bodies.radius,
+        e_prime=bodies.e_prime * share,
+        entrainment_speed=speed,
+    )
     if level != EHL:
         return RIGID[level](lubricant=lubricant, **common)
-    return solve_ehl(viscosity=lubricant.viscosity, viscosity_law=lubricant.viscosity_law, density=lubricant.density_law,
-                     pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient, tolerance=tolerance,
-                     least_cells=cells, imposed_pressure=imposed, start=start if isinstance(start, EHLResult) else None, **common)
+    return solve_ehl(
+        viscosity=lubricant.viscosity,
+        viscosity_law=lubricant.viscosity_law,
+        density=lubricant.density_law,
+        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+        tolerance=tolerance,
+        least_cells=cells,
+        imposed_pressure=imposed,
+        start=start if isinstance(start, EHLResult) else None,
+        **common,
+    )
 
 
 def lowest_level(scene: Scene, speed: float, load: float, budget: float) -> tuple[str, FilmError]:

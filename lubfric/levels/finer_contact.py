@@ -10,7 +10,7 @@ from ..patch.cylinder import CylinderPatch
 from .balance_at import Settings, Stage, carried_over, film_shape, moved_split
 from .contact_grid import cut, holds, in_contact
 
-WORST_GRID = 2.0           # relative error of the film's load that the coarsest grid may make
+WORST_GRID = 2.0  # relative error of the film's load that the coarsest grid may make
 
 
 @dataclass(frozen=True)

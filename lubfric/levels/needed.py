@@ -18,9 +18,9 @@ from .film_level import EHL, higher, lowest_level
 
 LOOSEST_FILM, LOOSEST_VOLUME = 0.03, 0.02
 TIGHTEST_FILM, TIGHTEST_VOLUME, TIGHTEST_CONTACT, MOST_CELLS = 2e-4, 1e-7, 1e-9, 1536
-SHEAR_SHARE = 0.3          # of the tolerance: the sum of the shear stress
-LARGEST_ERROR = 0.3        # of a film to first order: beyond it the estimate is none
-SLACK = 1.5                # a tolerance off by less is not worth another solve
+SHEAR_SHARE = 0.3  # of the tolerance: the sum of the shear stress
+LARGEST_ERROR = 0.3  # of a film to first order: beyond it the estimate is none
+SLACK = 1.5  # a tolerance off by less is not worth another solve
 
 
 def needed_settings(model, speed, settings, balance, found: Forces, error: FilmError) -> Settings | None:
@@ -31,12 +31,12 @@ def needed_settings(model, speed, settings, balance, found: Forces, error: FilmE
     if numerics.ehl_tolerance is None:
         film = max(min(0.3 * numerics.tolerance / sensitivity, LOOSEST_FILM), TIGHTEST_FILM)
     cells = least_cells(numerics, settings, found, balance.film)
-    if numerics.balance_tolerance is None and numerics.closure == "load":        # else an error of the load itself
+    if numerics.balance_tolerance is None and numerics.closure == "load":  # else an error of the load itself
         volume = max(min(5e-2 * numerics.tolerance / sensitivity, LOOSEST_VOLUME), TIGHTEST_VOLUME)
     level, allowed = settings.level, allowed_error(numerics, sensitivity)
     if numerics.forced_film_level == "auto" and not error.total <= allowed:
         level = higher(level, lowest_level(model.scene, speed, balance.film_load, allowed)[0])
-        if level != settings.level:                       # the sensitivity found without it is no guide to tolerances
+        if level != settings.level:  # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
     contact = _contact_tolerance(model, settings, balance.closure, volume)
     if not balance.report.converged and level == settings.level and contact == settings.contact_tolerance:
@@ -45,9 +45,14 @@ def needed_settings(model, speed, settings, balance, found: Forces, error: FilmE
     enough = enough and contact == settings.contact_tolerance
     if level == settings.level and enough and abs(balance.closure.volume_residual) <= SLACK * volume:
         return None
-    return replace(settings, level=level, film_tolerance=min(film, settings.film_tolerance),
-                   volume_tolerance=min(volume, SLACK * settings.volume_tolerance), film_cells=cells,
-                   contact_tolerance=contact)
+    return replace(
+        settings,
+        level=level,
+        film_tolerance=min(film, settings.film_tolerance),
+        volume_tolerance=min(volume, SLACK * settings.volume_tolerance),
+        film_cells=cells,
+        contact_tolerance=contact,
+    )
 
 
 def allowed_error(numerics, sensitivity: float) -> float:
@@ -57,7 +62,11 @@ def allowed_error(numerics, sensitivity: float) -> float:
 
 def least_cells(numerics, settings, found: Forces, film) -> int:
     """Least number of cells of the film: twice as many where the sum of its shear stress is not good enough."""
-    if settings.level != EHL or numerics.ehl_tolerance is not None or found.quadrature <= SHEAR_SHARE * numerics.tolerance:
+    if (
+        settings.level != EHL
+        or numerics.ehl_tolerance is not None
+        or found.quadrature <= SHEAR_SHARE * numerics.tolerance
+    ):
         return settings.film_cells
     return min(2 * film.state.pressure.size, max(MOST_CELLS, settings.film_cells))
 

@@ -17,10 +17,10 @@ from .film_level import EHL, ISOVISCOUS, level_error, lowest_level
 from .finer_contact import finer_contact, grid_error
 from .needed import LOOSEST_FILM, SHEAR_SHARE, allowed_error, least_cells, needed_settings
 
-ROUNDS = 8                 # of one balance, each with a higher level or tighter tolerances
-SEPARATED_SHARE = 0.6      # of the tolerance: the grid of a film without contact
-LEAST_CONTACT = 1e-6       # of the load: less is next to separation on this grid
-SAFE_FILM = 2.0            # times Moes' film: more than any film has
+ROUNDS = 8  # of one balance, each with a higher level or tighter tolerances
+SEPARATED_SHARE = 0.6  # of the tolerance: the grid of a film without contact
+LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
+SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
 
 def settle(model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> tuple[Balance, Decision]:
@@ -38,7 +38,9 @@ def settle(model, speed: float, start: Balance | None = None, *, given_grid: boo
         clearance = (closure.mean_film - closure.mean_gap) / max(model.surface.sq, 1e-12)
         if clearance >= 0 or numerics.contact_level == "none":
             return stage.balance, replace(_described(decision, stage), contact="none", clearance=clearance)
-    return _in_contact(model, speed, start, decision, given_grid or numerics.grid == "given" or numerics.model == "full")
+    return _in_contact(
+        model, speed, start, decision, given_grid or numerics.grid == "given" or numerics.model == "full"
+    )
 
 
 def _separated(model, speed, start) -> Stage:
@@ -48,7 +50,9 @@ def _separated(model, speed, start) -> Stage:
     if level == "auto":
         level, error = lowest_level(model.scene, speed, load, FILM_SHARE * numerics.tolerance)
     alone = numerics.ehl_tolerance or min(SEPARATED_SHARE * numerics.tolerance, LOOSEST_FILM)
-    settings = Settings(level, alone if numerics.model == "auto" else numerics.film_tolerance, numerics.volume_tolerance)
+    settings = Settings(
+        level, alone if numerics.model == "auto" else numerics.film_tolerance, numerics.volume_tolerance
+    )
     while True:
         balance = separated_at(model, model.patch, speed, settings, start)
         found = forces(model.scene, speed, balance)
@@ -62,9 +66,14 @@ def _separated(model, speed, start) -> Stage:
 def _certainly_touching(model, patch, speed) -> bool:
     """Twice Moes' film over an undeformed cylinder, thicker than any film everywhere, would not clear the summits."""
     bodies, lubricant = model.scene.bodies, model.scene.lubricant
-    film = SAFE_FILM * moes_flow_film(load_per_width=bodies.load / bodies.width, radius=bodies.radius,
-                                      e_prime=bodies.e_prime, entrainment_speed=abs(speed), viscosity=lubricant.viscosity,
-                                      pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient)
+    film = SAFE_FILM * moes_flow_film(
+        load_per_width=bodies.load / bodies.width,
+        radius=bodies.radius,
+        e_prime=bodies.e_prime,
+        entrainment_speed=abs(speed),
+        viscosity=lubricant.viscosity,
+        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
+    )
     return patch.close(film + patch.x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
 
 
@@ -74,7 +83,7 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
     index, changes, error = 0, [], math.inf
     stage = _stage(model, ladder[0], speed, *_begin(model, speed, start))
     while index < last and error > limit:
-        if stage.balance.contact_load < LEAST_CONTACT * model.scene.bodies.load:     # too coarse to hold the summits
+        if stage.balance.contact_load < LEAST_CONTACT * model.scene.bodies.load:  # too coarse to hold the summits
             index += 1
             stage = _stage(model, ladder[index], speed, None, stage.settings)
             continue
@@ -82,12 +91,18 @@ def _in_contact(model, speed, start, decision, given_grid) -> tuple[Balance, Dec
         if index > 0:
             stage = _stage(model, moved.patch, speed, moved.balance, moved.settings, ladder[index])
         error = grid_error(changes, stage, limit)
-    decision = replace(_described(decision, stage), contact=_contact_name(model), shape=_shape(stage.patch),
-                       coarsening=_coarsening(model.patch, stage.patch))
+    decision = replace(
+        _described(decision, stage),
+        contact=_contact_name(model),
+        shape=_shape(stage.patch),
+        coarsening=_coarsening(model.patch, stage.patch),
+    )
     if index < last:
         return stage.balance, replace(decision, grid_error=error)
     if decision.tolerance < error < math.inf:
-        note = f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
+        note = (
+            f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
+        )
         decision = replace(decision, notes=(*decision.notes, note))
     return stage.balance, decision
 
@@ -96,11 +111,18 @@ def _described(decision: Decision, stage: Stage) -> Decision:
     """``decision`` with what is known of the film of a stage."""
     notes = ()
     if stage.settings.level == EHL and stage.forces.quadrature > SHEAR_SHARE * decision.tolerance:
-        notes = (f"the film's friction is not resolved (a pressure spike?): estimated error "
-                 f"{100 * stage.forces.quadrature:.1g} % of f",)
-    return replace(decision, film=stage.settings.level, film_error=stage.film_error, notes=notes,
-                   sensitivity=stage.forces.sensitivity,
-                   film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0)
+        notes = (
+            f"the film's friction is not resolved (a pressure spike?): estimated error "
+            f"{100 * stage.forces.quadrature:.1g} % of f",
+        )
+    return replace(
+        decision,
+        film=stage.settings.level,
+        film_error=stage.film_error,
+        notes=notes,
+        sensitivity=stage.forces.sensitivity,
+        film_tolerance=stage.settings.film_tolerance if stage.settings.level == EHL else 0.0,
+    )
 
 
 def _begin(model, speed, start: Balance | None) -> tuple[Balance | None, Settings]:

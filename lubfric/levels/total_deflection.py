@@ -22,10 +22,10 @@ from ..errors import ConvergenceError
 from ..patch.flat import FlatPatch
 from ..report import ITERATION_LIMIT, Report
 
-NODES, STRIP = 49, 65       # of a semi-ellipse; points across the Hertz strip at which deflections are compared
-MOST, MEMORY = 40, 3        # steps of the fixed point, and how many of them the next one is made from
-TIGHTEST = 1e-4             # the contact's own tolerance allows no less
-WIDEST = 4.0                # half-width of a semi-ellipse, in those of the strip
+NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
+MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
+TIGHTEST = 1e-4  # the contact's own tolerance allows no less
+WIDEST = 4.0  # half-width of a semi-ellipse, in those of the strip
 
 
 @dataclass(frozen=True)
@@ -67,8 +67,16 @@ def film_and_contact(scene, patch, solve_film, close, film_load, contact_load, f
             return film, closure
         steps = [*steps, (found, apart)][-MEMORY:]
         used = _mixed(steps)
-    report = Report("film and contact under each other's pressure", ITERATION_LIMIT, MOST, history[-1], tolerance,
-                    {"deflection": history[-1]}, tuple(history), MOST)
+    report = Report(
+        "film and contact under each other's pressure",
+        ITERATION_LIMIT,
+        MOST,
+        history[-1],
+        tolerance,
+        {"deflection": history[-1]},
+        tuple(history),
+        MOST,
+    )
     raise ConvergenceError(report.message, report, (film, closure))
 
 
@@ -79,8 +87,10 @@ def told(scene, balance):
     notes = report.notes
     if balance.closure.contact is not None:
         left_out = 100 * departure(scene, balance.closure, line_load)
-        notes += (f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
-                  "mean film more than its semi-ellipse does",)
+        notes += (
+            f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
+            "mean film more than its semi-ellipse does",
+        )
     return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
 
 

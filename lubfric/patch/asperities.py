@@ -24,14 +24,10 @@ from ..errors import ConvergenceError
 from .closure import Closure
 from .contact_curve import ContactCurve
 
-APPROACHES = np.concatenate(
-    [np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]]
-)  # of the height range
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
 
 
-def asperity_curve(
-    heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None
-) -> ContactCurve:
+def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
     """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
     ``reading``: "volume" or "mean-plane" (the module's docstring) of heights [m] about their mean. The flat
@@ -49,9 +45,7 @@ def asperity_curve(
         if gap <= 0:
             break
         if found.load > 0 and (not nodes or found.mean_pressure > nodes[-1][0]):
-            nodes.append(
-                (found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction)
-            )
+            nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
         if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
             break
     pressure, gap, area, plastic = np.array(nodes[::-1]).T

@@ -9,10 +9,10 @@ import numpy as np
 from .. import validate
 from ..contact import solve_contact
 
-LIGHTEST = 1e-6        # of the heaviest pressure: below it the light-load law of one asperity is used
-SPACING = 4.0          # pressure ratio between neighbouring nodes at first
-ROUNDS, FINEST = 5, 0.05        # of adding nodes; least ln(pressure ratio) that is halved
-NOTHING = 1e-9         # of the lightest gap: below it the contact is full
+LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used
+SPACING = 4.0  # pressure ratio between neighbouring nodes at first
+ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
+NOTHING = 1e-9  # of the lightest gap: below it the contact is full
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,7 @@ class ContactCurve:
         asperity: approach and area ~ p^(2/3).
         """
         from scipy.interpolate import PchipInterpolator
+
         pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
         gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
         lightest = self.mean_pressure[-1]
@@ -51,6 +52,7 @@ class ContactCurve:
     def pressure_at(self, mean_gap: float) -> float:
         """Mean pressure [Pa] at a mean gap [m]: 0 above first touch, the heaviest below the curve's least gap."""
         from scipy.optimize import brentq
+
         if mean_gap >= self.touching_gap:
             return 0.0
         if mean_gap <= self.mean_gap[0]:
@@ -59,12 +61,16 @@ class ContactCurve:
             share = (self.touching_gap - mean_gap) / (self.touching_gap - self.mean_gap[-1])
             return float(share**1.5 * self.mean_pressure[-1])
         ends = np.log(self.mean_pressure[[-1, 0]]) + [1e-14, -1e-14]
-        return float(np.exp(brentq(lambda log_pressure: self.at(np.exp(log_pressure))[0] - mean_gap, *ends,
-                                   xtol=1e-12, rtol=1e-14)))
+        return float(
+            np.exp(
+                brentq(lambda log_pressure: self.at(np.exp(log_pressure))[0] - mean_gap, *ends, xtol=1e-12, rtol=1e-14)
+            )
+        )
 
 
-def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3,
-                  operator=None) -> ContactCurve:
+def contact_curve(
+    heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3, operator=None
+) -> ContactCurve:
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
     Each node starts from its heavier neighbour. Nodes are added between the first ones until the mean gap
@@ -79,8 +85,16 @@ def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, toleran
     solved = {}
 
     def add(pressure, start):
-        solved[pressure] = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, hardness=hardness,
-                                         tolerance=tolerance, operator=operator, start=start)
+        solved[pressure] = solve_contact(
+            gap0,
+            spacing,
+            e_prime,
+            mean_pressure=pressure,
+            hardness=hardness,
+            tolerance=tolerance,
+            operator=operator,
+            start=start,
+        )
         return solved[pressure]
 
     start = None
@@ -99,19 +113,21 @@ def contact_curve(heights, spacing, e_prime, *, heaviest, hardness=None, toleran
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
     """Intervals in which the interpolated gap may be off by more than ``accuracy``."""
     from scipy.interpolate import PchipInterpolator
+
     wide = np.zeros(pressure.size - 1, bool)
     log_pressure = np.log(pressure)
     for i in range(1, pressure.size - 1):
         others = np.delete(np.arange(pressure.size), i)[::-1]
         without = PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i])
         if abs(without - gap[i]) > 4 * accuracy * gap[i] and gap[i] > NOTHING * gap[-1]:
-            wide[i - 1:i + 1] = True
+            wide[i - 1 : i + 1] = True
     return wide & (np.diff(-log_pressure) > FINEST)
 
 
 def _curve(solved: dict, touching_gap: float) -> ContactCurve:
     pressures = sorted(solved, reverse=True)
     results = [solved[p] for p in pressures]
-    gap, area, plastic, work = np.array([(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction,
-                                          r.report.evaluations) for r in results]).T
+    gap, area, plastic, work = np.array(
+        [(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations) for r in results]
+    ).T
     return ContactCurve(np.array(pressures), gap, area, plastic, touching_gap, int(work.sum()))

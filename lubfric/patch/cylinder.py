@@ -42,9 +42,17 @@ class CylinderPatch:
         length = self.x.size * self.spacing[0]
         if contact_load == 0:
             return self._closure(film_on_patch, gap0 - gap0.min(), None)
-        contact = solve_contact(gap0, self.spacing, self.operator.e_prime, operator=self.operator,
-                                mean_pressure=contact_load / (self.width * length), hardness=self.hardness,
-                                boundary=("free", "periodic"), tolerance=self.tolerance, start=start)
+        contact = solve_contact(
+            gap0,
+            self.spacing,
+            self.operator.e_prime,
+            operator=self.operator,
+            mean_pressure=contact_load / (self.width * length),
+            hardness=self.hardness,
+            boundary=("free", "periodic"),
+            tolerance=self.tolerance,
+            start=start,
+        )
         return self._closure(film_on_patch, contact.gap, contact)
 
     def carry(self, film_on_patch, start=None, shape=None) -> tuple[float, Closure]:
@@ -52,9 +60,18 @@ class CylinderPatch:
         film = film_on_patch
         if shape is not None:
             film = shape + _weighted(film_on_patch - shape, self.region_weight)
-        contact = single_loop(self.heights, film, self.spacing, self.operator.e_prime, weight=self.region_weight,
-                              hardness=self.hardness, boundary=("free", "periodic"), tolerance=self.tolerance,
-                              start=start, operator=self.operator)
+        contact = single_loop(
+            self.heights,
+            film,
+            self.spacing,
+            self.operator.e_prime,
+            weight=self.region_weight,
+            hardness=self.hardness,
+            boundary=("free", "periodic"),
+            tolerance=self.tolerance,
+            start=start,
+            operator=self.operator,
+        )
         load = contact.mean_pressure * self.width * self.x.size * self.spacing[0]
         return load, self._closure(film_on_patch, contact.gap, contact if load > 0 else None)
 
@@ -65,9 +82,11 @@ class CylinderPatch:
         pressure = closure.contact.pressure
         share = (pressure[0].sum() + pressure[-1].sum()) / pressure.sum()
         if share > EDGE_SHARE:
-            raise InputError(f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                             f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
-                             f"{100 * EDGE_SHARE:g} % (make the patch longer in x)")
+            raise InputError(
+                f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
+                f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
+                f"{100 * EDGE_SHARE:g} % (make the patch longer in x)"
+            )
 
     def _closure(self, film_on_patch, gap, contact) -> Closure:
         weight = self.region_weight
@@ -76,10 +95,15 @@ class CylinderPatch:
         plastic = 0.0
         if contact is not None and self.hardness is not None:
             plastic = _weighted((contact.pressure >= self.hardness).mean(axis=1), weight)
-        return Closure(mean_gap=_weighted(np.maximum(gap, 0.0).mean(axis=1), weight),
-                       mean_film=_weighted(film_on_patch, weight), x=self.x, contact_fraction=fraction,
-                       real_contact_area_fraction=_weighted(fraction, weight),
-                       plastic_area_fraction=plastic, contact=contact)
+        return Closure(
+            mean_gap=_weighted(np.maximum(gap, 0.0).mean(axis=1), weight),
+            mean_film=_weighted(film_on_patch, weight),
+            x=self.x,
+            contact_fraction=fraction,
+            real_contact_area_fraction=_weighted(fraction, weight),
+            plastic_area_fraction=plastic,
+            contact=contact,
+        )
 
 
 def _weighted(values, weight) -> float:
@@ -96,6 +120,8 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
     inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
     weight = np.clip(inside / step, 0.0, 1.0)
     if not weight.any():
-        raise InputError("contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width "
-                         f"{validate.positive('half_width', half_width, 'm'):g} m; allowed: finer grids")
+        raise InputError(
+            "contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width "
+            f"{validate.positive('half_width', half_width, 'm'):g} m; allowed: finer grids"
+        )
     return weight

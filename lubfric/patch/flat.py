@@ -30,12 +30,18 @@ class FlatPatch:
         """
         pressure, heaviest = contact_load / self.area, float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + 1e-12):
-            raise ConvergenceError(f"the contact model carries {heaviest * self.area:.4g} N at most, "
-                                   f"asked for {contact_load:.4g} N")
+            raise ConvergenceError(
+                f"the contact model carries {heaviest * self.area:.4g} N at most, asked for {contact_load:.4g} N"
+            )
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
-        return Closure(mean_gap=gap, mean_film=float(np.mean(film_on_patch)), x=self.x,
-                       contact_fraction=np.full(self.x.size, touching),
-                       real_contact_area_fraction=touching, plastic_area_fraction=plastic)
+        return Closure(
+            mean_gap=gap,
+            mean_film=float(np.mean(film_on_patch)),
+            x=self.x,
+            contact_fraction=np.full(self.x.size, touching),
+            real_contact_area_fraction=touching,
+            plastic_area_fraction=plastic,
+        )
 
     def carry(self, film_on_patch, start=None, shape=None) -> tuple[float, Closure]:
         """Contact load [N] at which the mean gap is the mean film, and the closure there.

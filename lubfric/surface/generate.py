@@ -14,14 +14,15 @@ from .prepare import pair
 from .statistics import INVERSE_E, correlation_length, first_crossing
 
 ACFS = ("exponential", "gaussian")
-FINEST = 2.0             # cells in one correlation length (1/e)
+FINEST = 2.0  # cells in one correlation length (1/e)
 LENGTH_TOLERANCE = 0.10  # of the correlation length that the finite, zero-mean map can have
-NEGLIGIBLE = 37.0        # exp(-37) is below rounding
-ROUNDING = 1e-13         # of the largest power: what the transform leaves where the spectrum is zero
+NEGLIGIBLE = 37.0  # exp(-37) is below rounding
+ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero
 
 
-def generate_surface(shape, spacing, *, sq, correlation_length, acf="exponential", decay_level=INVERSE_E,
-                     seed, cutoff=None) -> Surface:
+def generate_surface(
+    shape, spacing, *, sq, correlation_length, acf="exponential", decay_level=INVERSE_E, seed, cutoff=None
+) -> Surface:
     """A periodic Gaussian random surface: white noise filtered with the root of the power spectrum.
 
     Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83-90,
@@ -57,8 +58,14 @@ def generate_surface(shape, spacing, *, sq, correlation_length, acf="exponential
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
     heights = _filtered_noise(spectrum, shape, seed) * sq
-    surface = Surface(heights, spacing, periodic_axes=(True, True), source=f"generated, {acf} ACF", seed=seed,
-                      notes=(f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly",))
+    surface = Surface(
+        heights,
+        spacing,
+        periodic_axes=(True, True),
+        source=f"generated, {acf} ACF",
+        seed=seed,
+        notes=(f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly",),
+    )
     return surface if sq == 0 else _with_lengths(surface, lengths, expected, level)
 
 
@@ -72,33 +79,38 @@ def _decay_scales(lengths, level, acf) -> tuple[float, float]:
 def _check_grid(shape, spacing, scales) -> None:
     for name, n, d, scale in zip("xy", shape, spacing, scales):
         if scale < FINEST * d:
-            raise InputError(f"correlation_length along {name} is {scale:g} m at 1/e, {scale / d:.3g} cells; "
-                             f"allowed: at least {FINEST:g} cells of {d:g} m")
+            raise InputError(
+                f"correlation_length along {name} is {scale:g} m at 1/e, {scale / d:.3g} cells; "
+                f"allowed: at least {FINEST:g} cells of {d:g} m"
+            )
         if n * d < 4 * scale:
-            raise InputError(f"correlation_length along {name} is {scale:g} m at 1/e, the map {n * d:g} m; "
-                             "allowed: at most a quarter of it (generate a larger map and crop it)")
+            raise InputError(
+                f"correlation_length along {name} is {scale:g} m at 1/e, the map {n * d:g} m; "
+                "allowed: at most a quarter of it (generate a larger map and crop it)"
+            )
 
 
 def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     """Power spectrum (nx, ny//2 + 1) of the periodic, zero-mean ACF on the grid."""
     from scipy import fft
+
     power = 1.0 if acf == "exponential" else 2.0
     reach = NEGLIGIBLE ** (1 / power)
     square = []
     for n, d, scale in zip(shape, spacing, scales):
         lag, images = np.arange(n // 2 + 1) * d, math.ceil(reach * scale / (n * d))
         square.append([((lag + m * n * d) / scale) ** 2 for m in range(-images, images + 1)])
-    quarter = sum(np.exp(-(a[:, None] + b[None, :]) ** (power / 2)) for a in square[0] for b in square[1])
+    quarter = sum(np.exp(-((a[:, None] + b[None, :]) ** (power / 2))) for a in square[0] for b in square[1])
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     spectrum = fft.rfft2(quarter[rows][:, columns]).real
     if spectrum.min() < -ROUNDING * spectrum.max():
-        raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; allowed: other lengths "
-                         "or spacing")
+        raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; allowed: other lengths or spacing")
     spectrum[spectrum < ROUNDING * spectrum.max()] = 0.0
     spectrum[0, 0] = 0.0
     if cutoff is not None:
-        cutoff = validate.number("cutoff", cutoff, "m", minimum=2 * max(spacing),
-                                 maximum=0.5 * min(n * d for n, d in zip(shape, spacing)))
+        cutoff = validate.number(
+            "cutoff", cutoff, "m", minimum=2 * max(spacing), maximum=0.5 * min(n * d for n, d in zip(shape, spacing))
+        )
         kx, ky = fft.fftfreq(shape[0], spacing[0]), fft.rfftfreq(shape[1], spacing[1])
         spectrum[np.hypot(kx[:, None], ky[None, :]) > 1 / cutoff] = 0.0
     return spectrum
@@ -106,16 +118,19 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
 
 def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
     from scipy import fft
+
     acf = fft.irfft2(spectrum, shape)
     found = []
     for axis, line in enumerate((acf[:, 0], acf[0, :])):
         half = shape[axis] // 2 + 1
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
         if abs(length / lengths[axis] - 1) > LENGTH_TOLERANCE:
-            raise InputError(f"correlation_length along {'xy'[axis]} = {lengths[axis]:g} m cannot be had: a "
-                             f"periodic map of {shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m with "
-                             f"this cutoff has {length:g} m; allowed: within {LENGTH_TOLERANCE:.0%} "
-                             "(generate a larger map and crop it)")
+            raise InputError(
+                f"correlation_length along {'xy'[axis]} = {lengths[axis]:g} m cannot be had: a "
+                f"periodic map of {shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m with "
+                f"this cutoff has {length:g} m; allowed: within {LENGTH_TOLERANCE:.0%} "
+                "(generate a larger map and crop it)"
+            )
         found.append(length)
     return found
 
@@ -123,6 +138,7 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
 def _filtered_noise(spectrum, shape, seed) -> np.ndarray:
     """Zero mean, unit variance."""
     from scipy import fft
+
     noise = np.random.default_rng(seed).standard_normal(shape)
     heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(spectrum), shape)
     return heights / heights.std()
@@ -135,6 +151,8 @@ def _with_lengths(surface, asked, expected, level) -> Surface:
             found = f"{correlation_length(surface, axis, level):.4e} m"
         except InputError:
             found = "longer than half the map"
-        notes.append(f"correlation length along {name} at level {level:.4g}: asked {asked[axis]:.4e} m, "
-                     f"expected {expected[axis]:.4e} m, found {found}")
+        notes.append(
+            f"correlation length along {name} at level {level:.4g}: asked {asked[axis]:.4e} m, "
+            f"expected {expected[axis]:.4e} m, found {found}"
+        )
     return replace(surface, notes=surface.notes + tuple(notes))

@@ -41,8 +41,10 @@ class Surface:
             heights = np.array(self.heights, dtype=float)
             mask = np.array(mask, dtype=bool)
             if mask.shape != heights.shape or not mask.any():
-                raise InputError(f"mask has shape {mask.shape} and {np.count_nonzero(mask)} measured points; "
-                                 f"allowed: shape {heights.shape} and at least one point")
+                raise InputError(
+                    f"mask has shape {mask.shape} and {np.count_nonzero(mask)} measured points; "
+                    f"allowed: shape {heights.shape} and at least one point"
+                )
             validate.array("heights", np.where(mask, heights, 0.0), "m", ndim=2)
             if mask.all():
                 mask = None
@@ -82,8 +84,10 @@ class Surface:
     def describe(self) -> str:
         """One line: size, points, Sq, missing share, source."""
         (lx, ly), (nx, ny) = self.size, self.shape
-        text = (f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} um, Sq {self.sq * 1e9:.4g} nm, "
-                f"{100 * self.missing_fraction:.3g} % missing")
+        text = (
+            f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} um, Sq {self.sq * 1e9:.4g} nm, "
+            f"{100 * self.missing_fraction:.3g} % missing"
+        )
         return f"{self.source}: {text}" if self.source else text
 
     def level(self, form: str = "plane") -> Surface:
@@ -112,14 +116,18 @@ class Surface:
         if now == 0:
             raise InputError("sq of the surface = 0 m: a flat surface cannot be scaled; allowed: above 0 m")
         mean = self.measured.mean()
-        return self._with((self.heights - mean) * (target / now),
-                          f"scaled from Sq {now:.4e} m to {target:.4e} m")
+        return self._with((self.heights - mean) * (target / now), f"scaled from Sq {now:.4e} m to {target:.4e} m")
 
     def transposed(self) -> Surface:
         """x and y exchanged: run across the lay instead of along it."""
-        return replace(self, heights=self.heights.T, spacing=self.spacing[::-1],
-                       mask=None if self.mask is None else self.mask.T,
-                       periodic_axes=self.periodic_axes[::-1], notes=(*self.notes, "x and y exchanged"))
+        return replace(
+            self,
+            heights=self.heights.T,
+            spacing=self.spacing[::-1],
+            mask=None if self.mask is None else self.mask.T,
+            periodic_axes=self.periodic_axes[::-1],
+            notes=(*self.notes, "x and y exchanged"),
+        )
 
     def periodic(self, edge: str = "mirror", *, axes: tuple[bool, bool] = (True, True)) -> Surface:
         """Make the map continue onto itself along the chosen axes; see `prepare.close_axis`.
@@ -141,12 +149,19 @@ class Surface:
         start = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
         for axis in range(2):
             if not 0 <= start[axis] <= self.shape[axis] - shape[axis]:
-                raise InputError(f"shape[{axis}] = {shape[axis]} points from {start[axis]} is outside "
-                                 f"the map; allowed: within 0..{self.shape[axis]}")
+                raise InputError(
+                    f"shape[{axis}] = {shape[axis]} points from {start[axis]} is outside "
+                    f"the map; allowed: within 0..{self.shape[axis]}"
+                )
         cut = tuple(slice(s, s + n) for s, n in zip(start, shape))
         periodic = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
-        return replace(self, heights=self.heights[cut], mask=None if self.mask is None else self.mask[cut],
-                       periodic_axes=periodic, notes=(*self.notes, f"cropped to {shape} from {start}"))
+        return replace(
+            self,
+            heights=self.heights[cut],
+            mask=None if self.mask is None else self.mask[cut],
+            periodic_axes=periodic,
+            notes=(*self.notes, f"cropped to {shape} from {start}"),
+        )
 
     def resampled(self, *, shape=None, spacing=None) -> Surface:
         """The same area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
@@ -180,8 +195,10 @@ class Surface:
 
     def _filled(self, purpose) -> Surface:
         if not np.isfinite(self.heights).all():
-            raise InputError(f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN); "
-                             f"allowed for {purpose}: none, call level() and fill() first")
+            raise InputError(
+                f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN); "
+                f"allowed for {purpose}: none, call level() and fill() first"
+            )
         return self
 
     def _changed(self, axis, heights, note, *, step=None, closed=None, mask=None) -> Surface:
@@ -189,8 +206,14 @@ class Surface:
         spacing, periodic = list(self.spacing), list(self.periodic_axes)
         spacing[axis] = spacing[axis] if step is None else step
         periodic[axis] = periodic[axis] if closed is None else closed
-        return replace(self, heights=heights, spacing=tuple(spacing), mask=mask,
-                       periodic_axes=tuple(periodic), notes=(*self.notes, note))
+        return replace(
+            self,
+            heights=heights,
+            spacing=tuple(spacing),
+            mask=mask,
+            periodic_axes=tuple(periodic),
+            notes=(*self.notes, note),
+        )
 
     def _closed(self, edge, axis, count) -> Surface:
         heights = prepare.close_axis(self.heights, axis, edge, count)
@@ -208,8 +231,7 @@ class Surface:
         else:
             step = n * old / count
         if count < 1:
-            raise InputError(f"spacing[{axis}] = {step:g} m is longer than the map; "
-                             f"allowed: up to {n * old:g} m")
+            raise InputError(f"spacing[{axis}] = {step:g} m is longer than the map; allowed: up to {n * old:g} m")
         if count == n and abs(step / old - 1) < 1e-9:
             return self
         heights = prepare.resample_axis(self.heights, axis, count, step / old, closed)
@@ -227,13 +249,20 @@ class Surface:
         if self.periodic_axes[axis] and (edge is None or count % n == 0):
             pick = np.arange(count) % n
             mask = None if self.mask is None else np.take(self.mask, pick, axis)
-            return self._changed(axis, np.take(self.heights, pick, axis), closed=count % n == 0, mask=mask,
-                                 note=f"repeated along {'xy'[axis]} from {n} to {count} points")
+            return self._changed(
+                axis,
+                np.take(self.heights, pick, axis),
+                closed=count % n == 0,
+                mask=mask,
+                note=f"repeated along {'xy'[axis]} from {n} to {count} points",
+            )
         need = count if edge is None else prepare.points_to_close(count, edge)
         if need > n:
-            raise InputError(f"patch of {count} points along {'xy'[axis]} needs {need} points of the map "
-                             f"({need * self.spacing[axis]:g} m); allowed: up to {n} "
-                             f"({self.size[axis]:g} m), or a periodic map")
+            raise InputError(
+                f"patch of {count} points along {'xy'[axis]} needs {need} points of the map "
+                f"({need * self.spacing[axis]:g} m); allowed: up to {n} "
+                f"({self.size[axis]:g} m), or a periodic map"
+            )
         shape = list(self.shape)
         shape[axis] = need
         cut = self.cropped(shape)

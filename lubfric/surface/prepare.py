@@ -9,7 +9,7 @@ from ..errors import InputError
 
 FORMS = ("plane", "quadratic")
 EDGES = ("mirror", "window")
-BLEND = 0.1              # share of a map's length that the window blends
+BLEND = 0.1  # share of a map's length that the window blends
 MOST_MISSING = 0.5
 
 
@@ -29,15 +29,18 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     order = 1 + FORMS.index(form)
     valid = np.ones(heights.shape, bool) if mask is None else mask
     along = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
-    powers = [(p, q) for p in range(order + 1) for q in range(order + 1 - p)
-              if p < heights.shape[0] and q < heights.shape[1]]
+    powers = [
+        (p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < heights.shape[0] and q < heights.shape[1]
+    ]
     where = np.nonzero(valid)
     matrix = np.stack([along[0][where[0]] ** p * along[1][where[1]] ** q for p, q in powers], axis=1)
     solution, _, rank, _ = np.linalg.lstsq(matrix, heights[valid], rcond=None)
     if rank < len(powers):
         curve = "line" if order == 1 else "line or conic"
-        raise InputError(f"{where[0].size} measured points lie on one {curve}; allowed: points that fix the "
-                         f"{len(powers)} terms of the form {form!r}")
+        raise InputError(
+            f"{where[0].size} measured points lie on one {curve}; allowed: points that fix the "
+            f"{len(powers)} terms of the form {form!r}"
+        )
     terms = dict(zip(powers, solution))
     fitted = sum(c * np.multiply.outer(along[0] ** p, along[1] ** q) for (p, q), c in terms.items())
     length = [n * step for n, step in zip(heights.shape, spacing)]
@@ -50,10 +53,13 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     """Solve Laplace's equation (five points, no flux through the rim) at the points without a mask."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.linalg import spsolve
+
     missing = ~mask
     if np.count_nonzero(missing) > MOST_MISSING * mask.size:
-        raise InputError(f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "
-                         f"allowed: [0, {MOST_MISSING}] (-)")
+        raise InputError(
+            f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "
+            f"allowed: [0, {MOST_MISSING}] (-)"
+        )
     number = np.cumsum(missing.ravel()).reshape(mask.shape) - 1
     count = int(np.count_nonzero(missing))
     diagonal, right, rows, columns, entries = np.zeros(count), np.zeros(count), [], [], []
@@ -137,6 +143,7 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
         new = _fourier(z, count)
     else:
         from scipy.interpolate import CubicSpline
+
         integral = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
         edges = np.minimum(ratio * np.arange(count + 1), len(z))
         new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
@@ -146,12 +153,13 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
 def _fourier(z, count) -> np.ndarray:
     """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
     from scipy import fft
+
     n, keep = len(z), min(len(z), count) // 2 + 1
     spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
     spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
-    shift = 0.5 * (n / count - 1) / n                   # from old to new cell centres, in periods
+    shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
     spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
     even = min(n, count)
-    if even % 2 == 0 and n != count:                   # the highest mode is shared by +k and -k
+    if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
         spectrum[even // 2] *= 2.0 if count < n else 0.5
     return fft.irfft(spectrum, count, axis=0) * (count / n)

@@ -52,8 +52,10 @@ def read_surface(path, *, level=True, form="plane", fill=True, spacing=None, uni
         raise InputError(f"path = {str(path)!r}: no such file")
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise InputError(f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: "
-                         f"{', '.join(SUFFIXES)} (lubfric.surface.read_instrument_file reads others)")
+        raise InputError(
+            f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: "
+            f"{', '.join(SUFFIXES)} (lubfric.surface.read_instrument_file reads others)"
+        )
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
     if suffix == ".x3p":
@@ -79,16 +81,19 @@ def _plain(path, suffix, spacing, unit, decimal) -> Surface:
     if own is not None:
         _refuse(suffix, spacing=spacing)
     elif spacing is None:
-        raise InputError(f"spacing of {path.name} is missing: the file does not carry it; allowed: "
-                         "one length or (dx, dy) in m")
+        raise InputError(
+            f"spacing of {path.name} is missing: the file does not carry it; allowed: one length or (dx, dy) in m"
+        )
     return _masked(heights * scale, spacing if own is None else own, notes)
 
 
 def _refuse(suffix, **given) -> None:
     for name, value in given.items():
         if value is not None:
-            raise InputError(f"{name} = {value!r} is given, and this {suffix} file carries its own or has "
-                             "none; allowed: leave it out")
+            raise InputError(
+                f"{name} = {value!r} is given, and this {suffix} file carries its own or has "
+                "none; allowed: leave it out"
+            )
 
 
 def _masked(heights, spacing, notes=()) -> Surface:
@@ -118,8 +123,10 @@ def _read_npy(path) -> np.ndarray:
     except (ValueError, OSError, EOFError, SyntaxError, TypeError, OverflowError) as problem:
         raise InputError(f"path = {str(path)!r} is not a readable .npy array ({problem})") from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
-        raise InputError(f"path = {str(path)!r} holds {getattr(data, 'dtype', type(data))} of shape "
-                         f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]")
+        raise InputError(
+            f"path = {str(path)!r} holds {getattr(data, 'dtype', type(data))} of shape "
+            f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]"
+        )
     return np.array(data, dtype=float)
 
 
@@ -141,9 +148,10 @@ def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form
     if lateral_unit is not None:
         validate.choice("lateral_unit", lateral_unit, UNITS)
     from SurfaceTopography import open_topography
+
     try:
         topography = open_topography(str(path)).topography(channel_index=channel)
-    except Exception as problem:           # the package raises many kinds for files it cannot read
+    except Exception as problem:  # the package raises many kinds for files it cannot read
         raise InputError(f"path = {str(path)!r} cannot be read by SurfaceTopography ({problem})") from problem
     found = "um" if topography.unit in ("µm", "μm") else topography.unit
     vertical = UNITS[validate.choice("unit found in the file", found, UNITS)]

@@ -47,8 +47,10 @@ def rms_slope(surface, method: str = "difference") -> tuple[float, float, float]
     of the Fourier series, for maps periodic along both axes without unmeasured points.
     """
     validate.choice("method", method, ("difference", "spectral"))
-    slopes = [_difference_slope(surface, axis) if method == "difference" else _spectral_slope(surface, axis)
-              for axis in range(2)]
+    slopes = [
+        _difference_slope(surface, axis) if method == "difference" else _spectral_slope(surface, axis)
+        for axis in range(2)
+    ]
     return slopes[0], slopes[1], math.hypot(*slopes)
 
 
@@ -67,9 +69,12 @@ def _difference_slope(surface, axis) -> float:
 
 def _spectral_slope(surface, axis) -> float:
     from scipy import fft
+
     if not all(surface.periodic_axes) or surface.mask is not None:
-        raise InputError("method = 'spectral' needs a map that is periodic along both axes and fully "
-                         "measured; allowed here: 'difference'")
+        raise InputError(
+            "method = 'spectral' needs a map that is periodic along both axes and fully "
+            "measured; allowed here: 'difference'"
+        )
     n = surface.shape[axis]
     k = 2 * np.pi * fft.fftfreq(n, surface.spacing[axis])
     power = np.abs(fft.fft(surface.heights, axis=axis)) ** 2
@@ -85,6 +90,7 @@ def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
     (unbiased by the number of pairs). By FFT.
     """
     from scipy import fft
+
     validate.choice("axis", axis, (0, 1))
     n = surface.shape[axis]
     mask = np.ones(surface.shape, bool) if surface.mask is None else surface.mask
@@ -93,7 +99,7 @@ def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
     def lagged_products(f):
         power = np.abs(fft.rfft(f, length, axis=axis)) ** 2
-        return fft.irfft(power.sum(axis=1 - axis), length)[:n // 2 + 1]
+        return fft.irfft(power.sum(axis=1 - axis), length)[: n // 2 + 1]
 
     products, pairs = lagged_products(z), np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
     if products[0] <= 0:
@@ -117,8 +123,10 @@ def first_crossing(lags, acf, decay_level) -> float:
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)
     if below.size == 0:
-        raise InputError(f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m; "
-                         "allowed: a map at least twice as long as its correlation length")
+        raise InputError(
+            f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m; "
+            "allowed: a map at least twice as long as its correlation length"
+        )
     i = below[0]
     high, low = acf[i - 1], acf[i]
     share = math.log(high / level) / math.log(high / low) if low > 0 else (high - level) / (high - low)

@@ -18,14 +18,14 @@ MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
-_EMPTY = re.compile(r"\t\s*\t")                                          # a value left out between tabs
-_BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")                # '1,5 2,5'
+_EMPTY = re.compile(r"\t\s*\t")  # a value left out between tabs
+_BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
-_BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")                      # '1,5' or '1,5,2,5'
+_BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")  # '1,5' or '1,5,2,5'
 
-_COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")                   # '1,5, 2' or '1, 2'
+_COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")  # '1,5, 2' or '1, 2'
 
-Lines = list[tuple[int, str]]       # (line number in the file, text without blanks around it)
+Lines = list[tuple[int, str]]  # (line number in the file, text without blanks around it)
 
 
 def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray, tuple[str, ...]]:
@@ -40,7 +40,7 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
     notes = tuple(f"line {number} skipped as a title: {text[:60]!r}" for number, text in titles)
     separator, comma = _marks(path, lines, decimal)
     if separator is not None and all(text.endswith(separator) for _, text in lines):
-        lines = [(number, text[:-1].rstrip()) for number, text in lines]        # a separator behind every line
+        lines = [(number, text[:-1].rstrip()) for number, text in lines]  # a separator behind every line
     if comma:
         _refuse_points(path, lines)
         lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
@@ -48,8 +48,10 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
     try:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None), notes
     except ValueError as problem:
-        raise InputError(f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}; "
-                         "allowed: lines of equally many numbers, 'nan' where unmeasured") from None
+        raise InputError(
+            f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}; "
+            "allowed: lines of equally many numbers, 'nan' where unmeasured"
+        ) from None
 
 
 def _wrong(path, number, text, words) -> InputError:
@@ -65,8 +67,13 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
             return lines[:index], lines[index:]
         unmeasured = words and all(w.lower() in MISSING_WORDS for w in words)
         if numbers or unmeasured or not any(c.isalpha() for c in text):
-            raise _wrong(path, number, text, "is neither numbers nor a title without numbers; allowed: 'nan' where "
-                         "unmeasured, '#' before a line to be skipped")
+            raise _wrong(
+                path,
+                number,
+                text,
+                "is neither numbers nor a title without numbers; allowed: 'nan' where "
+                "unmeasured, '#' before a line to be skipped",
+            )
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 
@@ -74,8 +81,13 @@ def _check_units(path, titles: Lines) -> None:
     for number, text in titles:
         named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
         if named:
-            raise _wrong(path, number, text, f"names {' and '.join(named)}, and unit is not given, which means m for "
-                         f"every column; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
+            raise _wrong(
+                path,
+                number,
+                text,
+                f"names {' and '.join(named)}, and unit is not given, which means m for "
+                f"every column; allowed: unit = {named[0]!r}, or 'm' if it is m after all",
+            )
 
 
 def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
@@ -94,17 +106,26 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     inside = any(re.search(r",\S", text) for _, text in lines)
     ways = (all(way.fullmatch(text.removesuffix(",")) for _, text in lines) for way in (_BOTH_WAYS, _COMMA_BLANK))
     if inside and any(ways):
-        raise _wrong(path, *commas[0], "and all others have commas that can separate values or be decimal marks; "
-                     "allowed: decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), "
-                     "or another separator")
+        raise _wrong(
+            path,
+            *commas[0],
+            "and all others have commas that can separate values or be decimal marks; "
+            "allowed: decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), "
+            "or another separator",
+        )
     return ",", False
 
 
 def _refuse_points(path, lines: Lines) -> None:
     for number, text in lines:
         if "." in text:
-            raise _wrong(path, number, text, "has a point where commas are the decimal mark; allowed: one decimal mark "
-                         "in the file, no mark for thousands")
+            raise _wrong(
+                path,
+                number,
+                text,
+                "has a point where commas are the decimal mark; allowed: one decimal mark "
+                "in the file, no mark for thousands",
+            )
 
 
 def _fault(lines: Lines, separator) -> str:

@@ -10,8 +10,8 @@ from .. import validate
 from ..errors import InputError
 from .table import read_table
 
-NEXT_LINE = 0.1          # of the largest gap between coordinates: a larger one leads to the next grid line
-UNEVEN = 0.02            # of the spacing: the most a coordinate may be off its grid line
+NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
+UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
 
 
 def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
@@ -52,13 +52,17 @@ def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
         raise InputError(f"path = {str(path)!r}: x or y is NaN or infinite; allowed: finite coordinates")
     (i, nx, dx), (j, ny, dy) = (_grid_lines(name, table[:, column]) for column, name in enumerate("xy"))
     if nx * ny > 4 * len(table):
-        raise InputError(f"path = {str(path)!r}: {len(table)} points on a grid of {nx} x {ny}; allowed: "
-                         "a uniform grid with most of its points")
+        raise InputError(
+            f"path = {str(path)!r}: {len(table)} points on a grid of {nx} x {ny}; allowed: "
+            "a uniform grid with most of its points"
+        )
     heights, count = np.full((nx, ny), np.nan), np.zeros((nx, ny), int)
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
-        raise InputError(f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more "
-                         "than once; allowed: each once")
+        raise InputError(
+            f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more "
+            "than once; allowed: each once"
+        )
     heights[i, j] = table[:, 2]
     return heights, (dx, dy), notes
 
@@ -68,17 +72,18 @@ def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
     ordered = np.sort(coordinate)
     gaps = np.diff(ordered)
     if gaps.size == 0 or gaps.max() <= 0:
-        raise InputError(f"{name} has one value only ({coordinate[0]:g}); allowed: a grid of at least "
-                         "2 x 2 points")
+        raise InputError(f"{name} has one value only ({coordinate[0]:g}); allowed: a grid of at least 2 x 2 points")
     starts = np.flatnonzero(np.concatenate([[True], gaps > NEXT_LINE * gaps.max()]))
     lines = np.add.reduceat(ordered, starts) / np.diff(np.append(starts, ordered.size))
     steps = np.diff(lines)
-    count = 1 + int(np.rint(steps / np.median(steps)).sum())       # whole lines may be missing
+    count = 1 + int(np.rint(steps / np.median(steps)).sum())  # whole lines may be missing
     step = (ordered[-1] - ordered[0]) / (count - 1)
     position = (coordinate - ordered[0]) / step
     index = np.rint(position).astype(int)
     off = np.abs(position - index).max()
     if off > UNEVEN:
-        raise InputError(f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid "
-                         f"line; allowed: at most {UNEVEN:g} of the step {step:g}")
+        raise InputError(
+            f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid "
+            f"line; allowed: at most {UNEVEN:g} of the step {step:g}"
+        )
     return index, count, float(step)

@@ -19,8 +19,8 @@ import numpy as np
 from ..errors import InputError
 from .height_map import Surface
 
-MOST_XML = 4 * 2**20                      # bytes of main.xml
-MOST_POINTS = 2**27                       # 1 GiB of doubles
+MOST_XML = 4 * 2**20  # bytes of main.xml
+MOST_POINTS = 2**27  # 1 GiB of doubles
 TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 CORRUPT = (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError)
 
@@ -53,8 +53,14 @@ def _read(archive, path) -> Surface:
     if shape[0] * shape[1] > MOST_POINTS:
         raise _bad("SizeX x SizeY", f"{shape[0]} x {shape[1]}", f"at most {MOST_POINTS} points")
     spacing = tuple(_increment(root, axis) for axis in ("CX", "CY"))
-    raw = _linked(archive, root, "PointDataLink", "MD5ChecksumPointData",
-                  shape[0] * shape[1] * np.dtype(_height_type(root)).itemsize, notes)
+    raw = _linked(
+        archive,
+        root,
+        "PointDataLink",
+        "MD5ChecksumPointData",
+        shape[0] * shape[1] * np.dtype(_height_type(root)).itemsize,
+        notes,
+    )
     heights = _heights(root, raw).reshape(shape[1], shape[0]).T
     mask = ~np.isnan(heights)
     if _text(root, "Record3/DataLink/ValidPointsLink", required=False):
@@ -83,6 +89,7 @@ def _member(archive, name, most) -> bytes:
 
 def _parse(document) -> ElementTree.Element:
     """The tree of main.xml; entities cannot be declared because a document type is refused."""
+
     def refuse(*_):
         raise _bad("main.xml", "a document type (DOCTYPE)", "none")
 

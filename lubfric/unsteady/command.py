@@ -56,10 +56,7 @@ def run_history(scene: Scene, out: Path, animation: bool, say) -> int:
         plot_history(out / "history.png", result.columns, scene.name)
     if animation:
         animate(out / "animation.gif", result, scene.bodies.half_width)
-    say(
-        f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} "
-        f"in {time.perf_counter() - begun:.1f} s"
-    )
+    say(f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} in {time.perf_counter() - begun:.1f} s")
     if failure:
         raise failure
     return 0

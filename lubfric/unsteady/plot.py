@@ -39,9 +39,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     third.legend(frameon=False, ncols=2, fontsize=8)
     fourth.plot(t, c["coefficient"], color=BLUE, label="friction coefficient f")
     sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
-    fourth.plot(
-        t, c["boundary_force"] * sense / c["load"], color=RED, lw=1, ls="--", label="from the contact spots"
-    )
+    fourth.plot(t, c["boundary_force"] * sense / c["load"], color=RED, lw=1, ls="--", label="from the contact spots")
     fourth.plot(
         t,
         (c["couette_force"] + c["rolling_force"]) * sense / c["load"],
@@ -61,12 +59,8 @@ def animate(path: Path, result, half_width: float) -> None:
     """GIF of pressure and film along the contact over time (Pillow writer)."""
     from matplotlib.animation import FuncAnimation, PillowWriter
 
-    chosen = np.unique(
-        np.linspace(0, result.time.size - 1, min(FRAMES, result.time.size)).round().astype(int)
-    )
-    reach = 3.0 * max(
-        half_width, float(np.sqrt(result.film_thickness.min(axis=1).max() * 2.0 * _radius(result)))
-    )
+    chosen = np.unique(np.linspace(0, result.time.size - 1, min(FRAMES, result.time.size)).round().astype(int))
+    reach = 3.0 * max(half_width, float(np.sqrt(result.film_thickness.min(axis=1).max() * 2.0 * _radius(result))))
     seen = np.abs(result.x) <= reach
     x = result.x[seen] * 1e6
     figure = _figure(figsize=(7, 4.5))

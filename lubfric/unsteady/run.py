@@ -82,17 +82,13 @@ def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
 
 def _run(run: Run, times, store, on_step) -> TransientResult:
     plan = run.plan
-    now = resume(run, store) or Progress(
-        March((first_level(run),), run.first_step, run.start.payload), [], []
-    )
+    now = resume(run, store) or Progress(March((first_level(run),), run.first_step, run.start.payload), [], [])
     if not now.rows and times[0] == 0.0:
         keep(run, now, store, 0.0, run.start, None)
     stops, jumps = stops_and_jumps(run.histories, times, plan.duration)
     for stop in stops:
         while now.march.time < stop:
-            advanced = advance(
-                now.march, stop, run.solve, run.error_of, run.tolerance, SHORTEST * plan.duration
-            )
+            advanced = advance(now.march, stop, run.solve, run.error_of, run.tolerance, SHORTEST * plan.duration)
             if advanced is None:
                 return collect(run, now, STAGNATED)
             now.march, now.steps, now.rejected = (

@@ -156,8 +156,6 @@ def _per_width(load: Constant, width: float) -> _PerWidth:
     return _PerWidth(source=load, width=width)
 
 
-
-
 def first_level(run: Run) -> Level:
     """The level at t = 0."""
     return run.sharing.setting.level(0.0, run.start)

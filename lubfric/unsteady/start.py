@@ -83,9 +83,7 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     setting, scene = sharing.setting, model.scene
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
-        raise InputError(
-            "transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed"
-        )
+        raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
     values = scene.with_(
         bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
         lubricant={"viscosity": c.viscosity.before(0.0)},
@@ -100,7 +98,5 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
     found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
     if found.status != CONVERGED:
-        raise ConvergenceError(
-            "transient: film and contact of the steady start do not balance on the grid of the run"
-        )
+        raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error

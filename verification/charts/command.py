@@ -34,11 +34,7 @@ def main(argv: list[str]) -> int:
                 file=sys.stderr,
                 flush=True,
             )
-        figure = (
-            growth(points, where)
-            if name == "growth"
-            else work_precision(f"performance-{name}", points, where)
-        )
+        figure = growth(points, where) if name == "growth" else work_precision(f"performance-{name}", points, where)
         path = options.out / f"{figure.name}.png"
         path.write_bytes(compact(figure).data)
         print(path)
@@ -61,13 +57,9 @@ def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser("python -m verification charts", description=__doc__)
     level = p.add_mutually_exclusive_group()
     level.add_argument("--quick", dest="level", action="store_const", const="quick", help="within a minute")
-    level.add_argument(
-        "--full", dest="level", action="store_const", const="full", help="every setting (default)"
-    )
+    level.add_argument("--full", dest="level", action="store_const", const="full", help="every setting (default)")
     p.add_argument("--only", nargs="+", choices=list(CHARTS), metavar="CHART", help=f"of {', '.join(CHARTS)}")
-    p.add_argument(
-        "--redraw", action="store_true", help="from the JSON files in the folder, without measuring"
-    )
+    p.add_argument("--redraw", action="store_true", help="from the JSON files in the folder, without measuring")
     p.add_argument("--out", type=Path, default=Path("out/charts"), metavar="DIR")
     p.set_defaults(level="full")
     return p

@@ -37,9 +37,7 @@ def _finest(acf: str, seed: int, finest: int = 2048) -> np.ndarray:
     x = np.fft.fftfreq(finest) * finest * SPACING * 512 / finest
     r = np.hypot(x[:, None], x) / LENGTH
     amplitude = np.sqrt(np.maximum(np.fft.fft2(np.exp(-r if acf == "exponential" else -r * r)).real, 0))
-    z = np.fft.ifft2(
-        amplitude * np.fft.fft2(np.random.default_rng(seed).standard_normal((finest, finest)))
-    ).real
+    z = np.fft.ifft2(amplitude * np.fft.fft2(np.random.default_rng(seed).standard_normal((finest, finest)))).real
     return (z - z.mean()) * (SIGMA / z.std())
 
 
@@ -51,9 +49,7 @@ def points(level: str) -> Iterator[Point]:
     for acf in ("gaussian",) if quick else ("exponential", "gaussian"):
         z = heights(n, acf)
         for pressure in (200e6,) if quick else (50e6, 200e6, 1000e6):
-            yield from panel(
-                z, pressure, "periodic", f"{acf}, {pressure / 1e6:g} MPa, {n}²", tolerances, quick
-            )
+            yield from panel(z, pressure, "periodic", f"{acf}, {pressure / 1e6:g} MPa, {n}²", tolerances, quick)
     for name in list(BOUNDARIES)[1:]:
         yield from panel(
             heights(64 if quick else 256, "exponential"),
@@ -141,9 +137,7 @@ def grids(quick: bool) -> Iterator[Point]:
         for n in sizes:
             z = heights(n, acf)
             call = {
-                "lubfric": lambda z=z, n=n: solve_contact(
-                    z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6
-                )
+                "lubfric": lambda z=z, n=n: solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6)
             }
             solved[n] = interleaved(call, 1)["lubfric"]
         finest = solved[sizes[-1]][0]

@@ -42,9 +42,7 @@ class Point:
     work: float = float("nan")
 
 
-def interleaved(
-    calls: dict[str, Callable], repeats: int
-) -> dict[str, tuple[object, tuple[float, float, float]]]:
+def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[object, tuple[float, float, float]]]:
     """{name: (value, (median, lower, upper quartile) of seconds)}, the repeats of all calls taken in turn."""
     seconds, values = {name: [] for name in calls}, {}
     for _ in range(repeats):
@@ -53,8 +51,7 @@ def interleaved(
             values[name] = call()
             seconds[name].append(time.perf_counter() - begun)
     return {
-        name: (values[name], tuple(float(q) for q in np.quantile(seconds[name], (0.5, 0.25, 0.75))))
-        for name in calls
+        name: (values[name], tuple(float(q) for q in np.quantile(seconds[name], (0.5, 0.25, 0.75)))) for name in calls
     }
 
 
@@ -75,9 +72,7 @@ def processor() -> str:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
         return platform.processor() or platform.machine()
-    return next(
-        (line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine()
-    )
+    return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
 
 
 def save(points: list[Point], out: Path, name: str) -> None:

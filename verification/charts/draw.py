@@ -21,9 +21,7 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
     panels = list(dict.fromkeys(p.panel for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
-    canvas, axes = plotting.axes(
-        rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False
-    )
+    canvas, axes = plotting.axes(rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False)
     colours = palette(points)
     for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
@@ -42,12 +40,8 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
         readable(ax)
         ax.title.set_fontsize(9)
     handles = [axes[0, 0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
-    handles.append(
-        axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0]
-    )
-    canvas.legend(
-        handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8
-    )
+    handles.append(axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
+    canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.finish(name, canvas, name, format="png")
 
@@ -91,9 +85,7 @@ def curve(ax, points: list[Point], colour: str) -> None:
     errors = [p.discretisation if np.isfinite(p.discretisation) else p.error for p in points]
     times = np.array([p.seconds for p in points])
     spread = np.abs([times - [p.low for p in points], [p.high for p in points] - times])
-    ax.errorbar(
-        times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8
-    )
+    ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.default:
             ax.plot(p.seconds, e, "o", mfc="none", mec="k", ms=10)
@@ -108,19 +100,14 @@ def growth(points: list[Point], machine: str) -> Figure:
         sizes = [p.size for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
         axes[0, column].loglog(sizes, [p.seconds for p in chosen], "o-")
-        axes[0, column].set(
-            title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit
-        )
+        axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
         if label == "contact":
             axes[0, column].set_title(
-                f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\n"
-                f"convolutions ~ N^{exponent(chosen, 'work'):.2f}"
+                f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"
             )
         seen = [p for p in chosen if p.memory > NOTICED]
         axes[1, column].loglog([p.size for p in seen], [p.memory / 1e6 for p in seen], "o-", color="#D55E00")
-        axes[1, column].set(
-            title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit
-        )
+        axes[1, column].set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
         axes[1, column].set_xlim(axes[0, column].get_xlim())
         axes[1, column].xaxis.set_minor_formatter("")
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
@@ -132,5 +119,7 @@ def compact(figure: Figure, colours: int = 128) -> Figure:
     from PIL import Image
 
     stream = io.BytesIO()
-    Image.open(io.BytesIO(figure.data)).convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE).save(stream, format="png", optimize=True)
+    Image.open(io.BytesIO(figure.data)).convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE).save(
+        stream, format="png", optimize=True
+    )
     return replace(figure, data=stream.getvalue())

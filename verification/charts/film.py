@@ -29,9 +29,7 @@ def points(level: str) -> Iterator[Point]:
         for name, setting, default, (films, seconds, size) in runs(case, M, L, quick):
             off = np.abs(np.array(films) / exact[: len(films)] - 1)
             panel = f"M = {M:g}, L = {L:g}"
-            yield Point(
-                "film", panel, name, setting, float(np.nanmax(off[:2])), *seconds, default=default, size=size
-            )
+            yield Point("film", panel, name, setting, float(np.nanmax(off[:2])), *seconds, default=default, size=size)
             if len(films) == 3 and (M, L) in SHEARED:
                 yield Point(
                     "film",
@@ -94,9 +92,7 @@ def finite_elements(case: dict, quick: bool):
         viscosity_law=case["viscosity_law"],
         pressure_viscosity_coefficient=case["pressure_viscosity_coefficient"],
     )
-    contact = fem.LineContact(
-        case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid
-    )
+    contact = fem.LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid)
     for refinements in (0,) if quick else (0, 1):
         call = {"": lambda r=refinements: fem.solve_ehl(contact, refinements=r, raise_on_failure=False)}
         solutions, seconds = interleaved(call, 1)[""]

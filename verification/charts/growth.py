@@ -109,9 +109,7 @@ work, size = n, n"""
 def rough(n: int) -> np.ndarray:
     """Heights [m] of the same statistics at any size, in single-precision noise: cheap enough for 4096²."""
     k = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(n)) * 2 * np.pi * 17
-    z = np.fft.irfft2(
-        np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * (1 + k * k) ** -0.75, s=(n, n)
-    )
+    z = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * (1 + k * k) ** -0.75, s=(n, n))
     return (z - z.mean()) * (240e-9 / z.std())
 
 
@@ -177,6 +175,4 @@ def exponent(points: list[Point], quantity: str) -> float:
     chosen = chosen[len(chosen) // 2 - 1 :] if len(chosen) > 3 else chosen
     if len(chosen) < 2:
         return float("nan")
-    return float(
-        np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0]
-    )
+    return float(np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0])

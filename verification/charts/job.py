@@ -88,10 +88,7 @@ def point(panel, method, setting, f, exact, seconds, count, default, n, apart=Fa
 def grids(quick: bool, speeds) -> Iterator[Point]:
     """One surface on coarser contact grids against the finest."""
     sizes = (40, 50, 100) if quick else (40, 50, 80, 100, 200, 400)
-    solved = {
-        n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""]
-        for n in sizes
-    }
+    solved = {n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""] for n in sizes}
     for n in sizes[:-1]:
         f, seconds = solved[n]
         yield point(

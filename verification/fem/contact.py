@@ -119,22 +119,16 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
     if gap0.ndim != 1 or gap0.size == 0 or not np.all(np.isfinite(gap0)):
-        raise InputError(
-            f"gap0 has shape {gap0.shape} or is not finite; allowed: one finite length in m per node"
-        )
+        raise InputError(f"gap0 has shape {gap0.shape} or is not finite; allowed: one finite length in m per node")
     if weights.shape != gap0.shape or not np.all(weights > 0):
-        raise InputError(
-            f"weights have shape {weights.shape}; allowed: one value > 0 for each of {gap0.size} nodes"
-        )
+        raise InputError(f"weights have shape {weights.shape}; allowed: one value > 0 for each of {gap0.size} nodes")
     if not (np.isfinite(load) and load > 0):
         raise InputError(f"load = {load}; allowed: finite, > 0, N or N/m")
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance = {tolerance}; allowed: (0, 1)")
     most = np.inf if limit is None else limit
     if not (most > 0 and load < most * weights.sum()):
-        raise InputError(
-            f"load = {load:g} cannot be carried below limit = {most:g} Pa on {weights.sum():g} m or m^2"
-        )
+        raise InputError(f"load = {load:g} cannot be carried below limit = {most:g} Pa on {weights.sum():g} m or m^2")
     return Problem(displacement, weights, gap0, float(load), most * weights, tolerance)
 
 

@@ -191,9 +191,7 @@ def solve_ehl(
         if level and not report.converged:
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
-            report = replace(
-                report, notes=("started again from the first-order upwind solution on this mesh",)
-            )
+            report = replace(report, notes=("started again from the first-order upwind solution on this mesh",))
         solutions.append(
             Solution(
                 contact,
@@ -255,9 +253,7 @@ def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: in
     for shares in ((1.0,), RAISING):
         guess = hertz_start(contact, body, shares[0])
         for share in shares:
-            guess, _, report = newton(
-                body, replace(film, upwind=1.0, piezo=share), guess, ROUGH, max_iterations
-            )
+            guess, _, report = newton(body, replace(film, upwind=1.0, piezo=share), guess, ROUGH, max_iterations)
         if report.converged:
             break
     return guess
@@ -265,11 +261,7 @@ def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: in
 
 def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
     """Hertz pressure, spread to the width of the film where that is wider, and the film expected at X = 0."""
-    film = (
-        film_estimate(contact.load_number, piezo * contact.material_number)
-        * contact.moes_film
-        / contact.film_unit
-    )
+    film = film_estimate(contact.load_number, piezo * contact.material_number) * contact.moes_film / contact.film_unit
     width = math.sqrt(1 + 2 * film)
     P = np.sqrt(np.maximum(1 - (body.x / width) ** 2, 0)) / width
     u = body.displacement(P)

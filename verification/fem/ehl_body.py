@@ -26,9 +26,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_s
 POISSON = 0.3
 YOUNG = 2 * (1 - POISSON**2)
 NEAR = 1e-9  # of the side: the same point
-QUARTERS = (
-    np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4
-)  # P2 nodes of the four parts of a triangle
+QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P2 nodes of the four parts of a triangle
 
 
 @dataclass(frozen=True)
@@ -62,9 +60,7 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
     mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
     while True:
         corners = mesh.p[:, mesh.t]
-        longest = np.max(
-            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
-        )
+        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
         distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
         large = np.flatnonzero(longest > np.hypot(layout.fine, layout.growth * distance))
         if not large.size:
@@ -106,9 +102,7 @@ class Body:
     @cached_property
     def factors(self) -> SuperLU:
         """Factors of the stiffness alone."""
-        return splu(
-            self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-        )
+        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     @cached_property
     def order(self) -> np.ndarray:

@@ -84,12 +84,7 @@ class Film:
 
     def charge(self, P, P_jump, H, H_jump, size):
         """What a jump of v' is multiplied with at a vertex where P' and H' jump."""
-        return (
-            self.penalty
-            * size**2
-            * self.carried(P, H, size)
-            * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
-        )
+        return self.penalty * size**2 * self.carried(P, H, size) * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
 
     def inflow(self, P, H, inlet: float):
         """q at the inlet."""
@@ -105,8 +100,7 @@ def extended(law: Callable, p):
 def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]:
     """A function and its derivatives by each of its arguments, by complex steps."""
     slopes = [
-        np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP
-        for k in range(len(values))
+        np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP for k in range(len(values))
     ]
     return function(*values), slopes
 
@@ -168,9 +162,7 @@ def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     line = film.line
     p, h = line.interpolate(P), line.interpolate(H)
     size = np.abs(np.diff(line.mesh.p[0][line.mesh.t], axis=0)).T
-    q, (p0, p1, h0, h1) = partials(
-        lambda *a: film.flux(*a, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0]
-    )
+    q, (p0, p1, h0, h1) = partials(lambda *a: film.flux(*a, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0])
     return (
         flux_form.assemble(line, q=q),
         flux_tangent.assemble(line, by_value=p0, by_slope=p1),

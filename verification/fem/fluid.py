@@ -75,12 +75,7 @@ class Fluid:
         if self.viscosity_law == "barus":
             return self.pressure_viscosity_coefficient * p
         z = self.index
-        return (
-            self.pressure_viscosity_coefficient
-            * ROELANDS_PRESSURE
-            / z
-            * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
-        )
+        return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
 
     def eta(self, p):
         """Viscosity in Pa s."""

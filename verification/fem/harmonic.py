@@ -44,9 +44,7 @@ class Strip:
 
     def __post_init__(self):
         if self.shape[0] % 2 or min(self.shape) < 2 or min(self.spacing) <= 0:
-            raise InputError(
-                f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m"
-            )
+            raise InputError(f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m")
         if not 1 << self.side >= 8 * self.shape[0] or not 0 <= self.fineness <= 4 or not 0 < self.growth <= 1:
             raise InputError(
                 f"side = {self.side}, fineness = {self.fineness}, growth = {self.growth}; allowed: at least "
@@ -92,17 +90,13 @@ def compliance(strip: Strip) -> Compliance:
     loads = cell_loads(strip, mesh, basis)[free]
     dense = loads.toarray()
     waves = 2 * np.pi * np.arange(strip.shape[1] // 2 + 1) / (strip.shape[1] * strip.spacing[1])
-    harmonics = [
-        unit * loads.T @ factorised(constant + k * linear + k**2 * square).solve(dense) for k in waves / unit
-    ]
+    harmonics = [unit * loads.T @ factorised(constant + k * linear + k**2 * square).solve(dense) for k in waves / unit]
     return Compliance(strip, np.array(harmonics), free.size)
 
 
 def factorised(matrix):
     """Sparse LU of a symmetric positive definite matrix."""
-    return splu(
-        matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 def graded_mesh(strip: Strip) -> MeshTri:
@@ -115,9 +109,7 @@ def graded_mesh(strip: Strip) -> MeshTri:
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
     while True:
         corners = mesh.p[:, mesh.t]
-        longest = np.max(
-            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
-        )
+        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
         distance = np.hypot(aside, corners[1]).min(axis=0)
         large = np.flatnonzero(longest > np.hypot(fine, strip.growth * distance))
@@ -149,9 +141,7 @@ def strains(u, k):
 
 def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
     """(degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
-    top = mesh.facets_satisfying(
-        lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True
-    )
+    top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
     ends = mesh.p[0, mesh.facets[:, top]]
     inside = np.abs(ends.mean(axis=0)) < strip.half
     top, ends = top[inside], ends[:, inside]

@@ -57,9 +57,7 @@ class Layer:
     @cached_property
     def factors(self) -> SuperLU:
         """Factors of the stiffness."""
-        return splu(
-            self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-        )
+        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
     def response(self, force) -> np.ndarray:
         """All unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
@@ -105,20 +103,14 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
             "allowed: 0 < fine < strip <= width/2, thickness > 0, growth > 0"
         )
     cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
-    mesh = MeshTri.init_tensor(
-        np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1)
-    )
+    mesh = MeshTri.init_tensor(np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1))
     while True:
         corners = mesh.p[:, mesh.t]
-        longest = np.max(
-            [np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0
-        )
+        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
         distance = np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
         large = np.flatnonzero(longest > fine + growth * distance)
         if not large.size:
-            both = (
-                np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0
-            )  # no -0.0, which unique would tell from 0.0
+            both = np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0  # no -0.0, which unique would tell from 0.0
             points, shared = np.unique(both, axis=1, return_inverse=True)
             cells = np.hstack([mesh.t, mesh.t + mesh.p.shape[1]])
             return MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(shared[cells]))

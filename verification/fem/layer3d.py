@@ -62,9 +62,7 @@ class Layer3D:
             and np.all(np.diff(levels) > 0)
             and levels[-1] == 0
         ):
-            raise InputError(
-                f"size = {self.size}, levels = {levels}; allowed: lengths > 0, levels ascending to 0"
-            )
+            raise InputError(f"size = {self.size}, levels = {levels}; allowed: lengths > 0, levels ascending to 0")
 
     @property
     def thickness(self) -> float:
@@ -151,10 +149,7 @@ def stiffness(layer: Layer3D) -> sp.bsr_matrix:
         values = np.broadcast_to(matrix[np.ix_(kept, kept)], (rows.shape[0], kept.sum(), kept.sum()))
         columns = np.broadcast_to(rows[:, None, :], values.shape)
         rows = np.broadcast_to(rows[:, :, None], values.shape)
-        total = (
-            total
-            + sp.coo_matrix((values.ravel(), (rows.ravel(), columns.ravel())), shape=total.shape).tocsr()
-        )
+        total = total + sp.coo_matrix((values.ravel(), (rows.ravel(), columns.ravel())), shape=total.shape).tocsr()
     return total.tobsr((3, 3))
 
 

@@ -31,9 +31,7 @@ class FourierCompliance:
         """m, of nodal forces in N; (nx, ny) or flattened, and so is the result."""
         force = np.asarray(force, dtype=float)
         (cx, cy), q = self.layer.cells, self.layer.degree
-        waves = scipy.fft.rfft2(
-            force.reshape(cx, q, cy, q).transpose(0, 2, 1, 3).reshape(cx, cy, q * q), axes=(0, 1)
-        )
+        waves = scipy.fft.rfft2(force.reshape(cx, q, cy, q).transpose(0, 2, 1, 3).reshape(cx, cy, q * q), axes=(0, 1))
         moved = scipy.fft.irfft2(np.matmul(self.symbol, waves[..., None])[..., 0], s=(cx, cy), axes=(0, 1))
         return moved.reshape(cx, cy, q, q).transpose(0, 2, 1, 3).reshape(force.shape)
 

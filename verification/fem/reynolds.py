@@ -71,9 +71,7 @@ class Problem:
         if self.stabilisation not in STABILISATIONS:
             raise InputError(f"stabilisation = {self.stabilisation!r}; allowed: {STABILISATIONS}")
         if self.stabilisation == "supg" and self.degree != 1:
-            raise InputError(
-                "stabilisation = 'supg' needs degree = 1: its residual drops second derivatives of p"
-            )
+            raise InputError("stabilisation = 'supg' needs degree = 1: its residual drops second derivatives of p")
         if not 0 <= self.speed < np.inf:
             raise InputError(f"speed = {self.speed} m/s; allowed: >= 0")
         film = self.film(self.mesh.p)
@@ -118,9 +116,7 @@ class Solution:
 
     def inflow(self, x: float) -> float:
         """Flow that enters through the boundary at this x, m^2/s or m^3/s (volume at p = 0)."""
-        return float(
-            self.reaction[np.abs(self.basis.doflocs[0] - x) < 1e-9 * np.ptp(self.basis.doflocs[0])].sum()
-        )
+        return float(self.reaction[np.abs(self.basis.doflocs[0] - x) < 1e-9 * np.ptp(self.basis.doflocs[0])].sum())
 
     def friction(self, sliding_speed: float) -> tuple[float, float]:
         """``(integral eta Du/h, integral (h/2) dp/dx)`` over the part under pressure, N/m or N."""
@@ -165,10 +161,7 @@ def upwind_flow(problem: Problem, p, gradient, mobility, w) -> np.ndarray:
     stiffening = rho_slope / rho - slope(fluid.log_viscosity, real)
     steepening = steady * (stiffening * gradient + 3 * w["film_gradient"] / w["film"])
     strong = (
-        wave * gradient[0]
-        + problem.speed * fluid.rho(p) * w["film_gradient"][0]
-        - dot(steepening, gradient)
-        - w["f"]
+        wave * gradient[0] + problem.speed * fluid.rho(p) * w["film_gradient"][0] - dot(steepening, gradient) - w["f"]
     )
     tau = 1 / np.sqrt((2 * wave / w["size"]) ** 2 + 9 * (4 * steady / w["size"] ** 2) ** 2)
     return tau * wave * strong
@@ -340,9 +333,7 @@ def given_fields(problem: Problem, basis: Basis) -> dict:
     if problem.source is not None:
         fields["f"] = problem.source(np.asarray(x))
     if problem.stabilisation != "none":
-        smooth = basis.with_element(
-            ELEMENTS[next(k for k in ELEMENTS if ELEMENTS[k] is problem.element)[0], 2]()
-        )
+        smooth = basis.with_element(ELEMENTS[next(k for k in ELEMENTS if ELEMENTS[k] is problem.element)[0], 2]())
         fields["film_gradient"] = np.asarray(grad(smooth.interpolate(problem.film(smooth.doflocs))))
     return fields
 

@@ -15,7 +15,7 @@ from .draw import axes, image, png
 from .page import PaperFigure
 from .spread import spread
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "full"})         # on the grid of the paper
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "full"})  # on the grid of the paper
 MODELS = {
     "half-space, elastic": {"bodies": {"hardness": None}},
     "half-space, elastic-plastic": {},
@@ -31,9 +31,7 @@ def scene_of(acf="gaussian", length=8e-6, seed=1):
     """The paper's cylinder on a generated surface; lengths that do not fit 90 um are cut from a longer
     map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
-    return PAPER.with_(
-        surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5}
-    )
+    return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
 
 
 def real_surface() -> Path | None:
@@ -47,10 +45,7 @@ def real_surface() -> Path | None:
 def ensemble_member(acf, length, seed, speeds) -> list[np.ndarray]:
     """Friction over ``speeds`` of one surface with each of `MODELS`, and with summits on the flat strip."""
     scene = scene_of(acf, length, seed)
-    return [
-        lubfric.stribeck(scene.with_(**change), speeds).coefficient
-        for change in (*MODELS.values(), FLAT_STRIP)
-    ]
+    return [lubfric.stribeck(scene.with_(**change), speeds).coefficient for change in (*MODELS.values(), FLAT_STRIP)]
 
 
 def film_load(acf, length, seed) -> float:
@@ -77,11 +72,7 @@ def stribeck_curves(quick: bool) -> PaperFigure:
     found = spread(ensemble_member, [(*kind, seed, speeds) for kind in kinds for seed in seeds], quick)
     curves = {kind: np.array(found[i * len(seeds) : (i + 1) * len(seeds)]) for i, kind in enumerate(kinds)}
     file = real_surface()
-    real = (
-        dict(zip("xy", spread(real_curves, [("x", speeds), ("y", speeds)], quick)))
-        if file and not quick
-        else {}
-    )
+    real = dict(zip("xy", spread(real_curves, [("x", speeds), ("y", speeds)], quick))) if file and not quick else {}
     counted = range(1, 3 if quick else 13)
     lengths = LENGTHS[2:4] if quick else LENGTHS
     cases = [("gaussian", length, seed) for length in lengths for seed in counted]
@@ -145,9 +136,7 @@ def _draw_stribeck(speeds, curves, real, lengths, loads) -> bytes:
         )
     panels[0].legend(fontsize=7, loc="lower left")
     ax = panels[2]
-    ax.errorbar(
-        np.array(lengths) * 1e6, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd"
-    )
+    ax.errorbar(np.array(lengths) * 1e6, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd")
     ax.plot(
         np.repeat(np.array(lengths) * 1e6, loads.shape[1]),
         loads.ravel(),
@@ -172,9 +161,7 @@ def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
     change = {kind: (c.mean(0)[1] / c.mean(0)[0] - 1) for kind, c in curves.items()}
     most = max(float(np.max(np.abs(v))) for v in change.values())
     off = {
-        kind: [
-            100 * float(v[np.argmax(np.abs(v))]) for v in (c.mean(0)[i] / c.mean(0)[0] - 1 for i in (2, 3))
-        ]
+        kind: [100 * float(v[np.argmax(np.abs(v))]) for v in (c.mean(0)[i] / c.mean(0)[0] - 1 for i in (2, 3))]
         for kind, c in curves.items()
     }
     lines = "; ".join(

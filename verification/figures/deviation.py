@@ -45,9 +45,7 @@ def curves_of(acf, length, decay_level=INVERSE_E, seed=1, quick=False, models=AS
     half_space = tabulated(contact_curve(heights, SPACING, e_prime, heaviest=heaviest, tolerance=1e-4))
     asperity = {
         model: tabulated(
-            asperity_curve(
-                heights, SPACING, e_prime, heaviest=heaviest, definition=model[0], reading=model[1]
-            )
+            asperity_curve(heights, SPACING, e_prime, heaviest=heaviest, definition=model[0], reading=model[1])
         )
         for model in models
     }
@@ -136,11 +134,7 @@ def deviation_map(quick: bool) -> PaperFigure:
         for acf, level in (("exponential", math.exp(-1)), ("exponential", 0.1), ("gaussian", math.exp(-1)))
         for length in LENGTHS
     ]
-    others = [
-        ("exponential", length, math.exp(-1), seed)
-        for seed in ((2,) if quick else (2, 3))
-        for length in LENGTHS
-    ]
+    others = [("exponential", length, math.exp(-1), seed) for seed in ((2,) if quick else (2, 3)) for length in LENGTHS]
     curves = spread(curves_of, [(*kind, quick) for kind in kinds + others], quick)
     rows, scatter = [], []
     for (acf, length, level, _), surface in zip(kinds, curves):
@@ -220,14 +214,10 @@ def _draw(rows, loads, scatter) -> bytes:
     for length, colour in zip(LENGTHS, ("C0", "C1")):
         panels[0].semilogx(mega, pick(rows, length), "o-", color=colour, label=f"L = {length * 1e6:g} µm")
         for seed in sorted({s[0] for s in scatter}):
-            panels[0].semilogx(
-                mega, [s[3] for s in scatter if s[:2] == (seed, length)], "-", color=colour, lw=0.7
-            )
+            panels[0].semilogx(mega, [s[3] for s in scatter if s[:2] == (seed, length)], "-", color=colour, lw=0.7)
     panels[0].axhline(32, color="grey", lw=0.8, ls="--")
     panels[0].annotate("paper: up to 32 %", (mega[0], 34), color="grey", fontsize=8)
-    panels[0].set(
-        title="base reading (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62)
-    )
+    panels[0].set(title="base reading (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62))
     panels[0].legend()
     for ax, length in zip(panels[1:], LENGTHS):
         for i, (label, reading) in enumerate(READINGS.items()):
@@ -253,16 +243,17 @@ def _draw(rows, loads, scatter) -> bytes:
 def _verdict(rows, loads, scatter) -> tuple[str, str]:
     base = [pick(rows, length) for length in LENGTHS]
     dips = max(int(np.sum(np.diff(d) < 0)) for d in base)
-    growth = "" if dips > 1 or any(d[-1] < max(d) for d in base) else " and d grows with load" + (
-        ", but for one step" if dips else "")
+    growth = (
+        ""
+        if dips > 1 or any(d[-1] < max(d) for d in base)
+        else " and d grows with load" + (", but for one step" if dips else "")
+    )
     most, where = max((d, p) for d_of in base for d, p in zip(d_of, loads))
     ratio = [b / a for a, b in zip(*base)]
     shrinking = [
         label
         for label, reading in READINGS.items()
-        if all(
-            0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading))
-        )
+        if all(0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading)))
     ]
     seeds = [s[3] for s in scatter]
     agrees = (

@@ -67,9 +67,7 @@ class GapTable:
         """Mean gap [m] and contact area fraction; linear in the pressure below the table."""
         x = math.log(max(pressure, 1e-300))
         if x >= self.log_pressure[0]:
-            return float(np.interp(x, self.log_pressure, self.gap)), float(
-                np.interp(x, self.log_pressure, self.area)
-            )
+            return float(np.interp(x, self.log_pressure, self.gap)), float(np.interp(x, self.log_pressure, self.area))
         share = pressure / math.exp(self.log_pressure[0])
         return self.touching_gap - share * (self.touching_gap - self.gap[0]), share * self.area[0]
 
@@ -169,9 +167,7 @@ def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_fric
     split = brentq(surplus, low, high, xtol=1e-7)
     film_share = 1 / (1 + math.exp(-split))
     touching = curve.at(min((1 - film_share) * mean_pressure, most))[1]
-    return Shared(
-        boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching
-    )
+    return Shared(boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching)
 
 
 def deviation(asperity, half_space) -> tuple[float, int]:

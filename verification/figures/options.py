@@ -65,7 +65,7 @@ def film_deflection(quick: bool) -> PaperFigure:
         "paper can leave it open.",
         "The paper lets the film be deformed by its own pressure only. Johnson, Greenwood and Poon, and after them Gelinck and "
         "Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus E' F_H/F_T at the load F_H: "
-        "the deflection of the total pressure when both pressures have the same shape. `\"total\"` takes the contact's pressure as "
+        'the deflection of the total pressure when both pressures have the same shape. `"total"` takes the contact\'s pressure as '
         "it is found (its semi-ellipse), so the two pressures need not have one shape. At a high load and a small film share "
         "the film's own pressure cannot flatten the gap, whose mean over the strip then is that of the undeformed parabola, "
         "and the friction does not tend to that of the boundary; under both other options it does. The flat strip has no "

@@ -15,9 +15,7 @@ from .page import PaperFigure
 RADIUS, HEIGHT, E_PRIME = 30e-6, 500e-9, 231e9
 SPACINGS = (14e-6, 20e-6, 30e-6, 40e-6)
 CELL, BOX = 115e-9, 230e-6  # the paper's grid: 2000 points of 115 nm
-MEAN_OF_BOX = (
-    8 / math.pi * math.asinh(1.0)
-)  # u E'/(p a) at the centre of a square of side a under the pressure p
+MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a square of side a under the pressure p
 
 
 def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
@@ -69,9 +67,7 @@ def sphere_array(quick: bool) -> PaperFigure:
         asperities.plot(free * 1e9, alone * 1e3, "o-", label=label)
         left_out.plot(free * 1e9, loads * 1e3, "o-", label=label)
         kept.plot(held * 1e9, loads * 1e3, "o-", label=label)
-        rows += [
-            (distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())
-        ]
+        rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]
         ratio[distance] = (
             float(np.median(loads / hertz_load(free))),
             float(np.median(loads / hertz_load(held))),

@@ -14,10 +14,13 @@ def main(argv: list[str]) -> int:
     """
     from . import charts, measure, switches
     from .scenes import SEED
+
     parser = argparse.ArgumentParser("python -m verification levels", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="16 scenes instead of 200")
     parser.add_argument("--out", type=Path, default=Path("out/levels"), help="folder of results (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=SEED, help="of the scenes (default: %(default)s; others are other scenes)")
+    parser.add_argument(
+        "--seed", type=int, default=SEED, help="of the scenes (default: %(default)s; others are other scenes)"
+    )
     options = parser.parse_args(argv)
     count = 16 if options.quick else 200
     rows = measure.run(count, options.out / f"scenes-{options.seed}.jsonl", seed=options.seed, tell=_tell)
@@ -35,11 +38,14 @@ def main(argv: list[str]) -> int:
 
 def _verdict(rows, tolerance: float) -> bool:
     from . import measure
+
     errors = measure.errors(rows, tolerance)
     within = sum(e <= tolerance for e in errors) / len(errors)
     lost = len(rows) - len(errors)
-    print(f"tolerance {100 * tolerance:g} %: {100 * within:.1f} % of {len(errors)} scenes within, largest "
-          f"{100 * max(errors):.2g} %{f', {lost} not solved' if lost else ''}")
+    print(
+        f"tolerance {100 * tolerance:g} %: {100 * within:.1f} % of {len(errors)} scenes within, largest "
+        f"{100 * max(errors):.2g} %{f', {lost} not solved' if lost else ''}"
+    )
     return within >= 0.99 and max(errors) <= 3 * tolerance and lost == 0
 
 

@@ -7,12 +7,13 @@ from pathlib import Path
 from .measure import TOLERANCES
 
 COLOURS = ("#1f5a94", "#2f7d4f", "#b3392f", "#8a5a9e", "#c98a1b", "#6b6b6b", "#3a9ea5", "#a0522d")
-LEAST = 1e-8               # errors below it are drawn there
+LEAST = 1e-8  # errors below it are drawn there
 
 
 def _axes(rows: int, columns: int, size):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     return figure, figure.subplots(rows, columns, squeeze=False)
@@ -25,13 +26,22 @@ def error_against_saving(rows: list[dict], path: Path) -> None:
         good = [r for r in rows if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]]
         kinds = sorted({(r[f"{tolerance:g}"]["film"], r[f"{tolerance:g}"]["contact"]) for r in good})
         for kind, colour in zip(kinds, COLOURS):
-            mine = [(r["reference"]["seconds"] / r[f"{tolerance:g}"]["seconds"],
-                     max(abs(r[f"{tolerance:g}"]["f"] / r["reference"]["f"] - 1), LEAST)) for r in good
-                    if (r[f"{tolerance:g}"]["film"], r[f"{tolerance:g}"]["contact"]) == kind]
-            axis.loglog(*zip(*mine), "o", ms=4, alpha=0.7, color=colour, mew=0, label=f"film {kind[0]}, contact {kind[1]}")
+            mine = [
+                (
+                    r["reference"]["seconds"] / r[f"{tolerance:g}"]["seconds"],
+                    max(abs(r[f"{tolerance:g}"]["f"] / r["reference"]["f"] - 1), LEAST),
+                )
+                for r in good
+                if (r[f"{tolerance:g}"]["film"], r[f"{tolerance:g}"]["contact"]) == kind
+            ]
+            axis.loglog(
+                *zip(*mine), "o", ms=4, alpha=0.7, color=colour, mew=0, label=f"film {kind[0]}, contact {kind[1]}"
+            )
         axis.axhline(tolerance, color="black", lw=1)
         axis.axvline(1, color="black", lw=0.5, ls=":")
-        axis.set(title=f"tolerance {100 * tolerance:g} %", xlabel="time of the reference / time (-)", ylim=(0.5 * LEAST, 0.2))
+        axis.set(
+            title=f"tolerance {100 * tolerance:g} %", xlabel="time of the reference / time (-)", ylim=(0.5 * LEAST, 0.2)
+        )
     axes[0, 0].set_ylabel("|f − f_full| / f_full (-)")
     handles = {label: dot for axis in axes[0] for dot, label in zip(*axis.get_legend_handles_labels())}
     figure.legend(handles.values(), handles, frameon=False, fontsize=8, loc="outside lower center", ncols=3)

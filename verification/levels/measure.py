@@ -27,9 +27,15 @@ def solve(model, tolerance: float, kind: str) -> dict:
     except LubfricError as error:
         return {"error": f"{type(error).__name__}: {error}", "seconds": time.process_time() - begun}
     d = found.decision
-    return {"f": found.coefficient, "film_share": found.film_load / model.scene.bodies.load,
-            "seconds": time.process_time() - begun, "film": d.film, "contact": d.contact, "coarsening": list(d.coarsening),
-            "text": d.text}
+    return {
+        "f": found.coefficient,
+        "film_share": found.film_load / model.scene.bodies.load,
+        "seconds": time.process_time() - begun,
+        "film": d.film,
+        "contact": d.contact,
+        "coarsening": list(d.coarsening),
+        "text": d.text,
+    }
 
 
 def row(index: int, values: dict) -> dict:
@@ -47,7 +53,7 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
 
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """
-    row(0, points(1)[0])                                            # imports are no part of any time
+    row(0, points(1)[0])  # imports are no part of any time
     rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
     known = {r["index"] for r in rows}
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -64,24 +70,33 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
 
 def errors(rows: list[dict], tolerance: float) -> list[float]:
     """|f - f_full|/f_full of the rows that have both, in order."""
-    return [abs(r[f"{tolerance:g}"]["f"] / r["reference"]["f"] - 1) for r in rows
-            if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]]
+    return [
+        abs(r[f"{tolerance:g}"]["f"] / r["reference"]["f"] - 1)
+        for r in rows
+        if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]
+    ]
 
 
 def median_saving(rows: list[dict], tolerance: float, against: str, *, preparation: bool) -> float:
     """Median ratio of times."""
     extra = (lambda r: r["prepare"]) if preparation else (lambda r: 0.0)
-    return float(np.median([(r[against]["seconds"] + extra(r)) / (r[f"{tolerance:g}"]["seconds"] + extra(r)) for r in rows]))
+    return float(
+        np.median([(r[against]["seconds"] + extra(r)) / (r[f"{tolerance:g}"]["seconds"] + extra(r)) for r in rows])
+    )
 
 
 def savings(rows: list[dict]) -> str:
     """Median ratios of times, in words."""
     lines = []
     for tolerance in TOLERANCES:
-        point, whole, same = (median_saving(rows, tolerance, against, preparation=prepared) for against, prepared in
-                              (("reference", False), ("reference", True), ("full", False)))
-        lines.append(f"tolerance {100 * tolerance:g} %: median time {point:.3g} times less than the reference ({whole:.3g} "
-                     f"with the surface made), {same:.3g} times less than everything at 1 %")
+        point, whole, same = (
+            median_saving(rows, tolerance, against, preparation=prepared)
+            for against, prepared in (("reference", False), ("reference", True), ("full", False))
+        )
+        lines.append(
+            f"tolerance {100 * tolerance:g} %: median time {point:.3g} times less than the reference ({whole:.3g} "
+            f"with the surface made), {same:.3g} times less than everything at 1 %"
+        )
     return "\n".join(lines)
 
 
@@ -91,6 +106,7 @@ def finer_reference(index: int, values: dict) -> tuple[float, float]:
     model = prepare(problem)
     coarse = lubfric.friction(model, tolerance=REFERENCE, model="full").coefficient
     fine = model.surface.resampled(shape=tuple(2 * n for n in model.surface.shape))
-    tight = problem.with_(numerics={"ehl_tolerance": 3e-5, "tolerance": 2e-4},
-                          contact={"shape": fine.shape, "spacing": fine.spacing})
+    tight = problem.with_(
+        numerics={"ehl_tolerance": 3e-5, "tolerance": 2e-4}, contact={"shape": fine.shape, "spacing": fine.spacing}
+    )
     return coarse, lubfric.friction(prepare(tight, replace(fine)), model="full").coefficient

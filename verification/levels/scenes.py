@@ -26,14 +26,21 @@ from lubfric.scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 E_PRIME, WIDTH, EYRING, LIMITING = 231e9, 10e-3, 5e6, 0.05
 CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 24, 12, 1.33
 SEED = 7
-LOG_RANGES = {"load": (1e2, 1e6), "speed": (1e-5, 10.0), "radius": (1e-3, 50e-3), "viscosity": (0.005, 1.0),
-              "sq": (10e-9, 1e-6), "correlation_length": (2e-6, 50e-6)}
+LOG_RANGES = {
+    "load": (1e2, 1e6),
+    "speed": (1e-5, 10.0),
+    "radius": (1e-3, 50e-3),
+    "viscosity": (0.005, 1.0),
+    "sq": (10e-9, 1e-6),
+    "correlation_length": (2e-6, 50e-6),
+}
 LARGEST_ALPHA, CONSTANT_BELOW = 30e-9, 1.5e-9
 
 
 def points(count: int, seed: int = SEED) -> list[dict]:
     """The first ``count`` points (a power of two is drawn): values by name, load in N/m."""
     from scipy.stats import qmc
+
     unit = qmc.Sobol(len(LOG_RANGES) + 2, seed=seed).random_base2(math.ceil(math.log2(count)))[:count]
     table = []
     for row in unit:
@@ -53,12 +60,22 @@ def scene(values: dict, index: int) -> Scene:
     reach = max(REACH * (half_width + math.sqrt(6 * radius * sq)), LENGTHS_ALONG / 2 * length)
     shape = (8 * math.ceil(2 * reach / across / 8), CELLS_PER_LENGTH * LENGTHS_ALONG)
     constant = values["alpha"] < CONSTANT_BELOW
-    lubricant = Lubricant(values["viscosity"], 0.0 if constant else values["alpha"],
-                          "constant" if constant else "roelands", eyring_stress=EYRING,
-                          limiting_stress_coefficient=LIMITING)
-    return Scene(Bodies(radius, WIDTH, load * WIDTH, E_PRIME, 0.1, hardness), lubricant, Motion(values["speed"]),
-                 Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
-                 Patch(shape=shape, spacing=(across, cell)), Numerics(), name=f"scene {index}")
+    lubricant = Lubricant(
+        values["viscosity"],
+        0.0 if constant else values["alpha"],
+        "constant" if constant else "roelands",
+        eyring_stress=EYRING,
+        limiting_stress_coefficient=LIMITING,
+    )
+    return Scene(
+        Bodies(radius, WIDTH, load * WIDTH, E_PRIME, 0.1, hardness),
+        lubricant,
+        Motion(values["speed"]),
+        Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
+        Patch(shape=shape, spacing=(across, cell)),
+        Numerics(),
+        name=f"scene {index}",
+    )
 
 
 def table(count: int) -> list[Scene]:

@@ -66,10 +66,7 @@ def judged(condition: Condition, method: str, solve: Callable, check: Callable, 
     try:
         result = solve()
     except Exception as failure:
-        if not (
-            isinstance(failure, lubfric.LubfricError)
-            or type(failure).__name__ in ("SolveError", "InputError")
-        ):
+        if not (isinstance(failure, lubfric.LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
             raise
         return _cell(
             condition,

@@ -31,9 +31,7 @@ def main(argv: list[str]) -> int:
     print(table(cells))
     bad = [c for c in cells if c.default and (c.verdict == WRONG or c.verdict == FAILED and c.inside)]
     for c in bad:
-        print(
-            f"{c.verdict}: {c.map}, {c.panel}, x = {c.x:g}, y = {c.y:g}, {c.method}: {c.note} {c.error:.3g}"
-        )
+        print(f"{c.verdict}: {c.map}, {c.panel}, x = {c.x:g}, y = {c.y:g}, {c.method}: {c.note} {c.error:.3g}")
     for path in save(cells, seconds, options.level, options.out):
         print(path)
     print(f"{len(cells)} cells in {seconds:.0f} s")
@@ -45,9 +43,7 @@ def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser("python -m verification stability", description=__doc__)
     level = p.add_mutually_exclusive_group()
     level.add_argument("--quick", dest="level", action="store_const", const="quick", help="within a minute")
-    level.add_argument(
-        "--full", dest="level", action="store_const", const="full", help="every cell (default)"
-    )
+    level.add_argument("--full", dest="level", action="store_const", const="full", help="every cell (default)")
     p.add_argument("--only", nargs="+", choices=list(MAPS), metavar="MAP", help=f"of {', '.join(MAPS)}")
     p.add_argument("--workers", type=int, default=1, help="processes (default: 1)")
     p.add_argument("--out", type=Path, default=Path("out/stability"), metavar="DIR")

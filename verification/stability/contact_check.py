@@ -37,9 +37,7 @@ def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
         return x * np.log(y + r) + y * np.log(x + r)
 
     kernel = (
-        2
-        / (math.pi * e_prime)
-        * (corner(right, high) - corner(left, high) - corner(right, low) + corner(left, low))
+        2 / (math.pi * e_prime) * (corner(right, high) - corner(left, high) - corner(right, low) + corner(left, low))
     )
     table = kernel[(np.arange(nx)[:, None] - np.arange(nx)) + nx - 1]  # (nx, nx, 2 ny - 1)
     u = np.zeros_like(pressure)

@@ -40,9 +40,7 @@ SURFACES = (
 
 
 @lru_cache(maxsize=64)
-def surface(
-    kind: str, nx: int, ny: int, sigma: float = 0.2e-6, spacing: float = 1e-6, seed: int = 3
-) -> np.ndarray:
+def surface(kind: str, nx: int, ny: int, sigma: float = 0.2e-6, spacing: float = 1e-6, seed: int = 3) -> np.ndarray:
     """Heights [m] of rms ``sigma``: fields of a given spectrum in a box of nx x ny cells, or a simple shape."""
     x, y = (np.arange(n) * spacing for n in (nx, ny))
     if kind == "sine":
@@ -100,9 +98,7 @@ def solved(here: Condition, gap0, spacing, boundary, second=False, solver=solve_
 
 def _second(result, gap0, spacing, physical) -> dict[str, float]:
     operator = lubfric.halfspace.half_space(gap0.shape, spacing, E_PRIME)
-    p, converged = polonsky_keer(
-        gap0, operator, physical["mean_pressure"], tolerance=1e-9, max_iterations=3000
-    )
+    p, converged = polonsky_keer(gap0, operator, physical["mean_pressure"], tolerance=1e-9, max_iterations=3000)
     if not converged:
         return {}
     gap = gap0 + operator.apply(p)
@@ -150,9 +146,7 @@ def hardnesses(quick: bool) -> Iterator[Cell]:
         for label, boundary in list(BOUNDARIES.items())[: 1 if quick else 3]:
             z = surface(kind, n, n)
             for hardness in np.geomspace(1e-5, 1, 3 if quick else 6):
-                for share in (
-                    (1e-4, 0.5, 1.0) if quick else (1e-8, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999, 1.0)
-                ):
+                for share in (1e-4, 0.5, 1.0) if quick else (1e-8, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999, 1.0):
                     limit = float(hardness) * E_PRIME
                     yield solved(
                         Condition("contact: hardness", f"{kind}, {label}", hardness, share),
@@ -191,9 +185,7 @@ def sizes(quick: bool) -> Iterator[Cell]:
             for label, boundary in BOUNDARIES.items():
                 for pressure in (1e8,) if quick else (1e6, 1e9, 3e10):
                     yield solved(
-                        Condition(
-                            "contact: size and aspect ratio", f"{label}, {pressure / 1e6:g} MPa", aspect, row
-                        ),
+                        Condition("contact: size and aspect ratio", f"{label}, {pressure / 1e6:g} MPa", aspect, row),
                         z.max() - z,
                         (1e-6 * aspect, 1e-6),
                         boundary,
@@ -251,9 +243,7 @@ def tilts(quick: bool) -> Iterator[Cell]:
                 for pressure in (1e8,) if quick else (1e6, 1e8, 1e10):
                     gap0 = np.round(tilted.max() - tilted, 15) + offset
                     yield solved(
-                        Condition(
-                            "contact: tilt and offset", f"{label}, {pressure / 1e6:g} MPa", tilt, offset
-                        ),
+                        Condition("contact: tilt and offset", f"{label}, {pressure / 1e6:g} MPa", tilt, offset),
                         gap0,
                         1e-6,
                         boundary,
@@ -273,9 +263,7 @@ def precisions(quick: bool) -> Iterator[Cell]:
             for pressure in (2e8,) if quick else (1e5, 2e8, 5e9):
                 gap0 = (z.max() - z).astype(dtype)
                 yield solved(
-                    Condition(
-                        "contact: precision, tolerance, start", f"{pressure / 1e6:g} MPa", tolerance, row
-                    ),
+                    Condition("contact: precision, tolerance, start", f"{pressure / 1e6:g} MPa", tolerance, row),
                     gap0.astype(float),
                     1e-6,
                     PERIODIC,

@@ -62,9 +62,7 @@ def table(cells: list[Cell]) -> str:
         lines.append(f"{name:<40}{label:<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
     defaults = [c for c in cells if c.default]
     found = Counter(c.verdict for c in defaults)
-    lines.append(
-        f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS)
-    )
+    lines.append(f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
     promised = sum(c.verdict == FAILED and c.inside for c in defaults)
     lines.append(f"reported failures of default methods inside the range promised: {promised}")
     return "\n".join(lines)
@@ -120,13 +118,9 @@ def panel(ax, cells: list[Cell]) -> None:
         if axis not in linear and min(values) > 0:
             getattr(ax, f"set_{axis}scale")("log")
         elif axis not in linear or name.startswith("sharing: speed") and axis == "x":
-            getattr(ax, f"set_{axis}scale")(
-                "symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12
-            )
+            getattr(ax, f"set_{axis}scale")("symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12)
     if name.startswith("sharing: speed"):
         ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
     labels = AXES.get(name, ("", ""))
     ax.set(xlabel=labels[0], ylabel=labels[1])
-    ax.set_title(
-        f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9
-    )
+    ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)

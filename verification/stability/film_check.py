@@ -31,9 +31,7 @@ def density_ratio(law: str, pressure) -> np.ndarray:
     return np.ones_like(pressure) if law == "constant" else (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
-def deflection(
-    points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float
-) -> np.ndarray:
+def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float) -> np.ndarray:
     """-(4/(pi E')) ∫ p ln(|points - x|/reference) dx of a piecewise linear pressure."""
 
     def log(t):
@@ -85,9 +83,7 @@ def cell_flow(x, p, result, case, law) -> np.ndarray:
         + centre**2 / (2 * case["radius"])
     )
     steps = 0.5 * np.diff(p)[:, None] * POINTS
-    log_eta = viscosity_ratio(
-        law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps
-    )
+    log_eta = viscosity_ratio(law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps)
     fluidity = np.exp(-log_eta) @ (0.5 * WEIGHTS)
     poiseuille = h**3 * fluidity * np.diff(p) / dx / (12 * case["viscosity"] * abs(case["entrainment_speed"]))
     return density_ratio(case.get("density", "constant"), inside) * (h - poiseuille)

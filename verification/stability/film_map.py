@@ -55,7 +55,11 @@ def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
     """(min_film, flow_film, method): another discretisation, else the tightest Newton solution that there is."""
     case = dict(items)
     for solve, name, options in (
-        (solve_differential_deflection, "differential deflection", {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
+        (
+            solve_differential_deflection,
+            "differential deflection",
+            {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES},
+        ),
         (solve_ehl, "tight", {"tolerance": 0.1 * tolerance}),
         (solve_ehl, "finer", {"tolerance": 0.3 * tolerance}),
     ):
@@ -206,9 +210,7 @@ def starts(quick: bool) -> Iterator[Cell]:
         for row, (M, L) in enumerate(points):
             case = case_of(M, L)
             here = Condition("film: poor start", "cases by M, L", column, row)
-            yield judged(
-                here, "solve_ehl", lambda case=case, film=film: solve_ehl(**case, start=film), checked(case)
-            )
+            yield judged(here, "solve_ehl", lambda case=case, film=film: solve_ehl(**case, start=film), checked(case))
 
 
 def starved(quick: bool) -> Iterator[Cell]:

@@ -85,9 +85,7 @@ def checked(model: Model, speed: float):
         found = {
             "load": abs((result.contact_load + result.film_load) / total - 1),
             "friction sum": abs(result.coefficient * total - forces) / abs(forces),
-            "bounds": 0.0
-            if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1
-            else 1.0,
+            "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
         }
         if speed == 0:
             coefficient, split = scene.bodies.boundary_friction_coefficient, 1.0
@@ -95,9 +93,7 @@ def checked(model: Model, speed: float):
             coefficient, split = judge(model, result, speed)
         found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
-        allowed = ALLOWED | {
-            "load": 2 * scene.numerics.volume_tolerance
-        }  # what one closure balances, the other keeps
+        allowed = ALLOWED | {"load": 2 * scene.numerics.volume_tolerance}  # what one closure balances, the other keeps
         return {name: value / allowed[name] for name, value in found.items()}
 
     return check
@@ -240,9 +236,7 @@ def special_speeds(quick: bool) -> Iterator[Cell]:
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
         for speed in (
-            (0.0, -0.01, 0.01)
-            if quick
-            else (0.0, *np.geomspace(1e-10, 30, 12), *-np.geomspace(1e-10, 30, 12))
+            (0.0, -0.01, 0.01) if quick else (0.0, *np.geomspace(1e-10, 30, 12), *-np.geomspace(1e-10, 30, 12))
         ):
             here = Condition("sharing: speed, either sign", name, float(speed), column)
             yield judged(
@@ -258,9 +252,7 @@ def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
     for share in (
-        (0.5,)
-        if quick
-        else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6)
+        (0.5,) if quick else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6)
     ):
         low, high = math.log(1e-14), math.log(1e2)
         for _ in range(16 if quick else 40):

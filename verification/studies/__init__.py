@@ -27,27 +27,41 @@ class Study:
         module, _, function = self.target.partition(":")
         unknown = set(self.levels) - set(LEVELS)
         if not (module and function) or unknown or not self.levels:
-            raise ValueError(f"study {self.name!r}: target = {self.target!r}, levels = {self.levels}; allowed: "
-                             f"'module:function' and a choice of {LEVELS}")
+            raise ValueError(
+                f"study {self.name!r}: target = {self.target!r}, levels = {self.levels}; allowed: "
+                f"'module:function' and a choice of {LEVELS}"
+            )
 
 
 STUDIES: tuple[Study, ...] = (
     Study("reynolds", "verification.studies.reynolds:reynolds", "Reynolds equation on a line"),
-    Study("reynolds_surface", "verification.studies.reynolds_surface:reynolds_surface",
-          "Reynolds equation on a surface"),
+    Study(
+        "reynolds_surface", "verification.studies.reynolds_surface:reynolds_surface", "Reynolds equation on a surface"
+    ),
     Study("layer", "verification.studies.layer:layer", "Elastic layer by finite elements, and the half-space"),
     Study("contact", "verification.studies.contact:contact", "Dry contact on the layer: Hertz line"),
-    Study("contact_rough", "verification.studies.contact_rough:contact_rough",
-          "Dry contact on the layer: rough patch"),
+    Study("contact_rough", "verification.studies.contact_rough:contact_rough", "Dry contact on the layer: rough patch"),
     Study("ehl", "verification.studies.ehl:ehl", "Smooth EHL line contact, full-system finite elements"),
-    Study("contact_grid", "verification.studies.contact_grid:contact_grid", "Dry contact of lubfric on ever finer grids"),
+    Study(
+        "contact_grid", "verification.studies.contact_grid:contact_grid", "Dry contact of lubfric on ever finer grids"
+    ),
     Study("ehl_grid", "verification.studies.ehl_grid:ehl_grid", "Smooth film of lubfric on ever finer grids"),
-    Study("friction", "verification.studies.friction:friction", "The whole job of lubfric: grid, patch, area, tolerance"),
-    Study("load_sharing", "verification.studies.load_sharing:load_sharing",
-          "Load sharing, both halves by finite elements"),
-    Study("formulations", "verification.studies.formulations:formulations",
-          "Contact formulations of the paper against the default"),
+    Study(
+        "friction", "verification.studies.friction:friction", "The whole job of lubfric: grid, patch, area, tolerance"
+    ),
+    Study(
+        "load_sharing", "verification.studies.load_sharing:load_sharing", "Load sharing, both halves by finite elements"
+    ),
+    Study(
+        "formulations",
+        "verification.studies.formulations:formulations",
+        "Contact formulations of the paper against the default",
+    ),
     Study("transient", "verification.studies.transient:transient", "Smooth contact in time: squeeze, stops, jumps"),
-    Study("transient_mixed", "verification.studies.transient_mixed:transient_mixed", "Load sharing in time",
-          ("default", "full")),
+    Study(
+        "transient_mixed",
+        "verification.studies.transient_mixed:transient_mixed",
+        "Load sharing in time",
+        ("default", "full"),
+    ),
 )

@@ -160,9 +160,7 @@ def hertz_checks(found: Layer, p: Contact, x, smooth, off, level: str):
         DRY,
         unit="m",
     )
-    yield Check(
-        "Hertz line P2: pressure difference to lubfric", off[-1], 0, wide * 5e-3, DRY, AT_MOST, note="L2"
-    )
+    yield Check("Hertz line P2: pressure difference to lubfric", off[-1], 0, wide * 5e-3, DRY, AT_MOST, note="L2")
     yield Check(
         "Hertz line P2: the difference shrinks, finest over coarsest mesh",
         off[-1] / off[0],
@@ -204,9 +202,7 @@ def capped_cylinder(found: Layer, elastic: Contact, x, smooth, level: str):
     ax.plot(x / B, other.pressure[:, 0] / PEAK, "k--", linewidth=1, label="lubfric, capped")
     ax.set(xlabel="x/b", ylabel="pressure / Hertz peak", xlim=(-1.5, 1.5))
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.1))
-    yield plotting.finish(
-        "contact_line", canvas, "Cylinder on the layer, elastic and with a cap on the pressure."
-    )
+    yield plotting.finish("contact_line", canvas, "Cylinder on the layer, elastic and with a cap on the pressure.")
     sigma = found.stress(elastic.pressure * found.weights)
     mises = np.sqrt(np.maximum(plane_mises(sigma, BODY.poisson), 0))
     data = dict(zip(("sigma_xx", "sigma_zz", "sigma_xz"), sigma, strict=True), von_mises=mises)
@@ -223,9 +219,7 @@ def axis_stress(found: Layer, sigma):
     off = sigma[:2, at] / PEAK - exact
     even = off[0].mean()
     note = "depths of 0.2 to 3 half-widths, over the peak pressure, projected on the vertices"
-    yield Check(
-        "Hertz line: axial stress on the axis", np.abs(off[1]).max(), 0, 5e-3, HERTZ, AT_MOST, note=note
-    )
+    yield Check("Hertz line: axial stress on the axis", np.abs(off[1]).max(), 0, 5e-3, HERTZ, AT_MOST, note=note)
     yield Check(
         "Hertz line: lateral stress on the axis",
         np.abs(off[0] - even).max(),

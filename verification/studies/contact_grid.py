@@ -77,17 +77,12 @@ def contact_grid(level: str):
     yield from row_of_spheres(16)
 
 
-def family(
-    name: str, solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]]
-):
+def family(name: str, solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]]):
     """Errors of one shape on all grids; ``allowed`` is the bound with ``at`` cells and the order by which it
     falls.
     """
     errors = np.array(
-        [
-            np.sqrt(np.mean([np.square(solve(n, place / PLACES)) for place in range(PLACES)], axis=0))
-            for n in cells
-        ]
+        [np.sqrt(np.mean([np.square(solve(n, place / PLACES)) for place in range(PLACES)], axis=0)) for n in cells]
     )
     sizes = [1 / n for n in cells]
     for (quantity, (bound, order)), column in zip(allowed.items(), errors.T, strict=True):
@@ -100,9 +95,7 @@ def family(
             AT_MOST,
             note=f"{cells[-1]} {size}",
         )
-        yield Check(
-            f"{name}: {quantity}, order", fitted_order(sizes, column), order, 0.3, REASONS[order], AT_LEAST
-        )
+        yield Check(f"{name}: {quantity}, order", fitted_order(sizes, column), order, 0.3, REASONS[order], AT_LEAST)
     yield Table(
         f"contact_{name}",
         f"Relative errors of a {name}, root mean squares over {PLACES} places of the edge.",

@@ -227,17 +227,13 @@ def patch_field(p: Patch, best: Patch):
     values |= {"gap_fem": p.gap, "gap_lubfric": best.gap[::every, ::every]}
     values |= {f"{q}_difference": values[f"{q}_fem"] - values[f"{q}_lubfric"] for q in ("pressure", "gap")}
     data = {name: v[at] for name, v in values.items()}
-    return mesh_field(
-        "contact_rough_patch", "Rough patch: pressure in Pa, gap in m, both solvers", mesh, data
-    )
+    return mesh_field("contact_rough_patch", "Rough patch: pressure in Pa, gap in m, both solvers", mesh, data)
 
 
 def thickness(level: str):
     """Mean gap of the rough patch against the thickness of the layer."""
     nodes = 32 if level == "quick" else 64
-    reach = np.cumsum(
-        BOX / nodes * 1.2 ** np.arange(20)
-    )  # the same levels near the surface, fewer or more below
+    reach = np.cumsum(BOX / nodes * 1.2 ** np.arange(20))  # the same levels near the surface, fewer or more below
     depths = reach[(reach > 0.25 * BOX) & (reach < 1.4 * BOX)] / BOX
 
     def gap(depth: float) -> float:

@@ -68,12 +68,8 @@ def point_checks(pair: Pair, level: str):
     s, k = pair.finest, pair.finest.contact.moes_film
     tolerance = 1e-2 if level == "quick" else 5e-3
     note = f"p_h = {s.contact.hertz_pressure / 1e9:.3f} GPa, {s.body.stiffness.shape[0]} degrees of freedom"
-    yield Check(
-        f"{pair.label}: flow film", s.flow_film / k, pair.line.flow_film / k, tolerance, SOLVER, note=note
-    )
-    yield Check(
-        f"{pair.label}: smallest film", s.min_film / k, pair.line.min_film / k, tolerance, SOLVER, note=note
-    )
+    yield Check(f"{pair.label}: flow film", s.flow_film / k, pair.line.flow_film / k, tolerance, SOLVER, note=note)
+    yield Check(f"{pair.label}: smallest film", s.min_film / k, pair.line.min_film / k, tolerance, SOLVER, note=note)
     if pair.point in TABLE:
         smallest, flow = TABLE[pair.point]
         yield Check(f"{pair.label}: flow film, table", s.flow_film / k, flow, tolerance, TABLE_SOURCE)
@@ -130,9 +126,7 @@ def ringing():
         order = np.argsort(s.body.x)
         ax.plot(s.body.x[order], s.P[order], marker=".", label=label, linewidth=1.2)
         variation[label] = np.abs(np.diff(s.P[order])).sum() / 2
-    ax.set(
-        xlim=(-1.6, 1.3), xlabel="x / b", ylabel="p / p_h", title=f"M = 200, L = 10 on {s.body.line.N} points"
-    )
+    ax.set(xlim=(-1.6, 1.3), xlabel="x / b", ylabel="p / p_h", title=f"M = 200, L = 10 on {s.body.line.N} points")
     ax.legend()
     for label, kind, bound in (("Galerkin", AT_LEAST, 2.0), ("slope penalty", AT_MOST, 1.6)):
         yield Check(
@@ -157,10 +151,7 @@ def finite_body():
     sides = np.array([60.0, 120.0, 240.0, 480.0])
     contact = make_contact(20, 5)
     films = np.array(
-        [
-            [s.flow_film, s.min_film]
-            for s in (solve_ehl(contact, refinements=1, side=side)[-1] for side in sides)
-        ]
+        [[s.flow_film, s.min_film] for s in (solve_ehl(contact, refinements=1, side=side)[-1] for side in sides)]
     )
     limit = films[-1] + (films[-1] - films[-2]) / 3
     errors = np.abs(films / limit - 1)
@@ -173,12 +164,8 @@ def finite_body():
             "curvature of the surface under the image of the load, O((b/D)²)",
             ABSOLUTE,
         )
-        yield Check(
-            f"finite body: {name}'s error with D = 60 b", error[0], 5e-4, 0.0, "small against 0.5 %", AT_MOST
-        )
-        yield Check(
-            f"finite body: {name}'s error with D = 240 b, used here", error[2], 3e-5, 0.0, "likewise", AT_MOST
-        )
+        yield Check(f"finite body: {name}'s error with D = 60 b", error[0], 5e-4, 0.0, "small against 0.5 %", AT_MOST)
+        yield Check(f"finite body: {name}'s error with D = 240 b, used here", error[2], 3e-5, 0.0, "likewise", AT_MOST)
     series = {
         name: (1 / sides[:3], error[:3], 2)
         for name, error in zip(("flow film", "smallest film"), errors.T, strict=True)

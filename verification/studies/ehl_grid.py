@@ -172,9 +172,7 @@ def starved():
     distances, losses = [], []
     flooded = film(RIGID_LOAD, 5.0, 1e-4, "constant")
     for inlet in INLETS:
-        f = film(
-            RIGID_LOAD, 5.0, 1e-4, "constant", inlet_length=inlet * math.sqrt(2 * RADIUS * flooded.min_film)
-        )
+        f = film(RIGID_LOAD, 5.0, 1e-4, "constant", inlet_length=inlet * math.sqrt(2 * RADIUS * flooded.min_film))
         exact = Parabola(VISCOSITY, f.entrainment_speed, RADIUS, f.min_film, -f_inlet(f, inlet, flooded))
         yield Check(
             f"starved inlet at {inlet:g} √(2 R h): load",

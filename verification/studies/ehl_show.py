@@ -96,17 +96,14 @@ def profiles(pairs: list[Pair]):
             linewidth=0.8,
             label="p/p_h, lubfric",
         )
-        ax.plot(
-            x / b, h / k / 2, color="C1", label="h/(2 flow film), finite elements", linewidth=2.5, alpha=0.5
-        )
+        ax.plot(x / b, h / k / 2, color="C1", label="h/(2 flow film), finite elements", linewidth=2.5, alpha=0.5)
         ax.plot(x / b, pair.line.film_at(x) / k / 2, "k--", linewidth=0.8, label="h/(2 flow film), lubfric")
         ax.set(xlim=(x[0] / b, x[-1] / b), ylim=(0, 1.25), title=f"{pair.label}", xlabel="x / b")
     grid.flat[0].legend(fontsize=6.5, loc="upper left")
     return plotting.finish(
         "ehl_profiles",
         canvas,
-        "Pressure and film of both solvers on the finest mesh. The pressure spike is "
-        "no converged quantity of either.",
+        "Pressure and film of both solvers on the finest mesh. The pressure spike is no converged quantity of either.",
     )
 
 

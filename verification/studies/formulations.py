@@ -94,8 +94,7 @@ def formulations(level: str):
             for name, method in METHODS.items():
                 seconds, found = _timed(lambda method=method, case=case: method(case))
                 difference = float(
-                    np.linalg.norm(found.pressure - case.direct.pressure)
-                    / np.linalg.norm(case.direct.pressure)
+                    np.linalg.norm(found.pressure - case.direct.pressure) / np.linalg.norm(case.direct.pressure)
                 )
                 rows.append(_row(case, name, found, difference, seconds))
                 if name in MUST_AGREE:
@@ -138,9 +137,7 @@ def closures(level: str):
                 lambda c=closure, u=speed: lubfric.friction(scene.with_(numerics={"closure": c}), u), 1
             )
             points[closure] = point
-            rows.append(
-                (speed, closure, point.coefficient, point.film_load, point.report.evaluations, seconds)
-            )
+            rows.append((speed, closure, point.coefficient, point.film_load, point.report.evaluations, seconds))
         yield Check(
             f"closures agree on the coefficient at {speed:g} m/s",
             points["separation"].coefficient,

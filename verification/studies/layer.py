@@ -53,9 +53,7 @@ def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY
     ``depth`` is the thickness in wavelengths.
     """
     rows = max(4, round(depth * cells))
-    mesh = MeshTri.init_tensor(
-        np.linspace(-WAVE / 2, WAVE / 2, cells + 1), np.linspace(-depth * WAVE, 0, rows + 1)
-    )
+    mesh = MeshTri.init_tensor(np.linspace(-WAVE / 2, WAVE / 2, cells + 1), np.linspace(-depth * WAVE, 0, rows + 1))
     found = make_layer(mesh, body, degree=degree)
     pressure = np.cos(K * found.x)
     moved = found.displacement(pressure * found.weights)
@@ -191,9 +189,7 @@ def assembled(level: str):
         for name, modes in near_null_spaces(grid, degree).items():
             solved = solve(multigrid(grid, modes), force, tolerance=1e-9, max_iterations=300)
             off = float(np.abs(solved.surface - waves).max() / np.abs(waves).max())
-            rows.append(
-                (f"Q{degree}", grid.unknowns, name, solved.report.iterations, solved.report.residual, off)
-            )
+            rows.append((f"Q{degree}", grid.unknowns, name, solved.report.iterations, solved.report.residual, off))
         best = next(r for r in rows if r[0] == f"Q{degree}")
         yield Check(
             f"Q{degree}, {n}² nodes: multigrid against wave by wave",
@@ -237,9 +233,7 @@ def approach(level: str):
     """How a wave on the layer nears the same wave on the half-space."""
     depths = np.arange(0.5, 5.1 if level == "quick" else 7.1, 0.5)
     cells = {"quick": 32, "default": 48, "full": 64}[level]
-    found = np.array(
-        [1 - plane_wave(cells, 2, s / (2 * np.pi))[0] / half_space_compliance(K, BODY) for s in depths]
-    )
+    found = np.array([1 - plane_wave(cells, 2, s / (2 * np.pi))[0] / half_space_compliance(K, BODY) for s in depths])
     exact = np.array([missing(s, BODY.poisson) for s in depths])
     polynomial = (4 * depths**2 + 4 * depths + 2 * (5 - 12 * BODY.poisson + 8 * BODY.poisson**2)) / (
         3 - 4 * BODY.poisson
@@ -265,9 +259,7 @@ def approach(level: str):
     )
     canvas, ax = plotting.axes()
     fine = np.linspace(0.3, 7, 200)
-    ax.semilogy(
-        fine, [missing(s, BODY.poisson) for s in fine], "k-", linewidth=1, label="exact, bonded layer"
-    )
+    ax.semilogy(fine, [missing(s, BODY.poisson) for s in fine], "k-", linewidth=1, label="exact, bonded layer")
     ax.semilogy(depths, np.abs(found), "o", label="finite elements, P2")
     ax.semilogy(depths[3:], polynomial[3:] * np.exp(-2 * depths[3:]), "--", label="q(kd) exp(−2kd)")
     ax.axhline(floor, color="0.6", linewidth=0.8, linestyle=":")

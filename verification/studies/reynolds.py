@@ -39,9 +39,7 @@ def slider(refinements: int):
     series = {}
     for degree in (1, 2):
         mesh = skfem.MeshLine(np.linspace(0, SLIDER.length, 9))
-        found = solve_refined(
-            Problem(mesh, SLIDER.film, Fluid(SLIDER.viscosity), SLIDER.speed, degree), refinements
-        )
+        found = solve_refined(Problem(mesh, SLIDER.film, Fluid(SLIDER.viscosity), SLIDER.speed, degree), refinements)
         sizes = [SLIDER.length / s.problem.mesh.nelements for s in found]
         errors = [s.error(SLIDER.pressure) for s in found]
         series[f"P{degree}"] = (sizes, errors, degree + 1)
@@ -211,9 +209,9 @@ def parabola_figure():
     for ax in (wide, close):
         ax.plot(x[0] / e.scale, e.pressure(x) / e.pressure_scale, "k-", label="closed form", linewidth=1)
     for cells, style in ((50, "o"), (200, ".")):
-        coarse = solve_refined(
-            Problem(parabola_mesh(cells), e.film, Fluid(e.viscosity), e.speed, cavitation=True), 0
-        )[0]
+        coarse = solve_refined(Problem(parabola_mesh(cells), e.film, Fluid(e.viscosity), e.speed, cavitation=True), 0)[
+            0
+        ]
         order = np.argsort(coarse.problem.mesh.p[0])
         big_x, p = coarse.problem.mesh.p[0, order] / e.scale, coarse.at_vertices[order] / e.pressure_scale
         for ax in (wide, close):
@@ -254,9 +252,9 @@ def piezoviscous(refinements: int):
         ),
     )
     for name, e, fluid, to_true in cases:
-        s = solve_refined(
-            Problem(parabola_mesh(100, -10.0), e.film, fluid, e.speed, 2, cavitation=True), refinements
-        )[-1]
+        s = solve_refined(Problem(parabola_mesh(100, -10.0), e.film, fluid, e.speed, 2, cavitation=True), refinements)[
+            -1
+        ]
         at = np.linspace(0, s.problem.mesh.nvertices - 1, 61).astype(int)
         true = to_true(e.pressure(s.problem.mesh.p[:, at]))
         error = np.abs(s.at_vertices[at] - true).max() / true.max()
@@ -287,26 +285,18 @@ def ringing():
     source = "isothermal gas slider (Harrison 1913) integrated upstream to 1e-9"
     canvas, ax = plotting.axes()
     fine = np.linspace(0, GAS.length, 2001)
-    ax.plot(
-        fine / GAS.length, exact.gas_slider(GAS, AMBIENT, fine) / AMBIENT, "k-", linewidth=1, label="exact"
-    )
+    ax.plot(fine / GAS.length, exact.gas_slider(GAS, AMBIENT, fine) / AMBIENT, "k-", linewidth=1, label="exact")
     for label, stabilisation, style in (("Galerkin", "none", "o--"), ("SUPG", "supg", "s-")):
         sizes, errors, over = [], [], []
         for cells in (20, 1280, 2560):
             x = np.linspace(0, GAS.length, cells + 1)
-            s = solve_reynolds(
-                Problem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation)
-            )
+            s = solve_reynolds(Problem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation))
             true = exact.gas_slider(GAS, AMBIENT, x)
             sizes.append(GAS.length / cells)
-            errors.append(
-                s.error(lambda at: np.reshape(exact.gas_slider(GAS, AMBIENT, np.ravel(at[0])), at[0].shape))
-            )
+            errors.append(s.error(lambda at: np.reshape(exact.gas_slider(GAS, AMBIENT, np.ravel(at[0])), at[0].shape)))
             over.append(np.abs(np.diff(s.at_vertices)).sum() / np.abs(np.diff(true)).sum() - 1)
             if cells == 20:
-                ax.plot(
-                    x / GAS.length, s.at_vertices / AMBIENT, style, label=f"{label}, 20 cells", linewidth=1
-                )
+                ax.plot(x / GAS.length, s.at_vertices / AMBIENT, style, label=f"{label}, 20 cells", linewidth=1)
         rings = stabilisation == "none"
         yield Check(
             f"gas slider, {label}: excess variation on 20 cells",
@@ -326,9 +316,7 @@ def ringing():
             ABSOLUTE,
         )
         yield Check(f"gas slider, {label}: finest pressure error", errors[-1], 0.0, 5e-3, source, AT_MOST)
-    ax.set(
-        xlabel="x / L", ylabel="gauge pressure / ambient", title=f"gas slider, bearing number {number:.0f}"
-    )
+    ax.set(xlabel="x / L", ylabel="gauge pressure / ambient", title=f"gas slider, bearing number {number:.0f}")
     ax.legend()
     yield plotting.finish(
         "ringing",

@@ -76,9 +76,7 @@ class Manufactured:
         p, dp, h, dh, f = self.pressure(x), self.gradient(x), self.film(x), self.film_slope(x), self.fluid
         mobility = f.rho(p) * h**3 / (12 * f.eta(p))
         stiffening = slope(f.rho, p) / f.rho(p) - slope(f.log_viscosity, p)
-        spread = mobility * (
-            -(self.wave**2).sum() * p + stiffening * (dp * dp).sum(0) + 3 / h * (dh * dp).sum(0)
-        )
+        spread = mobility * (-(self.wave**2).sum() * p + stiffening * (dp * dp).sum(0) + 3 / h * (dh * dp).sum(0))
         return -spread + SPEED * (slope(f.rho, p) * dp[0] * h + f.rho(p) * dh[0])
 
 
@@ -109,8 +107,7 @@ def manufactured(refinements: int):
             sizes = [LENGTH / (8 * 2**i) for i in range(refinements + 1)]
             order = fitted_order(sizes[-2:], errors[-2:])
             rows += [
-                (label, 8 * 2**i, e, s.report.iterations)
-                for i, (e, s) in enumerate(zip(errors, found, strict=True))
+                (label, 8 * 2**i, e, s.report.iterations) for i, (e, s) in enumerate(zip(errors, found, strict=True))
             ]
             if stabilisation == "none":
                 series[label] = (sizes, errors, degree + 1)
@@ -296,9 +293,7 @@ def rupture_figure(s: Solution, e: exact.Parabola):
     shown = ax.tripcolor(
         *points, s.problem.mesh.to_meshtri().t.T, p, shading="gouraud", cmap="viridis", rasterized=True
     )
-    ax.tricontour(
-        *points, s.problem.mesh.to_meshtri().t.T, p, levels=[1e-3 * p.max()], colors="w", linewidths=1
-    )
+    ax.tricontour(*points, s.problem.mesh.to_meshtri().t.T, p, levels=[1e-3 * p.max()], colors="w", linewidths=1)
     ax.axvline(e.exit, color="w", linestyle=":")
     ax.set(xlim=(-2, 1), xlabel="x / √(2 R h₀)", ylabel="y / √(2 R h₀)", aspect="equal")
     ax.grid(False)

@@ -117,9 +117,7 @@ def squeeze(level: str):
     resolutions = (0.25, 0.5, 1.0, 2.0)
     in_space = np.abs([one_step(r) for r in resolutions])
     cells = [setting(r).grid.n for r in resolutions]
-    yield Check(
-        "order in space", fitted_order(1 / np.array(cells[-3:]), in_space[-3:]), 2, 0.3, LAW, AT_LEAST
-    )
+    yield Check("order in space", fitted_order(1 / np.array(cells[-3:]), in_space[-3:]), 2, 0.3, LAW, AT_LEAST)
     yield plotting.convergence(
         "squeeze_orders",
         "Rigid squeeze: relative error of the film at the end against step (of "
@@ -172,10 +170,7 @@ def one_step(resolution: float) -> float:
     at its end."""
     made, step = setting(resolution), 1e-2 * LONG
     z = parabola(made, 1e-6)
-    h = (
-        made.step(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min()
-        * made.problem.film_unit
-    )
+    h = made.step(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min() * made.problem.film_unit
     return float((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
 
 
@@ -188,9 +183,7 @@ def halved():
     rows, source = [], "separate solver on nested meshes, X in [-4, 1.5]"
     runs = {
         "complementarity": solve_transient_ehl(**keywords, times=times),
-        "differential deflection": solve_differential_transient(
-            **keywords, times=times, domain=(-4 * b, 1.5 * b)
-        ),
+        "differential deflection": solve_differential_transient(**keywords, times=times, domain=(-4 * b, 1.5 * b)),
     }
     for method, found in runs.items():
         for i, (time, centre, smallest) in enumerate(HALVED):
@@ -232,9 +225,7 @@ def stopped():
     slope = (found.min_film[-1] ** -0.5 - found.min_film[20] ** -0.5) / (found.time[-1] - found.time[20])
     yield Check("light contact stopped: rate of h^-1/2", slope, exact, 3e-3, LAW)
     left.plot(found.time / unit, (found.min_film / found.min_film[0]) ** -0.5, label="computed")
-    left.plot(
-        found.time / unit, 1 + exact * found.time * found.min_film[0] ** 0.5, ":", label="law from the start"
-    )
+    left.plot(found.time / unit, 1 + exact * found.time * found.min_film[0] ** 0.5, ":", label="law from the start")
     left.set(xlabel="time/(transit)", ylabel="(h/h₀)^-1/2", title="M = 0.05, rigid")
     left.legend()
     keywords, problem, unit = contact(20, 5)

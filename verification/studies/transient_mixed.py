@@ -46,9 +46,7 @@ def transient_mixed(level: str):
 def run(model, plan: Transient, times=None, **numerics):
     """`lubfric.transient` of a prepared model with another plan (and numerics)."""
     scene = replace(model.scene, transient=plan)
-    return lubfric.transient(
-        replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times
-    )
+    return lubfric.transient(replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times)
 
 
 def steady(model):
@@ -227,9 +225,7 @@ def errors(model):
         "tolerance 1e-6",
         AT_MOST,
     )
-    yield Check(
-        "default film tolerance (3e-3): error of f", in_space[2], 0.0, 1e-3, "film tolerance 1e-3", AT_MOST
-    )
+    yield Check("default film tolerance (3e-3): error of f", in_space[2], 0.0, 1e-3, "film tolerance 1e-3", AT_MOST)
 
 
 def cost():

@@ -69,8 +69,12 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
     flow = h - h**3 * fluidity * gradient
     cube = face_rho * h**3
     conductance = cube * fluidity / (6.0 * mesh.step)
-    by_P = np.stack([conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1],
-                     -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:]])
+    by_P = np.stack(
+        [
+            conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1],
+            -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:],
+        ]
+    )
     stored = mesh.step * (squeeze.rate * rho * H - squeeze.past)
     through = face_rho * flow + np.cumsum(stored)[:-1]
     balance = np.zeros_like(P)
@@ -81,9 +85,20 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
     defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)
     ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
-    return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale,
-                 face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), by_P,
-                 mesh.step * squeeze.rate * rho, mesh.step * squeeze.rate * rho_slope * H, slope)
+    return Terms(
+        through,
+        last,
+        float(through[last]),
+        balance,
+        defect - defect[0],
+        ends,
+        scale,
+        face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient),
+        by_P,
+        mesh.step * squeeze.rate * rho,
+        mesh.step * squeeze.rate * rho_slope * H,
+        slope,
+    )
 
 
 def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
@@ -121,7 +136,10 @@ def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
 
 def measure(t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
     """Relative residuals: mass, film (against the full integral), load, complementarity."""
-    behind = t.through[t.last + 1:]
-    return {"mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),
-            "film": float(np.max(np.abs(t.defect) / H)), "load": abs(float(t.ends[1])),
-            "complementarity": float(max(0.0, -P.min() / P.max(), 1.0 - behind.min(initial=t.q) / t.q))}
+    behind = t.through[t.last + 1 :]
+    return {
+        "mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),
+        "film": float(np.max(np.abs(t.defect) / H)),
+        "load": abs(float(t.ends[1])),
+        "complementarity": float(max(0.0, -P.min() / P.max(), 1.0 - behind.min(initial=t.q) / t.q)),
+    }

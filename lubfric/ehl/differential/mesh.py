@@ -47,8 +47,9 @@ def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bo
     weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
     far[: bandwidth + 1] = 0.0
-    return Mesh(X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel),
-                _transform(far), flooded)
+    return Mesh(
+        X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel), _transform(far), flooded
+    )
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
@@ -80,5 +81,5 @@ def _transform(kernel: np.ndarray) -> np.ndarray:
 
     wrapped = np.zeros(_padded(kernel.size))
     wrapped[: kernel.size] = kernel
-    wrapped[-kernel.size + 1:] = kernel[:0:-1]
+    wrapped[-kernel.size + 1 :] = kernel[:0:-1]
     return rfft(wrapped)

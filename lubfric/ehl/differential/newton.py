@@ -18,8 +18,8 @@ from ..problem import Problem
 from .equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
 from .mesh import Mesh, convolve
 
-KRYLOV_LIMIT = 40        # GMRES vectors in one Newton step
-FORCING = 1e-2           # share of the far deflection that a Newton step may leave to the next one
+KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
+FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
 
 
 @dataclass(frozen=True)
@@ -144,11 +144,18 @@ def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int
     return (z + size * (y @ np.array(answers)) if answers else z), len(answers) + 1
 
 
-def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int,
-           squeeze: Squeeze = STEADY) -> Solution:
+def newton(
+    mesh: Mesh,
+    problem: Problem,
+    P: np.ndarray,
+    H: np.ndarray,
+    tolerance: float,
+    max_steps: int,
+    squeeze: Squeeze = STEADY,
+) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film
     ruptures inside the grid."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):    # history tests for it
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # history tests for it
         return _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze)
 
 
@@ -158,7 +165,7 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
         t = evaluate(mesh, problem, P, H, squeeze)
         residuals = measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
-        ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1:])
+        ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])
         if history[-1] <= tolerance and ruptured:
             status = CONVERGED
         if status == CONVERGED or history[-1] == np.inf or step == max_steps:
@@ -177,7 +184,7 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
 
 def _without_tension(P: np.ndarray, last: int) -> np.ndarray:
     """P = 0 behind ``last`` and wherever it is negative behind its peak."""
-    P[last + 1:] = 0.0
+    P[last + 1 :] = 0.0
     peak = int(np.argmax(P))
     P[peak:] = np.maximum(P[peak:], 0.0)
     return P

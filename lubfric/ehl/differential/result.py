@@ -52,14 +52,23 @@ def _report(problem: Problem, levels: list[Solution], tolerance: float, notes: t
     notes += (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
     if last.terms.last >= last.mesh.size - 2:
         notes += ("the film did not rupture inside the domain",)
-    return Report("line-contact EHL, differential deflection", status, len(history) - len(levels), residual,
-                  tolerance, residuals, history, sum(level.solves for level in levels), notes)
+    return Report(
+        "line-contact EHL, differential deflection",
+        status,
+        len(history) - len(levels),
+        residual,
+        tolerance,
+        residuals,
+        history,
+        sum(level.solves for level in levels),
+        notes,
+    )
 
 
 def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
     """Rupture point, where the film is that of the flow, and X, P, H with a node there."""
     X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
-    if last >= X.size - 2:                                  # none: reported
+    if last >= X.size - 2:  # none: reported
         return float(X[last]), X, P, H
     before, behind = 0.5 * (H[last] + H[last + 1]), 0.5 * (H[last + 1] + H[last + 2])
     share = np.clip((q - before) / (behind - before), 0.0, 1.0) if behind > before else 0.5
@@ -80,8 +89,7 @@ def _state(problem: Problem, solution: Solution, rupture: float, error: float) -
     return State(problem.M, problem.L, P[:-1], H, solution.terms.q, rupture, error)
 
 
-def assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: float,
-             notes: tuple) -> EHLResult:
+def assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: float, notes: tuple) -> EHLResult:
     """The result in SI units; sign -1 mirrors it."""
     last = levels[-1]
     rupture, X, P, H = _with_rupture(last)
@@ -91,14 +99,25 @@ def assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: f
     order = slice(None) if sign > 0 else slice(None, None, -1)
     report = _report(problem, levels, tolerance, notes)
     return EHLResult(
-        x=(sign * X * length)[order], pressure=(P * problem.pressure_unit)[order],
+        x=(sign * X * length)[order],
+        pressure=(P * problem.pressure_unit)[order],
         film_thickness=(H * film)[order],
         viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
-        density_ratio=problem.density(P)[0][order], min_film=smallest(mesh.X, last.H) * film,
-        central_film=_at_centre(last) * film, flow_film=q * film, flux=q * film * problem.speed * sign,
+        density_ratio=problem.density(P)[0][order],
+        min_film=smallest(mesh.X, last.H) * film,
+        central_film=_at_centre(last) * film,
+        flow_film=q * film,
+        flux=q * film * problem.speed * sign,
         rupture=rupture * length * sign,
         approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
-        half_width=b * length, hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
-        load=problem.load, radius=problem.radius, e_prime=problem.e_prime,
-        entrainment_speed=sign * problem.speed, load_number=problem.M, material_number=problem.L,
-        report=report, state=_state(problem, last, rupture, report.residuals["discretisation"]))
+        half_width=b * length,
+        hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
+        load=problem.load,
+        radius=problem.radius,
+        e_prime=problem.e_prime,
+        entrainment_speed=sign * problem.speed,
+        load_number=problem.M,
+        material_number=problem.L,
+        report=report,
+        state=_state(problem, last, rupture, report.residuals["discretisation"]),
+    )

@@ -18,18 +18,32 @@ from .mesh import Mesh, convolve, make_mesh
 from .newton import Solution, newton
 from .result import assemble, grid_error
 
-COARSEST, FINEST = 64, 32768     # cells
-FEWEST = 3                       # grids to judge an error by: two may agree by chance
-STARVED = 0.1                    # film of a badly starved contact, relative to inlet_length²
-RESOLVED = 0.7                   # largest step of a first grid, relative to the length of the pressure rise
+COARSEST, FINEST = 64, 32768  # cells
+FEWEST = 3  # grids to judge an error by: two may agree by chance
+STARVED = 0.1  # film of a badly starved contact, relative to inlet_length²
+RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
 
 
 def solve_differential_deflection(
-        *, load_per_width: float, radius: float, e_prime: float, entrainment_speed: float, viscosity: float,
-        pressure_viscosity_coefficient: float, viscosity_law: str = "roelands", density: str = "constant",
-        tolerance: float = 3e-3, inlet_length: float | None = None, start: EHLResult | None = None,
-        max_iterations: int = 60, nodes: int | None = None, domain: tuple[float, float] | None = None,
-        bandwidth: int = 8, most_nodes: int = FINEST + 1, raise_on_failure: bool = True) -> EHLResult:
+    *,
+    load_per_width: float,
+    radius: float,
+    e_prime: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_viscosity_coefficient: float,
+    viscosity_law: str = "roelands",
+    density: str = "constant",
+    tolerance: float = 3e-3,
+    inlet_length: float | None = None,
+    start: EHLResult | None = None,
+    max_iterations: int = 60,
+    nodes: int | None = None,
+    domain: tuple[float, float] | None = None,
+    bandwidth: int = 8,
+    most_nodes: int = FINEST + 1,
+    raise_on_failure: bool = True,
+) -> EHLResult:
     """Film of a smooth line contact by differential deflection, on a uniform grid.
 
     The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
@@ -70,8 +84,14 @@ def solve_differential_deflection(
     1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
     needs about 50 times the nodes of a graded one at M = 1000.
     """
-    problem = _problem(load_per_width, radius, e_prime, entrainment_speed, inlet_length,
-                       Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density))
+    problem = _problem(
+        load_per_width,
+        radius,
+        e_prime,
+        entrainment_speed,
+        inlet_length,
+        Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density),
+    )
     tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
     max_iterations = integer("max_iterations", max_iterations, minimum=1)
     bandwidth = integer("bandwidth", bandwidth, minimum=0)
@@ -98,9 +118,14 @@ def _problem(load, radius, e_prime, speed, inlet_length, lubricant: Lubricant) -
     speed = number("entrainment_speed", speed, "m/s")
     if speed == 0.0:
         raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
-    return Problem(positive("load_per_width", load, "N/m"), positive("radius", radius, "m"),
-                   positive("e_prime", e_prime, "Pa"), abs(speed), lubricant,
-                   None if inlet_length is None else positive("inlet_length", inlet_length, "m"))
+    return Problem(
+        positive("load_per_width", load, "N/m"),
+        positive("radius", radius, "m"),
+        positive("e_prime", e_prime, "Pa"),
+        abs(speed),
+        lubricant,
+        None if inlet_length is None else positive("inlet_length", inlet_length, "m"),
+    )
 
 
 def _film(problem: Problem) -> float:
@@ -126,8 +151,10 @@ def _domain(problem: Problem, domain) -> tuple[float, float]:
             raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
         first = -problem.inlet_length / unit
         if -first <= b:
-            raise InputError(f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; "
-                             f"allowed: more than its half-width {b * unit:.4g} m")
+            raise InputError(
+                f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; "
+                f"allowed: more than its half-width {b * unit:.4g} m"
+            )
     if domain is not None:
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
@@ -164,7 +191,7 @@ def _ascend(problem, ends, counts, bandwidth, tolerance, max_steps, start: EHLRe
             P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_steps))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
-            levels.pop()                                   # too coarse to start on
+            levels.pop()  # too coarse to start on
             continue
         enough = nodes is None and len(levels) >= FEWEST and grid_error(levels) <= tolerance
         if levels[-1].status != CONVERGED or enough:
@@ -194,7 +221,7 @@ def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, n
     P = np.interp(place, X, P, left=0.0)
     H = np.interp(place, X, H - 0.5 * X**2) + 0.5 * place**2
     load = load_row(mesh, problem) @ P
-    if not load > 0.0:                                         # no pressure on this mesh
+    if not load > 0.0:  # no pressure on this mesh
         return _cold(mesh, problem)
     return P / load, H * (expected_film(problem.M, problem.L) / expected_film(M, L))
 

@@ -109,9 +109,7 @@ def _solve(mesh: Mesh, problem: Problem, rate: float, past: np.ndarray, z: np.nd
     squeeze = Squeeze(rate, rate * past / problem.film_unit)
     found = newton(mesh, problem, z[:n] / problem.pressure_unit, z[n:] / problem.film_unit, 1e-6, 40, squeeze)
     film = problem.density(found.P)[0] * found.H * problem.film_unit
-    return _Step(
-        found.status, np.concatenate([found.P * problem.pressure_unit, found.H * problem.film_unit]), film
-    )
+    return _Step(found.status, np.concatenate([found.P * problem.pressure_unit, found.H * problem.film_unit]), film)
 
 
 def _march(x, first: _Step, times, histories, solve, tolerance, problem: Problem) -> TransientFilm:

@@ -126,9 +126,7 @@ def _solve(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | N
     moved = cavitated & (t.P != 0.0)
     if moved.any():
         right -= J[np.ix_(free, np.flatnonzero(moved))] @ delta[:-1][moved]
-    _, _, solution, info = dgesv(
-        np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1
-    )
+    _, _, solution, info = dgesv(np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1)
     if info != 0:
         return None
     delta[free] = solution

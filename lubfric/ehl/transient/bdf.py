@@ -96,9 +96,7 @@ def _pair(march: March, end: float, solve, error_of):
     start = march.levels[-1]
     step = end - start.time
     whole = _solved(solve, end, Memory(1.0 / step, start.film), start.z, march.payload)
-    first = whole and _solved(
-        solve, start.time + 0.5 * step, Memory(2.0 / step, start.film), start.z, march.payload
-    )
+    first = whole and _solved(solve, start.time + 0.5 * step, Memory(2.0 / step, start.film), start.z, march.payload)
     second = first and _solved(solve, end, Memory(2.0 / step, first.film), first.z, first.payload)
     if second is None:
         return None
@@ -115,9 +113,7 @@ def _bdf2(march: March, end: float, solve, error_of):
     memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
     guess = last.z + ratio * (last.z - old.z)
     guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], 0.2 * last.z[:-1]), 0.0)
-    solution = _solved(solve, end, memory, guess, march.payload) or _solved(
-        solve, end, memory, last.z, march.payload
-    )
+    solution = _solved(solve, end, memory, guess, march.payload) or _solved(solve, end, memory, last.z, march.payload)
     if solution is None:
         return None
     levels = (*march.levels[-2:], Level(end, solution.film, solution.z))

@@ -109,12 +109,8 @@ def symmetric_nodes(
         return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + CORE / np.hypot(scale, x)
 
     away = np.concatenate([[0.0], np.geomspace(1e-3 * fine, far + high, 3000)])
-    table = np.unique(
-        np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far)
-    )
-    index = np.concatenate(
-        [[0.0], np.cumsum(0.5 * (density(table[1:]) + density(table[:-1])) * np.diff(table))]
-    )
+    table = np.unique(np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far))
+    index = np.concatenate([[0.0], np.cumsum(0.5 * (density(table[1:]) + density(table[:-1])) * np.diff(table))])
     half = np.interp(np.linspace(0.0, index[-1], math.ceil(resolution * index[-1]) + 1), index, table)
     half[-1] = far
     return np.concatenate([-half[:0:-1], half])

@@ -139,9 +139,7 @@ def _reference(contact: LineContact, film_range) -> tuple[Problem, tuple[float, 
         scale = math.sqrt(c.radius.at(0.0) * films[0])
         speed = scale**4 * c.e_prime / (2.0 * lubricant.viscosity * c.radius.at(0.0) ** 3)
         reference = replace(reference, speed=speed)
-        time = (
-            math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
-        )
+        time = math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
         films.append(films[0] / (1.0 + min(time, 10.0)) ** 2)
     return reference, (min(films) / reference.film_unit, max(films) / reference.film_unit)
 

@@ -108,8 +108,7 @@ def solve_transient_ehl(
         validate.positive("initial_film", initial_film, "m")
     elif speed.before(0.0) == 0.0:
         raise InputError(
-            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or "
-            "a speed"
+            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
         )
     lubricant = Lubricant(found["viscosity"].at(0.0), pressure_viscosity_coefficient, viscosity_law, density)
     contact = LineContact(
@@ -123,9 +122,7 @@ def solve_transient_ehl(
         initial_film,
     )
     setting, start, grid_error = _start(contact, tolerance)
-    result = _run(
-        setting, start, grid_error / tolerance, times, time_tolerance, first_step or default_step(setting)
-    )
+    result = _run(setting, start, grid_error / tolerance, times, time_tolerance, first_step or default_step(setting))
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
@@ -155,9 +152,7 @@ def stops_and_jumps(histories, times, duration: float) -> tuple[list[float], set
 def checked_times(times) -> np.ndarray:
     times = validate.array("times", times, "s", ndim=1)
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
-        raise InputError(
-            "times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s"
-        )
+        raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
     return times
 
 
@@ -165,9 +160,7 @@ def _run(setting: Setting, start, grid, times, time_tolerance, first_step) -> Tr
     contact, duration = setting.contact, float(times[-1])
     outputs = [(0.0, start)] if times[0] == 0.0 else []
     march = March((setting.level(0.0, start),), first_step)
-    stops, jumps = stops_and_jumps(
-        (contact.speed, contact.load, contact.radius, contact.viscosity), times, duration
-    )
+    stops, jumps = stops_and_jumps((contact.speed, contact.load, contact.radius, contact.viscosity), times, duration)
     count, rejected, worst, status = 0, 0, 0.0, CONVERGED
 
     def solve(time, memory, z, _):

@@ -136,9 +136,7 @@ def evaluate(
     )
 
 
-def jacobian(
-    grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | None, t: StepTerms
-) -> np.ndarray:
+def jacobian(grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | None, t: StepTerms) -> np.ndarray:
     """Derivatives (n + 2, n + 2) of (r, balance) by z."""
     n = grid.n
     up, mid = grid.upwind(now.speed), grid.centred
@@ -186,6 +184,4 @@ def _local(grid: FixedGrid, now: Conditions, t: StepTerms, up, mid, G: np.ndarra
     if slope.any():
         rows = i[:, None]
         G[rows, up.columns] += (now.speed * t.up[1])[:, None] * up.values * slope[up.columns]
-        G[rows, mid.columns] -= (
-            (t.centre[1] ** 3 * mean * t.gradient)[:, None] * mid.values * slope[mid.columns]
-        )
+        G[rows, mid.columns] -= (t.centre[1] ** 3 * mean * t.gradient)[:, None] * mid.values * slope[mid.columns]

@@ -59,6 +59,4 @@ def outside_shear(
     s = a / _POINTS
     h = film + 0.5 * curvature * (s * s - a * a)
     weight = _WEIGHTS * s * s / a
-    return float(np.sum(weight / h)), 3.0 * nu * float(
-        np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2)
-    )
+    return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))
