@@ -75,7 +75,7 @@ def test_bessel_cells_over_all_scales(cells_per_wavelength):
         assert cells[i] == pytest.approx(quad(lambda s: k0(k * s), i - 0.5, i + 0.5, epsabs=1e-16)[0], abs=2e-14)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     shape=st.tuples(st.integers(1, 13), st.integers(1, 13)),
     boundary=st.sampled_from(BOUNDARIES),

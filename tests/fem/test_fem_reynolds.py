@@ -112,7 +112,7 @@ def test_the_start_does_not_change_the_rupture_point():
     assert np.allclose(warm.pressure, cold.pressure, atol=1e-7 * cold.pressure.max())
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.floats(0.1, 10), st.floats(0.1, 10), st.floats(0.2, 5))
 def test_isoviscous_pressure_scales(viscosity, speed, thickness):
     """p is proportional to eta U and, as film and lengths stay in proportion, to 1/h^2."""

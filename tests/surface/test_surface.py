@@ -171,7 +171,7 @@ def test_surface_owns_its_heights():
 # --- levelling, filling -----------------------------------------------------------------------
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.tuples(*[st.floats(-1e-2, 1e-2) for _ in range(2)]), st.floats(-1e-3, 1e-3))
 def test_level_removes_any_plane_and_is_idempotent(slopes, offset):
     x, y = np.arange(20) * 1e-6, np.arange(15) * 3e-6
@@ -362,7 +362,7 @@ def test_open_autocorrelation_counts_pairs_and_skips_unmeasured_points():
         assert acf[lag] == pytest.approx(expected, abs=1e-12)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.integers(0, 255), st.integers(0, 255))
 def test_statistics_do_not_see_a_periodic_shift(i, j):
     surface = generated()

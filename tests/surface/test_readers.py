@@ -11,7 +11,7 @@ import pytest
 from lubfric import InputError, Surface, read_surface
 from lubfric.surface import correlation_length, read_instrument_file, rms_slope
 
-BESIDE = Path(__file__).resolve().parents[2] / "shared" / "surfaces"
+BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
 STEP = (1e-6, 2.5e-6)
 RAW = {"level": False, "fill": False}

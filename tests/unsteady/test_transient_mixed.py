@@ -193,7 +193,7 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
         return subprocess.run(
             [sys.executable, "-c", SCRIPT, str(tmp_path / folder), str(tmp_path / f"{folder}.npz"), *more],
             env=environment,
-            cwd=Path(__file__).parents[1],
+            cwd=Path(__file__).parents[2],
         ).returncode
 
     assert start("whole") == 0 and not (tmp_path / "whole").exists()
@@ -218,7 +218,7 @@ def test_a_checkpoint_of_another_run_or_a_damaged_one_is_refused(tmp_path):
 
 
 def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
-    text = (Path(__file__).parents[1] / "docs" / "examples" / "stop_and_start.toml").read_text()
+    text = (Path(__file__).parents[2] / "docs" / "examples" / "stop_and_start.toml").read_text()
     scene = tmp_path / "scene.toml"
     scene.write_text(
         text.replace("[200, 200]", "[64, 64]").replace("0.45e-6", "0.8e-6").replace("outputs = 200", "outputs = 6")

@@ -54,7 +54,7 @@ def test_every_boundary_and_law(boundary, hardness):
     assert result.mean_gap == pytest.approx(np.maximum(result.gap, 0).mean(), rel=1e-12)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     shape=st.tuples(st.integers(1, 37), st.integers(1, 37)),
     boundary=st.sampled_from(BOUNDARIES),

@@ -39,7 +39,7 @@ def test_finds_known_roots(f, root):
     assert found.payload == found.x and len(calls) == len(found.history)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.floats(-30, 30), st.floats(-30, 30), st.floats(0.01, 50))
 def test_any_shift_and_stiffness(root, guess, stiffness):
     g, calls = counted(lambda x: math.tanh(stiffness * (x - root)))

@@ -80,7 +80,7 @@ def test_definitions_disagree_where_patches_hold_several_summits():
 
 
 @pytest.mark.parametrize("definition", DEFINITIONS)
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.integers(0, 127), st.integers(0, 127), st.booleans(), st.booleans(), st.floats(-1e-6, 1e-6))
 def test_shift_mirror_exchange_and_datum_do_not_matter(definition, i, j, flip, swap, datum):
     moved = np.roll(ROUGH.heights, (i, j), (0, 1))

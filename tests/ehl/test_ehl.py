@@ -240,7 +240,7 @@ def test_tail_beyond_the_inlet_is_accounted_for(M, monkeypatch):
     assert departures[1] > 6 * departures[0] and departures[0] < 5e-3
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25, derandomize=True)
 @given(
     log_m=st.floats(-3, 3),
     L=st.floats(0.01, 20),

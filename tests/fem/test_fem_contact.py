@@ -111,7 +111,7 @@ def test_full_contact_is_the_inverse_of_the_exact_compliance():
     assert found.gap == pytest.approx(0, abs=1e-9 * height)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 10_000), st.floats(0.02, 2.0))
 def test_another_algorithm_finds_the_same_pressure(seed, load):
     """Non-negative least squares on the same compliance, at the approach that was found."""
@@ -123,7 +123,7 @@ def test_another_algorithm_finds_the_same_pressure(seed, load):
     assert found.pressure * layer.weights == pytest.approx(force, abs=1e-7 * load)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.floats(1e-9, 1e6), st.floats(-1e3, 1e3), st.sampled_from([None, 0.35]))
 def test_heights_and_load_scale_together_and_a_raised_body_changes_nothing(coarse, factor, lift, limit):
     compliance, gap0 = coarse.compliance, coarse.x**2 / 2
@@ -151,7 +151,7 @@ def test_cap_holds_and_the_rest_still_fits(coarse, limit):
     assert coarse.weights @ found.pressure == pytest.approx(LOAD, rel=1e-8)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.integers(0, 10_000), st.floats(0.02, 10.0), st.floats(1.03, 6.0))
 def test_capped_contact_of_random_heights_meets_every_condition(bricks, seed, pressure, over):
     """From a few touching nodes to full contact, from nearly all saturated to nearly none."""

@@ -37,7 +37,7 @@ def models(speed, stiffness, sigma=1.0, touching=3.0):
     return solve_film, close, calls
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.floats(1e-9, 1e3), st.floats(0.3, 30))
 def test_closes_both_balances_for_any_speed(speed, stiffness):
     solve_film, close, calls = models(speed, stiffness)
