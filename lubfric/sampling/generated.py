@@ -1,0 +1,86 @@
+"""Lines of a generated surface: as many and as long as asked, each a piece of the same endless one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene import Scene
+from ..surface import Surface, generate_surface
+from .cells import Cells, choose_cells
+
+LINE, PAIR = 0, 1  # streams of seeds
+
+
+@dataclass(frozen=True)
+class GeneratedLines:
+    """Lines of the surface of ``scene`` on ``cells``; correlation ``lengths`` [m] at 1/e along x and y."""
+
+    scene: Scene
+    cells: Cells
+    lengths: tuple[float, float]
+    available: float = math.inf
+    nested: bool = False
+
+    def windows(self, length: float) -> int:
+        """A generated line is one piece."""
+        return 1
+
+    def line(self, index: int, length: float) -> Surface:
+        """Line number ``index``, about ``length`` [m] long, on the coarse cells."""
+        return self._piece((LINE, index), self.cells, length)
+
+    def pair(self, index: int, length: float) -> Surface:
+        """A piece on the scene's own cells, to be compared with every so-manieth cell of itself."""
+        fx, fy = self.cells.factors
+        columns = self.cells.columns(length) * fy
+        return self._piece((PAIR, index), Cells((1, 1), self.cells.spacing, self.cells.count * fx), length, columns)
+
+    def halved(self) -> GeneratedLines:
+        """The same on cells half as long."""
+        return GeneratedLines(self.scene, self.cells.halved(), self.lengths)
+
+    def _piece(self, stream, cells: Cells, length: float, columns: int | None = None) -> Surface:
+        rough = self.scene.surface
+        columns = columns or cells.columns(length)
+        surface = generate_surface(
+            (cells.count * rough.oversize, columns),
+            cells.coarse,
+            sq=rough.sq,
+            correlation_length=rough.correlation_length,
+            acf=rough.acf,
+            decay_level=rough.decay_level,
+            seed=seed_of(rough.seed, *stream),
+        )
+        if rough.oversize == 1:
+            return surface
+        return surface.cropped((cells.count, columns)).scaled(sq=rough.sq)
+
+
+def generated_lines(scene: Scene) -> GeneratedLines:
+    """Lines of the generated surface of ``scene``, as long in x as its patch."""
+    from ..validate import spacing as checked_spacing
+
+    rough, patch = scene.surface, scene.contact
+    if patch.shape is None or patch.spacing is None:
+        raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
+    spacing = checked_spacing("contact.spacing", patch.spacing)
+    lengths = lengths_of(rough)
+    reach = patch.shape[0] * spacing[0]
+    return GeneratedLines(scene, choose_cells(spacing, lengths, scene.bodies.half_width, reach), lengths)
+
+
+def lengths_of(rough) -> tuple[float, float]:
+    """Correlation lengths [m] at 1/e along x and y."""
+    decay = -math.log(rough.decay_level)
+    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
+    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
+    return float(both[0]) / factor, float(both[1]) / factor
+
+
+def seed_of(*words: int) -> int:
+    """One number of many: far apart for neighbouring words."""
+    return int(np.random.SeedSequence(words).generate_state(1)[0])

@@ -1,0 +1,146 @@
+"""Friction of an endless rough line, as surely as asked: pilot, length, grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..point.adapt import Solved, solved
+from ..point.balance import Balance, balanced, divided
+from ..point.forces import forces
+from ..point.operating_point import OperatingPoint, Settings
+from ..rough.contract import ContactState
+from .at_split import ANY, at, quantities, redivided
+from .grid_pair import GridStep, mean_error, mean_of
+from .influence import BlockError, add_errors
+from .line_record import Pooled, length_of
+from .pieces import line_contact
+from .response import Response, touched_length
+from .sample import Sample
+
+SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
+LINE_VOLUME = 0.03  # volume residual of a further line, at most; the rest is corrected to first order
+LIGHT = 0.1  # of the load on the contact: it touches for sure
+
+
+@dataclass(frozen=True)
+class Used:
+    """A line beyond the pilot, and its contact: to go on from at a neighbouring speed."""
+
+    contact: object
+    state: ContactState
+
+
+@dataclass(frozen=True)
+class LineFound:
+    """The balance that all lines together and the grid ask for, and what is known of its error.
+
+    first: the balance of the pilot line as it is, a start for a neighbouring speed, and used, the further lines.
+    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed [N]: contact
+    load that lines without contact may have missed by chance; map_ends: no longer line could be had.
+    """
+
+    point: Solved
+    first: Balance
+    together: Pooled
+    response: Response | None = None
+    gap_error: BlockError = BlockError(0.0, 1)
+    grid: tuple[GridStep, ...] = ()
+    missed: float = 0.0
+    map_ends: bool = False
+    used: tuple[Used, ...] = ()
+
+
+def line_friction(model, speed: float, start: LineFound | None = None) -> LineFound:
+    """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
+    ``numerics.sampling_tolerance``. ``start``: what was found of the same model at a neighbouring speed."""
+    before = start.grid if start else ()
+    first = solved(model, speed, start.first if start else None, given_grid=True)
+    sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
+    while (length := sample.wanted()) > 0:
+        contact, state = _next_line(sample, length, used, start)
+        if sample.anchor is None:
+            found = solved(replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True)
+        else:
+            found = _on_line(sample, contact, state)
+        sample = sample.with_line(contact, found, before)
+        used = (*used, Used(contact, found.balance.contact))
+    return replace(_found(sample), used=used)
+
+
+def _next_line(sample: Sample, length: float, used, start: LineFound | None):
+    """A line of about ``length`` [m] and a state to start from: that of the neighbouring speed, if it is long enough, or a
+    new one."""
+    index, model = len(used), sample.model
+    if start is not None and index < len(start.used):
+        there = start.used[index]
+        if length_of(there.contact) >= length / SHORTER:
+            return there.contact, there.state
+    state = replace(sample.first.balance.contact, fields=None, pressure=None)
+    return line_contact(model.scene, model.lines.line(index + 1, length)), state
+
+
+def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
+    """Balance on one more line from where the lines so far have theirs, with the film's level and grid of the anchor.
+
+    The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response gives,
+    to first order.
+    """
+    anchor, scene = sample.anchor, sample.model.scene
+    there = anchor.point.balance
+    here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
+    settings = Settings(
+        there.level,
+        ANY,
+        LINE_VOLUME,
+        touching=here.contact_load > LIGHT * scene.bodies.load,
+        film_cells=there.film.cells,
+    )
+    slope = -0.5 / (anchor.response.split * there.contact.mean_film)
+    start = replace(here, contact=state, slope=slope)
+    found = balanced(OperatingPoint(sample.model, sample.speed, contact, settings), start)
+    found.report.raise_if_failed(found)
+    contact.check(found.contact)
+    if found.contact_load > 0:
+        found = replace(found, contact_load=found.moved(-found.contact.volume_residual / slope).contact_load)
+    return Solved(found, sample.first.forces, anchor.point.decision)
+
+
+def _found(sample: Sample) -> LineFound:
+    together, anchor, first = sample.together, sample.anchor, sample.first
+    if first.balance.film is None:
+        return LineFound(first, first.balance, together, anchor.response)
+    ended = sample.reached > sample.model.scene.numerics.sampling_tolerance and sample.model.lines.nested
+    if anchor is None:
+        return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
+    error = add_errors(together.gap, mean_error(anchor.grid))
+    return LineFound(
+        _divided(sample, together),
+        first.balance,
+        together,
+        anchor.response,
+        error,
+        anchor.grid,
+        map_ends=ended,
+    )
+
+
+def _divided(sample: Sample, together: Pooled) -> Solved:
+    """The anchor's point with the load divided as all lines and the grid ask."""
+    anchor, scene = sample.anchor, sample.model.scene
+    balance = anchor.point.balance
+    whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
+    split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
+    point = at(sample.model, sample.speed, anchor.contact, balance)
+    final = redivided(point, balance, divided(scene.bodies.load, split)[1])
+    film, area = quantities(point, final)["mean_gap"], mean_of(anchor.grid, "area", 1.0)
+    columns = area * together.touched_length / touched_length(balance.contact)
+    state = replace(
+        balance.contact,
+        mean_gap=film,
+        mean_film=film,
+        contact_fraction=balance.contact.contact_fraction * columns,
+        real_contact_area_fraction=together.area_fraction * area,
+        plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
+    )
+    final = replace(final, contact=state)
+    return Solved(final, forces(scene, final), anchor.point.decision)
