@@ -14,9 +14,7 @@ import lubfric
 surface = lubfric.generate_surface((256, 256), 0.5e-6, sq=200e-9, correlation_length=8e-6, acf="gaussian", seed=3)
 gap = surface.heights.max() - surface.heights
 pressures = np.array([10e6, 30e6, 100e6, 300e6])
-solved = [
-    lubfric.solve_contact(gap, surface.spacing, 230e9, mean_pressure=p, hardness=6e9) for p in pressures
-]
+solved = [lubfric.solve_contact(gap, surface.spacing, 230e9, mean_pressure=p, hardness=6e9) for p in pressures]
 for p, contact in zip(pressures, solved):
     print(f"{p / 1e6:5.0f} MPa: {100 * contact.contact_area_fraction:.2f} % in contact, {contact.report.message}")
 
