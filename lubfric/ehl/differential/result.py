@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...report import CONVERGED, STAGNATED, Report
 from ..grid import node_positions
-from ...analytic.film import moes_film
 from ..problem import Problem
 from ..result import EHLResult, cubic, smallest
 from ..start import State

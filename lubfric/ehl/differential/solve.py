@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...errors import InputError
 from ...lubricant import Lubricant
 from ...report import CONVERGED
 from ...validate import integer, number, positive
-from ...analytic.film import moes_film
 from ..problem import Problem
 from ..result import EHLResult, cubic
 from ..start import expected_rupture

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...history import Constant
 from ...lubricant import Lubricant
 from ...report import CONVERGED
-from ...analytic.film import moes_film
 from ..problem import Problem
 from ..solve import solve_ehl
 from .active_set import StepSolution, solve_step
