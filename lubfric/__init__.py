@@ -11,6 +11,7 @@ _HOME = {
     "ConvergenceError": "errors",
     "InputError": "errors",
     "LubfricError": "errors",
+    "OutputError": "errors",
     "Report": "report",
     "Surface": "surface",
     "generate_surface": "surface",
