@@ -57,7 +57,9 @@ def grade_viscosity(grade: str) -> float:
     if not found or float(found[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
         hint = "; an SAE grade is no ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
-        raise InputError(f"grade = {grade!r} is not an ISO viscosity grade; allowed: 'ISO VG n' with n of {names}{hint}")
+        raise InputError(
+            f"grade = {grade!r} is not an ISO viscosity grade; allowed: 'ISO VG n' with n of {names}{hint}"
+        )
     return GRADES[float(found[1])] * 1e-6
 
 

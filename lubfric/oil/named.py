@@ -24,14 +24,16 @@ class Entry:
 
 
 def _generic(grade: float, at_100: float, base: str, text: str) -> Entry:
-    source = "generic oil of its grade, D341 through both points; coefficients estimated, density typical of the base oil"
+    source = (
+        "generic oil of its grade, D341 through both points; coefficients estimated, density typical of the base oil"
+    )
     return Entry(text, ((40.0, grade), (100.0, at_100)), base, None, None, source)
 
 
 OILS = {
     "mineral-32": _generic(31.81, 5.385, "mineral", "mineral oil, ISO VG 32, VI 102"),
     "mineral-100": _generic(99.14, 10.954, "mineral", "mineral oil, ISO VG 100, VI 94"),
-    "mineral-220": _generic(217.98, 18.915, "mineral", "mineral oil, ISO VG 220, VI 98"),
+    "mineral-220": _generic(217.98, 18.915, "mineral", "mineral oil, ISO VG 220, VI 97"),
     "pao-220": _generic(218.06, 25.577, "pao", "polyalphaolefin, ISO VG 220, VI 149"),
     "polyglycol-220": _generic(218.78, 31.906, "polyglycol", "polyglycol, ISO VG 220, VI 190"),
 }
