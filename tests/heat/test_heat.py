@@ -133,7 +133,7 @@ def test_flash_of_a_semi_ellipse_by_quadrature():
     rise = flash_matrix(x, 1.0) @ np.sqrt(1 - x**2)
     for i in (60, 128, 200):
         exact = swept(lambda at: np.sqrt(np.maximum(1 - at**2, 0)), x[i], 1 + x[i]) / math.sqrt(math.pi)
-        assert rise[i] == pytest.approx(exact, rel=1e-4)
+        assert rise[i] == pytest.approx(exact, rel=5e-4)
 
 
 def test_both_bodies_share_the_heat_of_one_surface_temperature():
