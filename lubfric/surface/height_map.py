@@ -108,12 +108,14 @@ class Surface(FrozenArrays):
 
     def without_outliers(self) -> Surface:
         """Outliers become unmeasured points; see `lubfric.surface.outliers` for the rule (level first, then fill)."""
-        filled = self if np.isfinite(self.heights).all() else self.fill()
-        found = outliers(filled.heights, self.mask, self.periodic_axes)
-        if not found.any():
-            return replace(self, notes=(*self.notes, "no outliers"))
-        mask = ~found if self.mask is None else self.mask & ~found
-        note = f"{np.count_nonzero(found)} outliers masked ({LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
+        mask = np.ones(self.shape, bool) if self.mask is None else self.mask
+        while True:
+            found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
+            if not found.any():
+                break
+            mask = mask & ~found
+        count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
+        note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
         return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
@@ -230,7 +232,7 @@ class Surface(FrozenArrays):
 
     def continued(self, length: float) -> Surface:
         """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x then."""
-        if self.size[0] >= validate.positive("length", length, "m"):
+        if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
         new = self.periodic("mirror", axes=(True, False))
         count = new.shape[0] * math.ceil(length / new.size[0] * (1 - 1e-9))

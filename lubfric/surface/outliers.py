@@ -3,8 +3,9 @@
 The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations of the whole map from
 the median of the ``WINDOW`` x ``WINDOW`` points around it. The robust deviation is 1.4826 times the median of
 |z - median(z)|, which is the standard deviation of a Gaussian map and hardly feels the outliers themselves; where it is zero
-(most of the map is one height) it is Sq. Ridges, grooves and summits that are resolved (at least half a window wide) are no outliers however high they are; dust, noise beside
-unmeasured points and the flares of optical instruments at steep edges are.
+(most of the map is one height) it is Sq. What is found is filled and the map searched again, until nothing is. Ridges and
+grooves at least three points wide stay, however high, and so do summits that are wide against the window; dust, noise beside
+unmeasured points and the flares of optical instruments at steep edges go.
 """
 
 from __future__ import annotations

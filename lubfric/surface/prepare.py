@@ -77,6 +77,8 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     from scipy.sparse.linalg import spsolve
 
     missing = ~mask
+    if not missing.any():
+        return heights
     if np.count_nonzero(missing) > MOST_MISSING * mask.size:
         raise InputError(
             f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from . import instrument
+from . import checks, instrument
 from .height_map import Surface
 from .prepare import FORMS
 from .table import DECIMALS
@@ -159,15 +160,21 @@ def _prepared(surface, level, fill, form) -> Surface:
 def _read_npy(path) -> np.ndarray:
     """Memory-mapped first, so that a header cannot ask for more than the file holds."""
     try:
-        data = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, EOFError, SyntaxError, TypeError, OverflowError) as problem:
-        raise InputError(f"path = {str(path)!r} is not a readable .npy array ({problem})") from None
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            data = np.load(path, mmap_mode="r", allow_pickle=False)
+    except Exception as problem:  # the header is Python text: any error of its parser, or of the map made from it
+        raise InputError(
+            f"path = {str(path)!r} is not a readable .npy array ({validate.shown(str(problem))})"
+        ) from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
         raise InputError(
             f"path = {str(path)!r} holds {getattr(data, 'dtype', type(data))} of shape "
             f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]"
         )
-    return np.array(data, dtype=float)
+    checks.points(f"path = {str(path)!r}: shape", data.shape)
+    with np.errstate(over="ignore"):
+        return np.array(data, dtype=float)
 
 
 def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form="plane", fill=True) -> Surface:
