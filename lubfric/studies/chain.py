@@ -41,7 +41,9 @@ def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
     return Chain(speeds, tuple(keys), kept)
 
 
-def run_chain(model: Model, chain: Chain, journal: Journal | None = None, done: int = 0) -> Iterator[tuple[int, object]]:
+def run_chain(
+    model: Model, chain: Chain, journal: Journal | None = None, done: int = 0
+) -> Iterator[tuple[int, object]]:
     """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in ``journal`` first.
 
     A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program and
@@ -59,7 +61,10 @@ def run_chain(model: Model, chain: Chain, journal: Journal | None = None, done: 
             return
         if journal is not None:
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
-        yield index, outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None)
+        yield (
+            index,
+            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
+        )
     if journal is not None:
         journal.end(chain.name)
 

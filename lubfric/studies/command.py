@@ -59,7 +59,9 @@ def _kept(folder) -> str:
         return "interrupted before the first point"
     found = open_study(folder)
     done = found.status.size - found.missing
-    return f"interrupted; {done} of {found.status.size} points are kept in {folder}: the same command goes on from there"
+    return (
+        f"interrupted; {done} of {found.status.size} points are kept in {folder}: the same command goes on from there"
+    )
 
 
 def _progress(begun: float):

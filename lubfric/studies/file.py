@@ -28,7 +28,9 @@ def load_study(path) -> StudyPlan:
     table = _table(path)
     for key in table:
         if key not in KEYS:
-            raise InputError(f"unknown key {key!r} in {path.name}{validate.nearest(key, KEYS)}; allowed: {', '.join(KEYS)}")
+            raise InputError(
+                f"unknown key {key!r} in {path.name}{validate.nearest(key, KEYS)}; allowed: {', '.join(KEYS)}"
+            )
     name = table.get("scene")
     if not isinstance(name, str):
         raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
@@ -100,7 +102,9 @@ def _sampled(table, path: Path) -> dict:
         inner = value if isinstance(value, dict) and "low" not in value else {"": value}
         for field, given in inner.items():
             if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
-                raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
+                raise InputError(
+                    f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}"
+                )
             ranges[f"{key}.{field}" if field else key] = Between(**given)
     if len(ranges) == 1:
         ((key, only),) = ranges.items()

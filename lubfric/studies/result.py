@@ -114,7 +114,9 @@ def open_study(folder) -> StudyResult:
         plan = json.loads(path.read_text(encoding="utf-8"))
         keys = set(plan["keys"])
     except (ValueError, KeyError, TypeError, UnicodeDecodeError):
-        raise InputError(f"{path} is damaged; allowed: run the study again on this store, which writes it anew") from None
+        raise InputError(
+            f"{path} is damaged; allowed: run the study again on this store, which writes it anew"
+        ) from None
     rows = {key: row_of(value) for key, value in Records(Path(folder) / POINTS).read() if key in keys}
     return StudyResult.of_rows(plan, rows)
 
@@ -138,5 +140,3 @@ def _column(values: list) -> np.ndarray:
     if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
         return np.array(values, dtype=float)
     return np.array([v if isinstance(v, str) else json.dumps(v) for v in values])
-
-

@@ -33,7 +33,9 @@ class Piece:
         return self.done.get(chain.name, 0) < len(chain.keys)
 
 
-def study(scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None) -> StudyResult:
+def study(
+    scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
+) -> StudyResult:
     """Friction of ``scene`` at every combination of the values in ``vary`` and every entrainment speed.
 
     Parameters
@@ -136,5 +138,3 @@ def _all_failed(chain: Chain, error: LubfricError, journal, done: int) -> dict[s
         if journal is not None:
             journal.records.add(key, record)
     return dict.fromkeys(chain.keys[done:], row_of(record))
-
-

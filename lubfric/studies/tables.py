@@ -20,9 +20,7 @@ from .row import SPEED
 def to_xarray(result: StudyResult):
     """See `StudyResult.to_xarray`."""
     xarray = _tool("xarray")
-    data = {
-        name: (result.dims, values, _attributes(name, result)) for name, values in result.columns.items()
-    }
+    data = {name: (result.dims, values, _attributes(name, result)) for name, values in result.columns.items()}
     data["status"] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
     coords = {key: (dim, values, described(key, KEYS)) for key, (dim, values) in result.coords.items()}
     attributes = {"title": f"friction of {result.plan['name']}", "source": f"lubfric {result.plan['lubfric']}"}

@@ -103,7 +103,9 @@ def _check_key(scene: Scene, key, seen: set) -> None:
     section, _, field = str(key).partition(".")
     sections = [name for name in scene.__dataclass_fields__ if name not in ("name", "transient")]
     if section not in sections:
-        raise InputError(f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key")
+        raise InputError(
+            f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
+        )
     fields = getattr(scene, section).__dataclass_fields__
     if field and field not in fields:
         raise InputError(
@@ -128,7 +130,9 @@ def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
         rows = [(value,) for value in rows]
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
-            raise InputError(f"vary: {', '.join(keys)} go together; allowed: a list of {len(keys)} values each, not {row!r}")
+            raise InputError(
+                f"vary: {', '.join(keys)} go together; allowed: a list of {len(keys)} values each, not {row!r}"
+            )
     return Axis(name, keys, tuple(tuple(_plain(value) for value in row) for row in rows))
 
 

@@ -276,7 +276,9 @@ def test_keys_that_go_together_and_samples():
     )
     assert plan.shape == (8, 2, 1) and [axis.name for axis in plan.axes] == ["case", "contact.region"]
     curve = next(c for b in plan.batches for c in b.curves if c.index == (5, 1))
-    assert (curve.scene.bodies.load, curve.scene.lubricant.viscosity) == points[5] and curve.scene.contact.region == "box"
+    assert (curve.scene.bodies.load, curve.scene.lubricant.viscosity) == points[
+        5
+    ] and curve.scene.contact.region == "box"
 
 
 def test_samples_fill_their_ranges():
@@ -285,7 +287,9 @@ def test_samples_fill_their_ranges():
     shares = np.stack([(sobol[:, 0] - 1) / 9, np.log(sobol[:, 1] / 0.01) / np.log(100)], axis=1)
     for column in shares.T:  # one point in each of the 64 equal parts of every range
         assert sorted((column * 64).astype(int)) == list(range(64))
-    assert lubfric.sample(ranges, 64, seed=3) == lubfric.sample(ranges, 64, seed=3) != lubfric.sample(ranges, 64, seed=4)
+    assert (
+        lubfric.sample(ranges, 64, seed=3) == lubfric.sample(ranges, 64, seed=3) != lubfric.sample(ranges, 64, seed=4)
+    )
     spread = np.array(lubfric.sample(ranges, 4000, "random", seed=1))
     assert np.log10(spread[:, 1]).mean() == pytest.approx(-1.0, abs=0.05)
     assert spread[:, 0].mean() == pytest.approx(5.5, abs=0.2)
