@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .errors import InputError
 from .film.contract import FilmLevel
@@ -11,6 +11,8 @@ from .film.ladder import LEVELS
 from .rough.contract import RoughContact
 from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
+from .sampling.lines import Lines
+from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
 from .surface import Surface
 
@@ -19,13 +21,16 @@ from .surface import Surface
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes.
+    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. lines: where ``surface`` is a
+    line of the scene's roughness, more of it; given: it was given to `prepare`, and is all there is.
     """
 
     scene: Scene
     surface: Surface
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
+    lines: Lines | None = None
+    given: bool = False
 
 
 def prepare(
@@ -39,22 +44,33 @@ def prepare(
     """Build what does not depend on the speed: the height map and the rough contact.
 
     ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
-    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so).
+    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so). Without one, a scene with
+    ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md).
     ``like``: a model of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
     if like is not None:
         return _another(scene, like)
+    levels, given = tuple(film_levels), surface is not None or contact is not None
+    _check_levels(scene, levels)
+    if not given and takes_line(scene):
+        return _on_a_line(scene, levels)
     if surface is None:
         surface = contact_map(scene)
     else:
         check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
         surface = surface.periodic("mirror", axes=(True, False))
-    levels = tuple(film_levels)
-    _check_levels(scene, levels)
-    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
+    rough = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, rough, levels, given=given)
+
+
+def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Model:
+    lines = lines_of(scene)
+    surface, contact = pilot(scene, lines)
+    check_grid(scene, surface)
+    return Model(scene, surface, contact, levels, lines)
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -89,10 +105,23 @@ def _another(scene: Scene, like: Model) -> Model:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
+    _check_levels(scene, like.film_levels)
+    if not like.given and (like.lines is not None or takes_line(scene)):
+        return _another_line(scene, like)
     if not like.contact.nominally_flat:
         check_grid(scene, like.surface)
-    _check_levels(scene, like.film_levels)
-    return Model(scene, like.surface, like.contact.again(scene, old), like.film_levels)
+    return replace(like, scene=scene, contact=like.contact.again(scene, old))
+
+
+def _another_line(scene: Scene, like: Model) -> Model:
+    """The same lines, or others where the scene asks for another sampling or its strip for other cells."""
+    if like.lines is None or not takes_line(scene):
+        return prepare(scene, film_levels=like.film_levels)
+    lines = like.lines.again(scene)
+    if lines is None:
+        return _on_a_line(scene, like.film_levels)
+    check_grid(scene, like.surface)
+    return replace(like, scene=scene, contact=like.contact.again(scene, like.scene), lines=lines)
 
 
 def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:

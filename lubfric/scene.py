@@ -27,6 +27,7 @@ MODELS = ("auto", "full")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
 GRIDS = ("auto", "given")
+SAMPLINGS = ("line", "patch")
 
 
 @dataclass(frozen=True)
@@ -201,6 +202,9 @@ class Numerics:
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
     scene's own grid. film_level, contact_level, grid: a level given by name instead.
+
+    What surface it is modelled with: sampling "line", a line of the scene's roughness as long as the standard error
+    ``sampling_tolerance`` of f asks, relative (docs/uncertainty.md); "patch", the one patch of ``contact.shape``.
     """
 
     tolerance: float = 0.01
@@ -215,6 +219,8 @@ class Numerics:
     film_level: str = "auto"
     contact_level: str = "auto"
     grid: str = "auto"
+    sampling: str = "line"
+    sampling_tolerance: float = 0.02
 
     def __post_init__(self):
         for name, options in (
@@ -222,6 +228,7 @@ class Numerics:
             ("film_level", FILM_LEVELS),
             ("contact_level", CONTACT_LEVELS),
             ("grid", GRIDS),
+            ("sampling", SAMPLINGS),
         ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
@@ -234,6 +241,7 @@ class Numerics:
                         f"allowed: {', '.join(map(repr, allowed))}"
                     )
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
+        validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)

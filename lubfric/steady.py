@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from . import validate
 from .model import Model, at_tolerance
@@ -13,6 +13,10 @@ from .point.balance import Balance
 from .point.cautions import Caution, cautions
 from .point.decision import Decision
 from .report import Report
+from .sampling.estimate import of_line
+from .sampling.line_friction import LineFound, line_friction
+from .sampling.patch_error import of_patch
+from .sampling.uncertainty import FieldErrors, Uncertainty
 from .scene import Scene
 
 
@@ -27,6 +31,11 @@ class FrictionResult:
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
     (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
     (``decision.text`` in words); ``cautions``: the limits of the model that the result has passed.
+
+    ``uncertainty``: of the coefficient, from solvers and grids and because a finite surface stands for all of it (an
+    `Uncertainty`: docs/uncertainty.md); ``errors``: relative, of every other number (`FieldErrors`), as
+    ``errors.contact_load``. ``line``: what the long line of a scene gave, a start for a neighbouring speed; ``balance`` then has the
+    fields of its first 180 correlation lengths, and forces and areas are those of all of it.
     """
 
     speed: float
@@ -51,6 +60,9 @@ class FrictionResult:
     balance: Balance | None = None
     decision: Decision | None = None
     cautions: tuple[Caution, ...] = ()
+    uncertainty: Uncertainty | None = None
+    errors: FieldErrors | None = None
+    line: LineFound | None = field(default=None, repr=False)
 
 
 def friction(
@@ -72,7 +84,8 @@ def friction(
     ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
     (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid.
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
-    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
+    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
+    solved; on a long line they are those of the line, on its cells.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
     not converge (``raise_on_failure=False`` returns the unconverged balance, but a failed film or contact always raises).
@@ -80,10 +93,27 @@ def friction(
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
     speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
-    result = _result(ready, speed, solved(ready, speed, start.balance if start else None, given_grid=fields), begun)
+    result = _found(ready, speed, start, fields, begun)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
+
+
+def _found(model: Model, speed: float, start: FrictionResult | None, fields: bool, begun: float) -> FrictionResult:
+    """On a long line where the model has one, else on its patch."""
+    if model.lines is not None:
+        line = line_friction(model, speed, start.line if start else None)
+        uncertainty, errors = of_line(model.scene, line)
+        result = _result(model, speed, line.point, begun)
+        return replace(result, uncertainty=uncertainty, errors=errors, line=line, report=_told(result, uncertainty))
+    point = solved(model, speed, start.balance if start else None, given_grid=fields)
+    uncertainty, errors = of_patch(model, speed, point)
+    result = _result(model, speed, point, begun)
+    return replace(result, uncertainty=uncertainty, errors=errors, report=_told(result, uncertainty))
+
+
+def _told(result: FrictionResult, uncertainty: Uncertainty) -> Report:
+    return replace(result.report, notes=(*result.report.notes, uncertainty.text))
 
 
 def _result(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:

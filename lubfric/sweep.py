@@ -10,10 +10,11 @@ from . import validate
 from .errors import ConvergenceError, InputError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
+from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from .scene import Scene
 from .steady import FrictionResult, friction
 
-NOT_NUMBERS = ("report", "balance", "decision", "cautions")
+NOT_NUMBERS = ("report", "balance", "decision", "cautions", "uncertainty", "errors", "line")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -22,7 +23,9 @@ class StribeckResult:
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}.
+    results themselves (None where failed), ``errors`` {index: the exception raised there}; ``uncertainty``: arrays of
+    the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity: its relative errors, an array}. One line
+    of the surface serves all speeds, so their errors go up and down together.
     """
 
     speed: np.ndarray
@@ -46,6 +49,8 @@ class StribeckResult:
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    uncertainty: UncertaintyCurve
+    field_errors: dict[str, np.ndarray]
 
 
 def stribeck(
@@ -107,7 +112,7 @@ def _run(model, cases, fields):
             start = None
             yield index, error
         else:
-            yield index, start if speed in fields else replace(start, balance=None)
+            yield index, replace(start, line=None) if speed in fields else replace(start, balance=None, line=None)
             start = start if start.balance.film is not None else None
 
 
@@ -136,4 +141,16 @@ def _collect(speeds, points, errors) -> StribeckResult:
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
     report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
-    return StribeckResult(**columns, points=tuple(points), errors=errors, report=report)
+    return StribeckResult(
+        **columns,
+        points=tuple(points),
+        errors=errors,
+        report=report,
+        uncertainty=curve_of([None if p is None else p.uncertainty for p in points]),
+        field_errors=_field_errors(points),
+    )
+
+
+def _field_errors(points) -> dict[str, np.ndarray]:
+    """Relative errors by quantity, NaN where a point failed."""
+    return {name: np.array([np.nan if p is None else getattr(p.errors, name) for p in points]) for name in FIELDS}

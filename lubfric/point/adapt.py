@@ -26,11 +26,12 @@ SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, its forces, and how far it was modelled."""
+    """A balance, its forces, how far it was modelled, and the contact it was found on: the model's own, coarser or a part."""
 
     balance: Balance
     forces: Forces
     decision: Decision
+    contact: RoughContact
 
 
 def solved(model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
@@ -47,13 +48,14 @@ def solved(model: Model, speed: float, start: Balance | None = None, *, given_gr
         state = stage.balance.contact
         clearance = (state.mean_film - state.mean_gap) / max(model.surface.sq, 1e-12)
         if clearance >= 0 or numerics.contact_level == "none":
-            return Solved(stage.balance, stage.forces, replace(_decision(stage), contact="none", clearance=clearance))
+            decision = replace(_decision(stage), contact="none", clearance=clearance)
+            return Solved(stage.balance, stage.forces, decision, model.contact)
     own = given_grid or numerics.grid == "given" or numerics.model == "full"
     grids = [model.contact] if own else coarser_grids(model.contact, model.surface.sq)
     point = OperatingPoint(model, speed, grids[0], _first_settings(model, speed, start))
     stage, reached, error = _in_contact(point, grids, start)
     decision = _decision_in_contact(stage, error, finest=reached is grids[-1])
-    return Solved(stage.balance, stage.forces, decision)
+    return Solved(stage.balance, stage.forces, decision, stage.point.contact)
 
 
 def _dry(model: Model) -> Solved:
@@ -67,7 +69,7 @@ def _dry(model: Model) -> Solved:
         forced=_forced(numerics),
         shape=None if grid is None else grid.cells,
     )
-    return Solved(balance, forces(model.scene, balance), decision)
+    return Solved(balance, forces(model.scene, balance), decision, model.contact)
 
 
 def _certainly_touching(model: Model, speed: float) -> bool:

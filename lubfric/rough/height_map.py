@@ -66,8 +66,9 @@ def _generated(scene: Scene) -> Surface:
     return surface.scaled(sq=rough.sq)
 
 
-def _measured(scene: Scene) -> Surface:
-    rough, patch, bodies = scene.surface, scene.contact, scene.bodies
+def measured_map(scene: Scene) -> Surface:
+    """All of the scene's file, x along the motion, scaled and resampled as the scene asks."""
+    rough, patch = scene.surface, scene.contact
     surface = read_surface(rough.file, spacing=rough.spacing, unit=rough.unit, form=rough.form, decimal=rough.decimal)
     if rough.motion_axis == "y":
         surface = surface.transposed()
@@ -75,6 +76,11 @@ def _measured(scene: Scene) -> Surface:
         surface = surface.scaled(sq=rough.sq)
     if patch.spacing is not None:
         surface = surface.resampled(spacing=patch.spacing)
+    return surface
+
+
+def _measured(scene: Scene) -> Surface:
+    surface, patch, bodies = measured_map(scene), scene.contact, scene.bodies
     nx, ny = patch.shape or surface.shape
     if patch.shape is None and patch.geometry == "cylinder":
         nx = min(nx, 2 * int(REACH * bodies.half_width / surface.spacing[0]) + 1)

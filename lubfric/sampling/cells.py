@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ CELLS_PER_LENGTH = 4.0  # of the correlation length
 CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
 EVEN = 4  # cells along x come in fours: two coarser grids to start from
 FAST = 16  # and along y in sixteens
+SUMMITS = 4.5  # Sq
 
 
 @dataclass(frozen=True)
@@ -42,11 +44,30 @@ class Cells:
 
 
 def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
-    """At least four cells in each of the correlation ``lengths`` [m], two in the half-width of the strip; powers of two of ``spacing`` [m]; x over ``reach`` [m] in all."""
+    """At least four cells in each of the correlation ``lengths`` [m], two in the half-width of the strip: powers of two of
+    ``spacing`` [m]; over ``reach`` [m] of x at least."""
+    fx, fy = _factors(spacing, lengths, half_width)
+    return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
+
+
+def cells_of_a_box(spacing, lengths, half_width: float, columns: int) -> Cells:
+    """The same over ``columns`` of the scene's own cells, neither more nor less."""
+    fx, fy = _factors(spacing, lengths, half_width)
+    while columns % fx:
+        fx //= 2
+    return Cells((fx, fy), tuple(spacing), columns // fx)
+
+
+def reach_of(scene, sq: float) -> float:
+    """Length [m] along x that holds the contact: where an undeformed cylinder on the ends of the Hertz strip rises by
+    `SUMMITS` Sq, on either side."""
+    bodies = scene.bodies
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
+
+
+def _factors(spacing, lengths, half_width: float) -> tuple[int, int]:
     along = min(lengths[0] / CELLS_PER_LENGTH, half_width / CELLS_PER_HALF_WIDTH)
-    factors = tuple(_power_of_two(wide / step) for wide, step in zip((along, lengths[1] / CELLS_PER_LENGTH), spacing))
-    count = EVEN * max(1, round(reach / (EVEN * factors[0] * spacing[0])))
-    return Cells(factors, tuple(spacing), count)
+    return _power_of_two(along / spacing[0]), _power_of_two(lengths[1] / (CELLS_PER_LENGTH * spacing[1]))
 
 
 def _power_of_two(ratio: float) -> int:

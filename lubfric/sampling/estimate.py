@@ -12,9 +12,10 @@ from .grid_pair import mean_of
 from .influence import BlockError
 from .line_record import Pooled
 from .response import Response
-from .uncertainty import FEW, Uncertainty, interval, percent
+from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, percent
 
 FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
+SHEAR = ("shear_force", "couette_force", "rolling_force")
 AREAS = ("real_contact_area_fraction", "real_contact_area")
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 
@@ -66,7 +67,7 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name in FILMS:
         errors[name] = errors.get(name, 0.0) + numerical.film
-    for name in ("shear_force", "couette_force", "rolling_force"):
+    for name in SHEAR:
         errors[name] = errors.get(name, 0.0) + numerical.film
     load = balance.contact_load / together.contact_load if together.contact_load else 0.0
     for name, value, error, slope in (
@@ -78,27 +79,35 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
             continue
         by_load = slope * load * together.contact_load / value * errors.get("contact_load", 0.0)
         errors[name] = math.hypot(by_load, error / value, numerical.area)
+    if together.plastic_fraction > 0:  # a count of spots
+        changed = balance.contact.plastic_area_fraction / together.plastic_fraction - 1
+        errors["plastic_area_fraction"] = math.hypot(together.participation**-0.5, changed)
     return errors
 
 
-def dry_errors(line) -> dict[str, float]:
+def dry_errors(together: Pooled) -> dict[str, float]:
     """Without entrainment all is contact: the areas alone scatter."""
-    found = line.together
-    pairs = ((found.area_fraction, found.area.error), (found.touched_length, found.touched.error))
-    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, pairs)}
+    pairs = ((together.area_fraction, together.area.error), (together.touched_length, together.touched.error))
+    areas = {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, pairs)}
+    return areas | dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
+
+
+def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
+    """Without contact everything hangs on the film, of relative error ``film``."""
+    return dict.fromkeys(FILMS, film) | dict.fromkeys(SHEAR, film + found.quadrature) | {"film_load": 0.0}
 
 
 def uncertainty_of(
-    coefficient: float, numerical: float, sampling: float, error: BlockError, together: Pooled, scene, area_needed=1.0
+    coefficient: float, numerical: float, sampling: float, error: BlockError, together: Pooled, scene, area_needed=1.0, notes=()
 ) -> Uncertainty:
-    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom."""
-    asked, notes = scene.numerics.sampling_tolerance, []
+    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in its text."""
+    asked, notes = scene.numerics.sampling_tolerance, [*notes]
     if sampling > asked and area_needed > 1:
         notes.append(
             f"the map ends before the {percent(asked)} asked: it would take about {area_needed:.2g} times its area"
         )
     elif sampling > asked:
-        notes.append(f"more than the {percent(asked)} asked: the longest line was reached")
+        notes.append(f"more than the {percent(asked)} asked")
     few = 0 < together.participation < FEW and sampling > 0.25 * asked
     if few:
         notes.append(
@@ -120,7 +129,7 @@ def uncertainty_of(
     )
 
 
-def of_line(scene, line) -> tuple[Uncertainty, dict[str, float]]:
+def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a `LineFound`."""
     found = line.point.forces
     rest = mean_of(line.grid, "rest", 0.0)
@@ -128,15 +137,23 @@ def of_line(scene, line) -> tuple[Uncertainty, dict[str, float]]:
     numerical = numerical_errors(line.point, line.first.contact.volume_residual, rest, area)
     relative = coefficient_error(numerical, found, line.response)
     if line.response is None:  # separated
-        share = scene.bodies.boundary_friction_coefficient * line.missed / scene.bodies.load
-        sampling = share / abs(found.coefficient) if found.coefficient else 0.0
-        error, errors = BlockError(0.0, ORDER), {}
+        sampling = line.missed
+        error, errors = BlockError(0.0, ORDER), film_alone_errors(numerical.film, found)
     elif not line.response.rates:
-        sampling, error, errors = 0.0, BlockError(0.0, ORDER), dry_errors(line)
+        sampling, error, errors = 0.0, BlockError(0.0, ORDER), dry_errors(line.together)
     else:
         sampling, error = line.response.relative("coefficient", line.gap_error.error), line.gap_error
         errors = field_errors(line.point.balance, numerical, error, line.together, line.response)
     needed = (sampling / scene.numerics.sampling_tolerance) ** 2 if line.map_ends else 1.0
     known = uncertainty_of(found.coefficient, relative, sampling, error, line.together, scene, max(needed, 1.0))
-    return known, errors | {"coefficient": math.hypot(relative, sampling)}
+    return known, field_errors_of(errors | {"coefficient": math.hypot(relative, sampling)}, why_not(line.point))
+
+
+def why_not(point: Solved) -> str:
+    """Why the error of a quantity is not told."""
+    if point.balance.film is None:
+        return "no entrainment: there is no film"
+    if point.balance.contact_load == 0:
+        return "no contact was met: it has no relative error"
+    return "there was none of it, or too little to tell"
 

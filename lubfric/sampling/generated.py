@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..scene import Scene
 from ..surface import Surface, generate_surface
-from .cells import Cells, choose_cells
+from .cells import Cells, cells_of_a_box, choose_cells, reach_of
 
 LINE, PAIR = 0, 1  # streams of seeds
 
@@ -39,6 +39,11 @@ class GeneratedLines:
         columns = self.cells.columns(length) * fy
         return self._piece((PAIR, index), Cells((1, 1), self.cells.spacing, self.cells.count * fx), length, columns)
 
+    def again(self, scene: Scene) -> GeneratedLines | None:
+        """The same for another scene with the same cells."""
+        other = generated_lines(scene)
+        return other if other.cells == self.cells else None
+
     def halved(self) -> GeneratedLines:
         """The same on cells half as long."""
         return GeneratedLines(self.scene, self.cells.halved(), self.lengths)
@@ -61,7 +66,8 @@ class GeneratedLines:
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
-    """Lines of the generated surface of ``scene``, as long in x as its patch."""
+    """Lines of the generated surface of ``scene``, as long in x as its patch or, unless that is the area A, as the contact
+    is, if it is longer."""
     from ..validate import spacing as checked_spacing
 
     rough, patch = scene.surface, scene.contact
@@ -69,8 +75,11 @@ def generated_lines(scene: Scene) -> GeneratedLines:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
     spacing = checked_spacing("contact.spacing", patch.spacing)
     lengths = lengths_of(rough)
-    reach = patch.shape[0] * spacing[0]
-    return GeneratedLines(scene, choose_cells(spacing, lengths, scene.bodies.half_width, reach), lengths)
+    half_width = scene.bodies.half_width
+    if patch.region == "box":
+        return GeneratedLines(scene, cells_of_a_box(spacing, lengths, half_width, patch.shape[0]), lengths)
+    reach = max(patch.shape[0] * spacing[0], reach_of(scene, rough.sq))
+    return GeneratedLines(scene, choose_cells(spacing, lengths, half_width, reach), lengths)
 
 
 def lengths_of(rough) -> tuple[float, float]:

@@ -35,8 +35,8 @@ class LineFound:
     """The balance that all lines together and the grid ask for, and what is known of its error.
 
     first: the balance of the pilot line as it is, a start for a neighbouring speed, and used, the further lines.
-    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed [N]: contact
-    load that lines without contact may have missed by chance; map_ends: no longer line could be had.
+    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed: what contact
+    that lines without any have missed by chance would add to f, relative; map_ends: no longer line could be had.
     """
 
     point: Solved
@@ -102,7 +102,7 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     contact.check(found.contact)
     if found.contact_load > 0:
         found = replace(found, contact_load=found.moved(-found.contact.volume_residual / slope).contact_load)
-    return Solved(found, sample.first.forces, anchor.point.decision)
+    return Solved(found, sample.first.forces, anchor.point.decision, contact)
 
 
 def _found(sample: Sample) -> LineFound:
@@ -143,4 +143,4 @@ def _divided(sample: Sample, together: Pooled) -> Solved:
         plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
     )
     final = replace(final, contact=state)
-    return Solved(final, forces(scene, final), anchor.point.decision)
+    return Solved(final, forces(scene, final), anchor.point.decision, anchor.contact)

@@ -38,24 +38,24 @@ def length_of(contact) -> float:
     return contact.heights.shape[1] * contact.spacing[1]
 
 
-def record(contact, state: ContactState, load: float, slopes: Slopes, correlation_length: float, windows: int = 1) -> LineRecord:
+def record(contact, state: ContactState, load: float, slopes: Slopes, correlation_length: float, windows: int = 1, rows: slice = slice(None)) -> LineRecord:
     """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map that
-    follow each other along y.
+    follow each other along y; ``rows`` along y that count, where others only mirror them.
 
     The standard error is the larger of those from blocks along y and, of three and more, from windows: a surface that
     differs from place to place shows it there.
     """
-    by_place, step = line_load(contact, state), contact.spacing[1]
-    touching = state.pressure > 0
+    by_place, step = line_load(contact, state)[rows], contact.spacing[1]
+    touching = state.pressure[:, rows] > 0
     touched = touching.sum(axis=0) * contact.spacing[0]
 
     def error(values, slope):
         return _larger(gap_influence(values, by_place, slope), step, correlation_length, windows)
 
     return LineRecord(
-        length_of(contact),
+        by_place.size * step,
         load,
-        error(strip_gap(contact, state), slopes.gap),
+        error(strip_gap(contact, state)[rows], slopes.gap),
         error(contact.weight @ touching / contact.weight.sum(), slopes.area),
         error(touched, slopes.touched),
         spot_loads(by_place, step, correlation_length),

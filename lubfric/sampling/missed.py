@@ -12,7 +12,19 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def missed_load(contact, film, correlation_length: float) -> float:
+def missed_share(model, film, found, correlation_length: float) -> float:
+    """What `missed_load` would add to f, relative to it; NaN where the contact has no cells or too few along y."""
+    if model.contact.grid is None or model.contact.nominally_flat or not found.coefficient:
+        return math.nan
+    bodies = model.scene.bodies
+    heights = model.surface.heights - model.surface.heights.mean()
+    load = missed_load(
+        heights, model.surface.spacing, film.film_at(model.contact.x), bodies.e_prime, bodies.width, correlation_length
+    )
+    return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
+
+
+def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
     """Expected contact load [N] of the whole width that summits beyond the highest one of the line would carry.
 
     The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, fitted by its first two
@@ -20,8 +32,7 @@ def missed_load(contact, film, correlation_length: float) -> float:
     sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5 1.33.
     An order of magnitude, and no more.
     """
-    height = contact.heights - film[:, None]
-    step = contact.spacing[1]
+    height, step = heights - film[:, None], spacing[1]
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
@@ -32,13 +43,13 @@ def missed_load(contact, film, correlation_length: float) -> float:
     if scale == 0:
         return 0.0
     rate = -math.expm1(-math.exp(min(place / scale, 50.0)))  # of blocks that touch
-    spot = 4 / 3 * 0.5 * contact.operator.e_prime * math.sqrt(summit_radius(contact)) * scale**1.5 * OVERLAP
-    return rate * spot / (size * step) * contact.width
+    spot = 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * scale**1.5 * OVERLAP
+    return rate * spot / (size * step) * width
 
 
-def summit_radius(contact) -> float:
+def summit_radius(heights, spacing) -> float:
     """Radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
-    z, (dx, dy) = contact.heights, contact.spacing
+    z, (dx, dy) = heights, spacing
     i, j = np.unravel_index(int(z[1:-1].argmax()), z[1:-1].shape)
     i, columns = i + 1, z.shape[1]
     along = (2 * z[i, j] - z[i - 1, j] - z[i + 1, j]) / dx**2

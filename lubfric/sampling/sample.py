@@ -14,7 +14,7 @@ from .grid_pair import GridStep, grid_step, mean_error
 from .influence import add_errors
 from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
-from .missed import missed_load
+from .missed import missed_share
 from .response import Response, Slopes, respond, slopes_of
 from .uncertainty import FEW
 
@@ -56,19 +56,18 @@ class Sample:
         if self.first.balance.film is None:
             return 0.0
         if self.anchor is None:
-            scene, f = self.model.scene, self.first.forces.coefficient
-            missed = scene.bodies.boundary_friction_coefficient * self.missed / scene.bodies.load
-            return missed / abs(f) if f else 0.0
+            return self.missed
         error = add_errors(self.together.gap, mean_error(self.anchor.grid))
         return self.anchor.response.relative("coefficient", error.error)
 
     @property
     def missed(self) -> float:
-        """Contact load [N] that lines without contact may have missed, by the pilot's summits and the length of all."""
-        contact = self.model.contact
-        film = self.first.balance.film.film_at(contact.x)
-        found = missed_load(contact, film, self.model.lines.lengths[1])
-        return found * length_of(contact) / sum(r.length for r in self.records)
+        """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and the length
+        of all."""
+        model, first = self.model, self.first
+        found = missed_share(model, first.balance.film, first.forces, model.lines.lengths[1])
+        found = found if math.isfinite(found) else 0.0
+        return found * length_of(model.contact) / sum(r.length for r in self.records)
 
     @property
     def few(self) -> bool:

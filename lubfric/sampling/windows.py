@@ -9,11 +9,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..surface import Surface, correlation_length
-from .cells import Cells, choose_cells
+from .cells import Cells, choose_cells, reach_of
 
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 BLEND = 2.0  # correlation lengths along y over which one window passes into the next
-SUMMITS = 6.0  # Sq: no summit is higher
 
 
 @dataclass(frozen=True)
@@ -65,6 +64,11 @@ class MeasuredLines:
         piece = whole[:, first : first + rows + blend]
         return self._made(stack([piece], blend)[:, :rows], self.surface.spacing, "a piece on the map's own cells")
 
+    def again(self, scene: Scene) -> MeasuredLines | None:
+        """The same for another scene with the same windows."""
+        other = measured_lines(scene, self.surface, self.lengths)
+        return other if (other.cells, other.starts) == (self.cells, self.starts) else None
+
     def halved(self) -> MeasuredLines:
         """The same on cells half as long."""
         return replace(self, cells=self.cells.halved())
@@ -101,11 +105,12 @@ def stack(pieces, blend: int) -> np.ndarray:
     return np.concatenate(out, axis=1)
 
 
-def measured_lines(scene, surface: Surface) -> MeasuredLines:
-    """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``."""
+def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredLines:
+    """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``; its correlation
+    ``lengths`` [m] along x and y, where they are known."""
     half_width, (dx, _) = scene.bodies.half_width, surface.spacing
-    lengths = tuple(length_or_half(surface, axis) for axis in range(2))
-    reach = 2 * math.sqrt(half_width**2 + 2 * scene.bodies.radius * SUMMITS * surface.sq)
+    lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
+    reach = reach_of(scene, surface.sq)
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
     cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
