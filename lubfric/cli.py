@@ -46,6 +46,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     run.add_argument(
+        "--sampling-tolerance",
+        type=float,
+        help="relative standard error of f that the finite length of rough surface may leave (default: the scene's, 0.02)",
+    )
+    run.add_argument(
         "--animation",
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
@@ -91,6 +96,8 @@ def _run(arguments) -> int:
     from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    if arguments.sampling_tolerance is not None:
+        scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if scene.transient is not None:
         from .unsteady.command import run_history
 
@@ -204,6 +211,6 @@ def _progress(done, total, speed, outcome) -> None:
         say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
     else:
         say(
-            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
+            f"[{done}/{total}] U = {speed:.4g} m/s: {outcome.uncertainty.short(outcome.coefficient)}, "
             f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
         )

@@ -6,12 +6,14 @@ import csv
 import json
 import math
 import platform
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
 from . import __version__
 from .model import Model
+from .sampling.uncertainty import UncertaintyCurve
 from .scene import scene_as_dict
 from .steady import FrictionResult
 from .surface import rms_slope
@@ -30,6 +32,7 @@ UNITS = {
     "central_film": "m",
     "mean_gap": "m",
     "seconds": "s",
+    "line_length": "m",
 }
 
 
@@ -63,8 +66,22 @@ def write_csv(path: Path, curve: StribeckResult) -> None:
     """One row a speed, one column a quantity, the unit in the heading."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow([f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES])
-        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES)))
+        known = uncertainty_columns(curve.uncertainty)
+        writer.writerow([f"{name} [{UNITS.get(name, '-')}]" for name in (*QUANTITIES, *known)])
+        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES), *known.values()))
+
+
+def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
+    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
+    return {
+        "interval_low": found.interval[:, 0],
+        "interval_high": found.interval[:, 1],
+        "numerical_error": found.numerical,
+        "sampling_error": found.sampling,
+        "line_scatter": found.line_scatter,
+        "participation": found.participation,
+        "line_length": found.length,
+    }
 
 
 def read_csv(path: Path) -> dict[str, np.ndarray]:
@@ -111,7 +128,11 @@ def _point(curve: StribeckResult, index: int) -> dict:
     if curve.points[index] is None:
         return {"speed": curve.speed[index], "error": str(curve.errors[index])}
     point = curve.points[index]
-    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()}
+    known = {
+        "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+        "errors": asdict(point.errors),
+    }
+    return {name: getattr(point, name) for name in QUANTITIES} | known | {"report": point.report.as_dict()}
 
 
 def _plain(value):

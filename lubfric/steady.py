@@ -14,7 +14,7 @@ from .point.cautions import Caution, cautions
 from .point.decision import Decision
 from .report import Report
 from .sampling.estimate import of_line
-from .sampling.line_friction import LineFound, line_friction
+from .sampling.line_friction import LineStart, line_friction
 from .sampling.patch_error import of_patch
 from .sampling.uncertainty import FieldErrors, Uncertainty
 from .scene import Scene
@@ -34,7 +34,7 @@ class FrictionResult:
 
     ``uncertainty``: of the coefficient, from solvers and grids and because a finite surface stands for all of it (an
     `Uncertainty`: docs/uncertainty.md); ``errors``: relative, of every other number (`FieldErrors`), as
-    ``errors.contact_load``. ``line``: what the long line of a scene gave, a start for a neighbouring speed; ``balance`` then has the
+    ``errors.contact_load``. ``line``: what the long line of a scene leaves for a neighbouring speed to start from; ``balance`` then has the
     fields of its first 180 correlation lengths, and forces and areas are those of all of it.
     """
 
@@ -62,7 +62,7 @@ class FrictionResult:
     cautions: tuple[Caution, ...] = ()
     uncertainty: Uncertainty | None = None
     errors: FieldErrors | None = None
-    line: LineFound | None = field(default=None, repr=False)
+    line: LineStart | None = field(default=None, repr=False)
 
 
 def friction(
@@ -105,7 +105,9 @@ def _found(model: Model, speed: float, start: FrictionResult | None, fields: boo
         line = line_friction(model, speed, start.line if start else None)
         uncertainty, errors = of_line(model.scene, line)
         result = _result(model, speed, line.point, begun)
-        return replace(result, uncertainty=uncertainty, errors=errors, line=line, report=_told(result, uncertainty))
+        return replace(
+            result, uncertainty=uncertainty, errors=errors, line=line.start, report=_told(result, uncertainty)
+        )
     point = solved(model, speed, start.balance if start else None, given_grid=fields)
     uncertainty, errors = of_patch(model, speed, point)
     result = _result(model, speed, point, begun)

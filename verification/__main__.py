@@ -22,6 +22,7 @@ SUBCOMMANDS: dict[str, str] = {
     "figures": "verification.figures",
     "levels": "verification.levels",
     "mutations": "verification.mutations",
+    "sampling": "verification.sampling",
     "charts": "verification.charts.command",
     "stability": "verification.stability.command",
     "tables": "verification.tables",

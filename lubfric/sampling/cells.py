@@ -75,4 +75,3 @@ def _power_of_two(ratio: float) -> int:
     while 2 * factor <= ratio * (1 + 1e-9):
         factor *= 2
     return factor
-

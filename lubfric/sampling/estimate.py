@@ -98,7 +98,14 @@ def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
 
 
 def uncertainty_of(
-    coefficient: float, numerical: float, sampling: float, error: BlockError, together: Pooled, scene, area_needed=1.0, notes=()
+    coefficient: float,
+    numerical: float,
+    sampling: float,
+    error: BlockError,
+    together: Pooled,
+    scene,
+    area_needed=1.0,
+    notes=(),
 ) -> Uncertainty:
     """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in its text."""
     asked, notes = scene.numerics.sampling_tolerance, [*notes]
@@ -156,4 +163,3 @@ def why_not(point: Solved) -> str:
     if point.balance.contact_load == 0:
         return "no contact was met: it has no relative error"
     return "there was none of it, or too little to tell"
-

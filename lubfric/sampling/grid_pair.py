@@ -54,7 +54,9 @@ def _ladder(factors) -> list[tuple[int, int]]:
     return steps
 
 
-def grid_step(lines, index: int, length: float, film: Film, contact_load: float, gap_slope: float, enough: float) -> GridStep:
+def grid_step(
+    lines, index: int, length: float, film: Film, contact_load: float, gap_slope: float, enough: float
+) -> GridStep:
     """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no further than
     until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
 
@@ -82,7 +84,9 @@ def grid_step(lines, index: int, length: float, film: Film, contact_load: float,
         rest=0.0 if own else rest,
         beyond=rest if own else math.nan,
         area=area,
-        area_error=area_error if own else math.hypot(area_error, _ratio(rows[-1].touching, rows[-2].touching, step, correlation)[0] - 1),
+        area_error=area_error
+        if own
+        else math.hypot(area_error, _ratio(rows[-1].touching, rows[-2].touching, step, correlation)[0] - 1),
         plastic=rows[-1].plastic - rows[0].plastic,
         contact_load=contact_load,
     )

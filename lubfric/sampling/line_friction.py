@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ..model import Model
 from ..point.adapt import Solved, solved
 from ..point.balance import Balance, balanced, divided
 from ..point.forces import forces
 from ..point.operating_point import OperatingPoint, Settings
 from ..rough.contract import ContactState
+from ..rough.half_space import HalfSpaceContact
 from .at_split import ANY, at, quantities, redivided
 from .grid_pair import GridStep, mean_error, mean_of
 from .influence import BlockError, add_errors
-from .line_record import Pooled, length_of
+from .line_record import Pooled
 from .pieces import line_contact
 from .response import Response, touched_length
 from .sample import Sample
@@ -24,17 +26,31 @@ LIGHT = 0.1  # of the load on the contact: it touches for sure
 
 @dataclass(frozen=True)
 class Used:
-    """A line beyond the pilot, and its contact: to go on from at a neighbouring speed."""
+    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again) and the state it was left in."""
 
-    contact: object
+    length: float
+    contact: HalfSpaceContact | None
     state: ContactState
+
+
+@dataclass(frozen=True)
+class LineStart:
+    """What a neighbouring speed goes on from: the balance of the pilot, the further lines, what the grid changed."""
+
+    first: Balance
+    used: tuple[Used, ...] = ()
+    grid: tuple[GridStep, ...] = ()
+
+    def bare(self) -> LineStart:
+        """Without what can be made again, to the same bits."""
+        return replace(self, used=tuple(replace(line, contact=None) for line in self.used))
 
 
 @dataclass(frozen=True)
 class LineFound:
     """The balance that all lines together and the grid ask for, and what is known of its error.
 
-    first: the balance of the pilot line as it is, a start for a neighbouring speed, and used, the further lines.
+    first: the balance of the pilot line as it is; used: the further lines.
     response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed: what contact
     that lines without any have missed by chance would add to f, relative; map_ends: no longer line could be had.
     """
@@ -49,34 +65,43 @@ class LineFound:
     map_ends: bool = False
     used: tuple[Used, ...] = ()
 
+    @property
+    def start(self) -> LineStart:
+        """For a neighbouring speed."""
+        return LineStart(self.first, self.used, self.grid)
 
-def line_friction(model, speed: float, start: LineFound | None = None) -> LineFound:
+
+def line_friction(model: Model, speed: float, start: LineStart | None = None) -> LineFound:
     """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
     ``numerics.sampling_tolerance``. ``start``: what was found of the same model at a neighbouring speed."""
     before = start.grid if start else ()
     first = solved(model, speed, start.first if start else None, given_grid=True)
     sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
     while (length := sample.wanted()) > 0:
-        contact, state = _next_line(sample, length, used, start)
+        length, contact, state = _next_line(sample, length, len(used), start)
         if sample.anchor is None:
-            found = solved(replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True)
+            found = solved(
+                replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
+            )
         else:
             found = _on_line(sample, contact, state)
         sample = sample.with_line(contact, found, before)
-        used = (*used, Used(contact, found.balance.contact))
+        used = (*used, Used(length, contact, replace(found.balance.contact, fields=None)))
     return replace(_found(sample), used=used)
 
 
-def _next_line(sample: Sample, length: float, used, start: LineFound | None):
-    """A line of about ``length`` [m] and a state to start from: that of the neighbouring speed, if it is long enough, or a
-    new one."""
-    index, model = len(used), sample.model
-    if start is not None and index < len(start.used):
+def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
+    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring speed, if
+    it is long enough, or a new one of ``length``."""
+    if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
         there = start.used[index]
-        if length_of(there.contact) >= length / SHORTER:
-            return there.contact, there.state
+        return there.length, there.contact or _line(sample.model, index, there.length), there.state
     state = replace(sample.first.balance.contact, fields=None, pressure=None)
-    return line_contact(model.scene, model.lines.line(index + 1, length)), state
+    return length, _line(sample.model, index, length), state
+
+
+def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
+    return line_contact(model.scene, model.lines.line(index + 1, length))
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:

@@ -8,7 +8,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..rough.contract import ContactState
-from .influence import BlockError, block_error, gap_influence, line_load, participation, spot_loads, strip_gap, weighted_errors
+from .influence import (
+    BlockError,
+    block_error,
+    gap_influence,
+    line_load,
+    participation,
+    spot_loads,
+    strip_gap,
+    weighted_errors,
+)
 from .response import Slopes
 
 FEWEST_WINDOWS = 3
@@ -38,7 +47,15 @@ def length_of(contact) -> float:
     return contact.heights.shape[1] * contact.spacing[1]
 
 
-def record(contact, state: ContactState, load: float, slopes: Slopes, correlation_length: float, windows: int = 1, rows: slice = slice(None)) -> LineRecord:
+def record(
+    contact,
+    state: ContactState,
+    load: float,
+    slopes: Slopes,
+    correlation_length: float,
+    windows: int = 1,
+    rows: slice = slice(None),
+) -> LineRecord:
     """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map that
     follow each other along y; ``rows`` along y that count, where others only mirror them.
 

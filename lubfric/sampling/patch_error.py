@@ -50,7 +50,9 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
         if balance.contact.fields is None:
             why = UNKNOWN.format("this contact has no places along y to compare")
         elif not long_enough:
-            why = UNKNOWN.format(f"{length / correlation:.2g} correlation lengths along y, {LEAST_BLOCKS * BLOCK:g} are needed")
+            why = UNKNOWN.format(
+                f"{length / correlation:.2g} correlation lengths along y, {LEAST_BLOCKS * BLOCK:g} are needed"
+            )
         else:
             response = response_of(model, speed, point.contact, balance)
             rows = point.contact.heights.shape[1] // (2 if _mirrored(model) else 1)
@@ -119,8 +121,10 @@ def _from_slope(point: Solved) -> Response:
 
 def _mirrored(model) -> bool:
     heights = model.surface.heights
-    return heights.shape[1] > 1 and bool(np.array_equal(heights[:, :2], heights[:, :-3:-1])) and bool(
-        np.array_equal(heights, heights[:, ::-1])
+    return (
+        heights.shape[1] > 1
+        and bool(np.array_equal(heights[:, :2], heights[:, :-3:-1]))
+        and bool(np.array_equal(heights, heights[:, ::-1]))
     )
 
 

@@ -6,16 +6,18 @@ import math
 from dataclasses import dataclass, replace
 
 from .. import budget
+from ..model import Model
 from ..point.adapt import Solved
 from ..point.balance import Balance, divided
 from ..point.operating_point import pressed_under
+from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, grid_step, mean_error
 from .influence import add_errors
 from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import missed_share
-from .response import Response, Slopes, respond, slopes_of
+from .response import Response, respond, slopes_of
 from .uncertainty import FEW
 
 PAIR = 48.0  # correlation lengths along y of a piece on the scene's own cells
@@ -29,7 +31,7 @@ SAME_LOAD = 0.15  # relative change of the contact load for which the grid's eff
 class Anchor:
     """The first line in contact: what is known of it holds for all. grid: what its cells change."""
 
-    contact: object
+    contact: HalfSpaceContact
     point: Solved
     response: Response
     grid: tuple[GridStep, ...]
@@ -39,7 +41,7 @@ class Anchor:
 class Sample:
     """Lines of ``model`` solved at one speed: ``first`` that of the pilot, ``anchor`` of the first in contact."""
 
-    model: object
+    model: Model
     speed: float
     first: Solved
     records: tuple[LineRecord, ...] = ()
@@ -140,7 +142,10 @@ def _grid(model, balance: Balance, response: Response, before) -> tuple[GridStep
     if before and abs(load / before[0].contact_load - 1) < SAME_LOAD:
         return before
     per_gap = response.relative("coefficient", 1.0)
-    enough, scatter = budget.CONTACT_GRID * numerics.tolerance / per_gap, PAIR_SHARE * numerics.sampling_tolerance / per_gap
+    enough, scatter = (
+        budget.CONTACT_GRID * numerics.tolerance / per_gap,
+        PAIR_SHARE * numerics.sampling_tolerance / per_gap,
+    )
     steps: list[GridStep] = []
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
         length = PAIR * lines.lengths[1]

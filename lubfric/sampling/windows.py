@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
+from ..scene import Scene
 from ..surface import Surface, correlation_length
 from .cells import Cells, choose_cells, reach_of
 
@@ -23,7 +24,7 @@ class MeasuredLines:
     number of them is spread over the map. A longer line holds the shorter ones.
     """
 
-    scene: object
+    scene: Scene
     surface: Surface
     cells: Cells
     lengths: tuple[float, float]
@@ -98,9 +99,7 @@ def stack(pieces, blend: int) -> np.ndarray:
     out = []
     for before, piece in zip([pieces[-1], *pieces[:-1]], pieces):
         part = piece[:, : piece.shape[1] - blend].copy()
-        part[:, :blend] = (
-            mean + np.sin(angle) * (piece[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
-        )
+        part[:, :blend] = mean + np.sin(angle) * (piece[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
         out.append(part)
     return np.concatenate(out, axis=1)
 
@@ -119,9 +118,7 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
         cells = replace(cells, count=cells.count - 4)
         fine = cells.count * cells.factors[0]
     if cells.count < 1:
-        raise InputError(
-            f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}"
-        )
+        raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
     room = surface.shape[0] - fine
     starts = room // 2 + step * np.arange(-(room // 2 // step), (room - room // 2) // step + 1)

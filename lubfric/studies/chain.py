@@ -64,10 +64,15 @@ def run_chain(
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
         yield (
             index,
-            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
+            outcome if isinstance(outcome, Exception) else without_starts(outcome, chain.fields[index]),
         )
     if journal is not None:
         journal.end(chain.name)
+
+
+def without_starts(outcome: FrictionResult, fields: bool) -> FrictionResult:
+    """What is kept of a point: its balance where its ``fields`` are, nothing that a neighbour starts from."""
+    return replace(outcome, line=None) if fields else replace(outcome, line=None, balance=None)
 
 
 def continues(outcome) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from .. import errors
@@ -75,13 +76,13 @@ def outcome_of(record: dict):
 
 
 def _without_fields(result: FrictionResult) -> FrictionResult:
-    from dataclasses import replace
-
-    return replace(result, balance=None)
+    return replace(result, balance=None, line=None)
 
 
 def _storable(outcome):
-    return {"error": _error(outcome)} if isinstance(outcome, Exception) else outcome
+    if isinstance(outcome, Exception):
+        return {"error": _error(outcome)}
+    return outcome if outcome.line is None else replace(outcome, line=outcome.line.bare())
 
 
 def _error(error: Exception) -> dict:

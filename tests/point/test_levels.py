@@ -19,7 +19,7 @@ from lubfric.model import prepare
 from lubfric.rough.half_space_grid import coarser_grids, cut, holds, in_contact
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 
 
 def line_contact(m, l, lubricant):

@@ -10,8 +10,10 @@ import lubfric
 from lubfric import sweep
 from lubfric.model import prepare
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
 )
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 

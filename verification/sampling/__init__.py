@@ -17,8 +17,12 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser("python -m verification sampling", description=__doc__)
     level = parser.add_mutually_exclusive_group()
     level.add_argument("--quick", action="store_true", help="four speeds of the built-in scene, 16 trials each")
-    level.add_argument("--full", action="store_true", help="200 trials, other autocorrelations and loads, a map in pieces")
-    parser.add_argument("--out", type=Path, default=Path("out/sampling"), help="folder of results (default: %(default)s)")
+    level.add_argument(
+        "--full", action="store_true", help="200 trials, other autocorrelations and loads, a map in pieces"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("out/sampling"), help="folder of results (default: %(default)s)"
+    )
     parser.add_argument("--seed", type=int, default=cases.SEED, help="of the surfaces (default: %(default)s)")
     options = parser.parse_args(argv)
     trials = 16 if options.quick else 200 if options.full else 60

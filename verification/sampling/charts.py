@@ -34,9 +34,16 @@ def bias(found: dict, out: Path) -> None:
     for speed, (rows, truth) in found.items():
         length, mean, scatter, count = rows.T
         shown = axis.errorbar(
-            1e3 * length, 100 * (mean / truth - 1), 100 * scatter / truth / np.sqrt(count), marker="o", capsize=3, label=f"bias, {speed:g} m/s"
+            1e3 * length,
+            100 * (mean / truth - 1),
+            100 * scatter / truth / np.sqrt(count),
+            marker="o",
+            capsize=3,
+            label=f"bias, {speed:g} m/s",
         )
-        axis.plot(1e3 * length, 100 * scatter / truth, "--", color=shown[0].get_color(), label=f"scatter, {speed:g} m/s")
+        axis.plot(
+            1e3 * length, 100 * scatter / truth, "--", color=shown[0].get_color(), label=f"scatter, {speed:g} m/s"
+        )
     axis.axhline(0, color="black", lw=0.8)
     axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="of f∞ (%)")
     axis.legend(frameon=False)
