@@ -13,7 +13,7 @@ from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
 from .steady import FrictionResult, friction
 
-NOT_NUMBERS = ("report", "balance", "decision", "cautions")
+NOT_NUMBERS = ("report", "balance", "decision", "validity")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
