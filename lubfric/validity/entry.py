@@ -25,6 +25,10 @@ class Validity:
     remedy: str
     severe: bool = False
 
+    def __post_init__(self):
+        for name, kind in (("value", float), ("limit", float), ("severe", bool)):
+            object.__setattr__(self, name, kind(getattr(self, name)))
+
     @property
     def text(self) -> str:
         """One sentence; "caution: ..." or "not valid: ..."."""

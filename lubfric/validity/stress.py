@@ -16,6 +16,11 @@ def carried_stress(pressure):
     return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)
 
 
+def meaningless(shear) -> bool:
+    """Most of the force of ``shear`` (`ShearForce`) is from stresses that no oil carries."""
+    return not shear.excess <= 0.5 * abs(shear.couette)
+
+
 def of_shear(shear, film_load: float, friction_force: float, tolerance: float, newtonian: bool) -> list[Validity]:
     """``shear``: `ShearForce` of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N], of which a share above
     ``tolerance`` that no oil carries is told, above 0.2 refused."""
