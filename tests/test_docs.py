@@ -40,6 +40,24 @@ def test_examples_run(script, tmp_path, monkeypatch):
     namespace["main"]()
 
 
+@pytest.mark.parametrize("script", sorted((ROOT / "docs" / "gallery").glob("plot_*.py")), ids=lambda p: p.stem)
+def test_gallery_runs_and_draws(script, tmp_path, monkeypatch):
+    """Every script of the gallery stands alone, and ends with a picture that has something in it."""
+    import runpy
+
+    import matplotlib
+
+    monkeypatch.chdir(tmp_path)
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
+    runpy.run_path(str(script))
+    figures = [plt.figure(number) for number in plt.get_fignums()]
+    plt.close("all")
+    assert any(axes.has_data() for figure in figures for axes in figure.axes)
+
+
 def test_example_scenes_are_valid_but_for_their_file(tmp_path):
     import numpy as np
 

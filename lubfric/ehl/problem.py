@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..analytic.film import moes_film
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
 from .imposed import LinePressure, Seat, line_deflection
 
@@ -113,7 +114,7 @@ class Problem:
 
     @property
     def film_guess(self) -> float:
-        """`expected_film`, less where the lubricant begins within the length on which a flooded film builds up."""
+        """Moes' film, less where the lubricant begins within the length on which a flooded film builds up."""
         film = seated_film(self.M, self.L, self.seat)
         if self.inlet_length is None:
             return film
@@ -138,18 +139,6 @@ class Problem:
 
 
 def seated_film(M: float, L: float, seat: Seat) -> float:
-    """`expected_film` of the cylinder of the seat, in the units of the real one."""
+    """Moes' film of the cylinder of the seat, in the units of the real one."""
     root = math.sqrt(seat.radius * seat.modulus)
-    return expected_film(M / root, L * seat.modulus / math.sqrt(root)) * seat.radius / root
-
-
-def expected_film(M: float, L: float) -> float:
-    """Moes' regression of the film (within some 10 %), the scale that grids and starts are made from."""
-    rigid, elastic = 3.0 / M, 2.621 * M**-0.2
-    s = (7.0 + 8.0 * math.exp(-2.0 * elastic / rigid)) / 5.0
-    isoviscous = (rigid ** (7 / 3) + elastic ** (7 / 3)) ** (3 / 7)
-    if L < 1e-6:
-        return isoviscous
-    piezoviscous = ((1.287 * L ** (2 / 3)) ** -3.5 + (1.311 * M**-0.125 * L**0.75) ** -3.5) ** (-2 / 7)
-    larger, smaller = max(isoviscous, piezoviscous), min(isoviscous, piezoviscous)
-    return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
+    return moes_film(M / root, L * seat.modulus / math.sqrt(root)) * seat.radius / root

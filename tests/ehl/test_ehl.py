@@ -210,7 +210,7 @@ def test_second_order_convergence(M, L):
 
 def test_nodes_are_nested_and_increasing():
     for M, L in [(1e-6, 0.0), (1.0, 5.0), (1000.0, 0.0), (1000.0, 20.0)]:
-        b, h = math.sqrt(8 * M / math.pi), problem.expected_film(M, L)
+        b, h = math.sqrt(8 * M / math.pi), film.moes_film(M, L)
         fine, coarse = (grid.node_positions(b, h, n) for n in (192, 96))
         assert np.all(np.diff(fine) > 0) and np.allclose(fine[::2], coarse, rtol=1e-9, atol=1e-9 * b)
 

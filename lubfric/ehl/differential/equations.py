@@ -17,7 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..problem import Problem, expected_film
+from ...analytic.film import moes_film
+from ..problem import Problem
 from ..reynolds import log_mean_fluidity
 from .mesh import Mesh, convolve
 
@@ -80,7 +81,7 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
     balance = np.zeros_like(P)
     balance[1:-1] = np.diff(through)
     last = _last_wet(P, balance)
-    scale = expected_film(problem.M, problem.L)
+    scale = moes_film(problem.M, problem.L)
     balance = np.where(np.arange(P.size) <= last, balance / scale, P)
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
     defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)

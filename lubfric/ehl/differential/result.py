@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...report import CONVERGED, STAGNATED, Report
 from ..grid import node_positions
-from ..problem import Problem, expected_film
+from ..problem import Problem
 from ..result import EHLResult, cubic, smallest
 from ..start import State
 from .newton import Solution
@@ -82,7 +83,7 @@ def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np
 
 def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
     """The `State` from which `solve_ehl` can start: the solution on its graded grid."""
-    xi = node_positions(problem.half_width, expected_film(problem.M, problem.L), STATE_CELLS)
+    xi = node_positions(problem.half_width, moes_film(problem.M, problem.L), STATE_CELLS)
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
     H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2

@@ -6,11 +6,12 @@ import math
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...errors import InputError
 from ...lubricant import Lubricant
 from ...report import CONVERGED
 from ...validate import integer, number, positive
-from ..problem import Problem, expected_film
+from ..problem import Problem
 from ..result import EHLResult, cubic
 from ..start import expected_rupture
 from .equations import load_row
@@ -130,7 +131,7 @@ def _problem(load, radius, e_prime, speed, inlet_length, lubricant: Lubricant) -
 
 def _film(problem: Problem) -> float:
     """Expected film, less where the lubricant begins within the length on which a flooded film builds up."""
-    film = expected_film(problem.M, problem.L)
+    film = moes_film(problem.M, problem.L)
     if problem.inlet_length is None:
         return film
     return min(film, STARVED * (problem.inlet_length / problem.length_unit) ** 2)
@@ -223,7 +224,7 @@ def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, n
     load = load_row(mesh, problem) @ P
     if not load > 0.0:  # no pressure on this mesh
         return _cold(mesh, problem)
-    return P / load, H * (expected_film(problem.M, problem.L) / expected_film(M, L))
+    return P / load, H * (moes_film(problem.M, problem.L) / moes_film(M, L))
 
 
 def _transfer(mesh: Mesh, X: np.ndarray, P: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...analytic.film import moes_film
 from ...history import Constant
 from ...lubricant import Lubricant
 from ...report import CONVERGED
-from ..problem import Problem, expected_film
+from ..problem import Problem
 from ..solve import solve_ehl
 from .active_set import StepSolution, solve_step
 from .bdf import Level
@@ -152,7 +153,7 @@ def _moes(reference: Problem, load: float, radius: float, viscosity: float, spee
         speed=speed,
         lubricant=replace(reference.lubricant, viscosity=viscosity),
     )
-    return expected_film(p.M, p.L) * p.film_unit
+    return moes_film(p.M, p.L) * p.film_unit
 
 
 def parabola(setting: Setting, film: float) -> np.ndarray:
