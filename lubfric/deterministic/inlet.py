@@ -65,7 +65,7 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
         viscous * stretch / (gap**n * thin) * c for n, c in ((2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0))
     )
     A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
-    reduced, reduced_slope = _reduced(lubricant, pressure)
+    reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
     T = 2 * film**3 * _ambient_thinning(problem, film[:, None])[:, 0] / (viscous * dx)
     T_h = 3 * T / film
     top, below = speed * film + T * (A - reduced), 1 + T * B

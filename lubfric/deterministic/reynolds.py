@@ -35,7 +35,7 @@ def balance(problem: Problem, pressure, gap) -> Balance:
     dx, dy = problem.spacing
     open_ = gap > problem.floor
     film = np.where(open_, gap, problem.floor)
-    fluid = cell_fluid(problem.lubricant, pressure)
+    fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along = pressure_flow(problem, fluid, pressure, film, 0)
     across = pressure_flow(problem, fluid, pressure, film, 1)
     couette = couette_flow(problem, fluid.density * film)
