@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from ..halfspace import HalfSpace
+from ..line_contact import LineContact
 from ..lubricant import Lubricant
 
 FLOOR = 1e-9  # m
@@ -30,17 +31,14 @@ FLOOR = 1e-9  # m
 class Problem:
     """One operating point, plain values in SI units.
 
-    load [N/m] per width; radius R [m]; e_prime [Pa]; speed U > 0 [m/s], along +x; sliding Δu >= 0 [m/s], the difference
-    of the surface speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny), upwards
-    out of the resting body; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf:
-    elastic); boundary_friction: f_b [-] of the spots where the bodies touch; floor [m].
+    contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
+    speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny), upwards out of the
+    resting body; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
+    boundary_friction: f_b [-] of the spots where the bodies touch; floor [m].
     """
 
-    load: float
-    radius: float
-    speed: float
+    contact: LineContact
     sliding: float
-    lubricant: Lubricant
     x: np.ndarray
     heights: np.ndarray
     operator: HalfSpace
@@ -54,9 +52,29 @@ class Problem:
         return self.operator.spacing
 
     @property
+    def load(self) -> float:
+        """w [N/m]."""
+        return self.contact.load_per_width
+
+    @property
+    def radius(self) -> float:
+        """R [m]."""
+        return self.contact.radius
+
+    @property
     def e_prime(self) -> float:
         """E' [Pa]."""
-        return self.operator.e_prime
+        return self.contact.e_prime
+
+    @property
+    def speed(self) -> float:
+        """U [m/s]."""
+        return self.contact.entrainment_speed
+
+    @property
+    def lubricant(self) -> Lubricant:
+        """The lubricant of the contact."""
+        return self.contact.lubricant
 
     @cached_property
     def rigid_gap(self) -> np.ndarray:
@@ -76,6 +94,6 @@ class Problem:
         """4 w/(pi E') [m]: the gap far upstream falls behind the parabola by that times ln|x|."""
         return 4 * self.load / (math.pi * self.e_prime)
 
-    def at(self, **changes) -> Problem:
-        """The same with some values replaced."""
-        return replace(self, **changes)
+    def with_lubricant(self, lubricant: Lubricant) -> Problem:
+        """The same with another lubricant."""
+        return replace(self, contact=replace(self.contact, lubricant=lubricant))

@@ -11,8 +11,6 @@ from .forces import Forces, LoadSplit, forces
 from .problem import Problem
 from .state import TOUCHING, Look, State
 
-FIELDS = ("pressure", "gap", "shear", "spots")
-
 
 @dataclass(frozen=True)
 class DeterministicResult:
@@ -54,10 +52,10 @@ class DeterministicResult:
     state: State = field(repr=False)
 
 
-def assemble(problem: Problem, at: Look, report: Report, half_width: float) -> DeterministicResult:
-    """The result at a solved state; ``half_width`` [m] of the strip that means are taken over."""
+def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
+    """The result at a solved state."""
     found: Forces = forces(problem, at)
-    strip = np.abs(problem.x) <= max(half_width, 0.5001 * problem.spacing[0])
+    strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     state = at.state
     yielded = state.yielded & (state.dent > 0)
     return DeterministicResult(

@@ -29,8 +29,6 @@ def dry_contact(problem: Problem, start=None, tolerance=DRY_TOLERANCE) -> Contac
 def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
     """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind the contact the film has ruptured."""
     p = dry.pressure
-    deflection = problem.operator.apply(p)
-    elastic = problem.rigid_gap + deflection
-    dent = np.where(p >= problem.hardness, np.maximum(dry.gap * 0 + dry.approach - elastic, 0.0), 0.0)
+    dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
     kind = np.where((p <= 0) & (problem.x > 0)[:, None], RUPTURED, FLUID).astype(np.int8)
     return State(p.copy(), dent, kind, p >= problem.hardness, film - dry.approach)
