@@ -70,7 +70,7 @@ def forces(problem: Problem, at: Look, pressed=PRESSED, close=CLOSE) -> Forces:
     split = LoadSplit(carried(touching), carried(spots), carried(touching | saturated), problem.load)
     return Forces(
         f_b * split.spots,
-        float(shear[wet].sum()) * cell + problem.lubricant.viscosity * problem.sliding * at.balance.inlet.first,
+        float(shear[wet].sum()) * cell + problem.lubricant.viscosity * problem.sliding * at.balance.inlet.shearing,
         _rolling(problem, at, wet),
         split,
         spots,
@@ -89,9 +89,7 @@ def _film_shear(problem: Problem, p, rate, saturated):
 
 def _rolling(problem: Problem, at: Look, wet) -> float:
     """∫ (h/2) dp/dx [N/m], upstream included."""
-    p, h, inlet = at.state.pressure, at.balance.film, at.balance.inlet
+    p, h = at.state.pressure, at.balance.film
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
     inside = float((0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]))[both].sum()) / p.shape[1]
-    flow = float(inlet.flow.mean())
-    upstream = 6 * problem.lubricant.viscosity * (problem.speed * inlet.first - flow * inlet.second)
-    return inside + upstream
+    return inside + at.balance.inlet.rolling

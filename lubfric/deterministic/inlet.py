@@ -37,8 +37,8 @@ def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @dataclass(frozen=True)
 class Inlet:
     """Of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first face;
-    load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); the integrals ∫dx/h [-] and
-    ∫dx/h² [1/m] upstream, means over the rows."""
+    load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); the integrals upstream
+    ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m], means over the rows."""
 
     flow: np.ndarray
     by_pressure: np.ndarray
@@ -46,8 +46,8 @@ class Inlet:
     load: float
     load_by_pressure: np.ndarray
     load_by_film: np.ndarray
-    first: float
-    second: float
+    shearing: float
+    rolling: float
 
 
 def inlet(problem: Problem, pressure, film) -> Inlet:
@@ -85,8 +85,8 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
         float((p @ (weight * stretch)).mean()),
         by_flow * by_pressure / rows,
         (by_gap + by_flow * by_film) / rows,
-        float(((stretch / gap) @ weight).mean()),
-        float(((stretch / gap**2) @ weight).mean()),
+        float(((slope * stretch / gap) @ weight).mean()),
+        float((0.5 * gap * slope * (a - flow[:, None] * b) @ weight).mean()),
     )
 
 

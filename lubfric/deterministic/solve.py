@@ -12,7 +12,7 @@ from .newton import Found, newton
 from .problem import Problem
 from .result import DeterministicResult, assemble
 from .start import dry_contact, dry_start
-from .transfer import state_on
+from .state import State
 
 TOLERANCE = 1e-5
 DIRECT, MARCHED = 50, 250  # LU factorisations from a start, and in time
@@ -20,11 +20,11 @@ THIN_STRESS = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e
 
 
 def solve_point(
-    problem: Problem, *, start: DeterministicResult | None = None, tolerance=TOLERANCE, raise_on_failure=True
+    problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, raise_on_failure=True
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from ``start`` (a neighbour in speed, load or grid), from the dry contact lifted by Moes' film,
+    Tried in turn: Newton's method from ``start`` (see `lubfric.deterministic.transfer`), from the dry contact lifted by Moes' film,
     and from where implicit steps in time lead from there; with a Newtonian lubricant also from the solution of one with
     a limiting shear stress. Which one it was is in ``report.notes``. Converged when the largest of
     `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
@@ -72,7 +72,7 @@ class Work:
 
 def _attempts(problem: Problem, start, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
     if start is not None:
-        yield "from a neighbouring state", work.direct(problem, state_on(problem, start), tolerance)
+        yield "from a neighbouring state", work.direct(problem, start, tolerance)
     cold = dry_start(problem, dry_contact(problem), problem.contact.moes_film)
     yield "from the dry contact", work.direct(problem, cold, tolerance)
     lubricant = problem.lubricant

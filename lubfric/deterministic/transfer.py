@@ -1,14 +1,22 @@
-"""A solved state as a start on another grid: another length, or cells of another size."""
+"""A solved state as a start on another grid: another length, or cells of another size.
+
+Where asperities carry much of the load their spots are too sharp to be interpolated to smaller cells. Then it is the
+difference to the dry contact that is interpolated, and added to the dry contact of the finer grid.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from .problem import Problem
 from .result import DeterministicResult
+from .start import dry_contact
 from .state import FLUID, RUPTURED, State
+
+SHARP = 0.3  # share of the load on spots from which on the dry contact is interpolated with the state
 
 
 def state_on(problem: Problem, result: DeterministicResult) -> State:
@@ -34,6 +42,21 @@ def state_on(problem: Problem, result: DeterministicResult) -> State:
     yielded = (pressure >= problem.hardness) & (kind != RUPTURED)
     dent = np.where(yielded, _interpolated(old.dent, along, across), 0.0)
     return State(pressure, dent, kind, yielded, approach)
+
+
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
+    """The state of ``result``, of the problem ``coarse``, on the smaller cells of ``problem``."""
+    state = state_on(problem, result)
+    if result.split.spots < SHARP * result.load:
+        return state
+    old, new = dry_contact(coarse), dry_contact(problem)
+    bare = replace(result.state, pressure=old.pressure)
+    pressure = np.maximum(new.pressure + state.pressure - state_on(problem, replace(result, state=bare)).pressure, 0.0)
+    kind = np.where((pressure <= 0) & (state.kind == RUPTURED), RUPTURED, FLUID).astype(np.int8)
+    approach = result.approach + old.approach - new.approach
+    yielded = pressure >= problem.hardness
+    dent = np.where(yielded, np.maximum(-new.gap, 0.0), 0.0)
+    return State(np.minimum(pressure, problem.hardness), dent, kind, yielded, approach)
 
 
 def _interpolated(field, along, across) -> np.ndarray:
