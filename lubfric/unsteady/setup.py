@@ -13,9 +13,9 @@ from ..ehl.transient.setting import FINER, LineContact, Setting, make_setting
 from ..ehl.transient.solve import TIME_SHARE, default_step, film_error
 from ..ehl.transient.squeeze import Memory
 from ..errors import InputError
-from ..history import Constant
+from ..history import Constant, History
 from ..history.plan import Transient
-from ..mixed import Model, prepare
+from ..model import Model, prepare
 from ..scene import Scene
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
@@ -31,7 +31,7 @@ class Run:
     model: Model
     plan: Transient
     sharing: Sharing
-    sliding: Constant | None
+    sliding: History | None
     start: StepSolution
     grid_error: float
 
@@ -41,7 +41,7 @@ class Run:
         return self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
 
     @property
-    def histories(self) -> tuple[Constant, ...]:
+    def histories(self) -> tuple[History, ...]:
         """All that may jump."""
         c = self.sharing.setting.contact
         return tuple(h for h in (c.speed, c.load, c.radius, c.viscosity, self.sliding) if h is not None)
@@ -85,7 +85,7 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     tolerance = base.numerics.film_tolerance
     for finer in FINER:
         setting = _setting(model, plan, load, finer)
-        sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
+        sharing = make_sharing(setting, model.contact, base.bodies.width, _volume_tolerance(base))
         start, grid_error = first_state(model, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
@@ -96,7 +96,7 @@ def _volume_tolerance(scene: Scene) -> float:
     return min(scene.numerics.volume_tolerance, 1e-4)
 
 
-def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Setting:
+def _setting(model: Model, plan: Transient, load: History, finer: float) -> Setting:
     scene = model.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = LineContact(
@@ -116,7 +116,7 @@ def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Set
             "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
             "an entrainment speed before t = 0"
         )
-    reach = float(np.max(np.abs(model.patch.x))) if rough else 0.0
+    reach = float(np.max(np.abs(model.contact.x))) if rough else 0.0
     return make_setting(
         contact,
         scene.numerics.film_tolerance,
@@ -128,12 +128,11 @@ def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Set
 
 
 @dataclass(frozen=True)
-class _PerWidth(Constant):
+class _PerWidth(History):
     """A load history divided by the width."""
 
-    source: Constant | None = None
-    width: float = 1.0
-    value: float = 0.0
+    source: History
+    width: float
 
     def at(self, time: float) -> float:
         return self.source.at(time) / self.width
@@ -152,7 +151,7 @@ class _PerWidth(Constant):
         return low / self.width, high / self.width
 
 
-def _per_width(load: Constant, width: float) -> _PerWidth:
+def _per_width(load: History, width: float) -> _PerWidth:
     return _PerWidth(source=load, width=width)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...analytic.film import moes_film
-from ...history import Constant
+from ...history import History
 from ...lubricant import Lubricant
 from ...report import CONVERGED
 from ..problem import Problem
@@ -37,11 +37,11 @@ class LineContact:
     initial_film [m]: flying height of the undeformed parabola at t = 0, or None: steady before t = 0.
     """
 
-    load: Constant
-    radius: Constant
+    load: History
+    radius: History
     e_prime: float
-    speed: Constant
-    viscosity: Constant
+    speed: History
+    viscosity: History
     lubricant: Lubricant
     duration: float
     initial_film: float | None = None
