@@ -12,8 +12,8 @@ from functools import cache
 
 import numpy as np
 
+from ..film.rigid import true_pressure
 from ..lubricant import Lubricant
-from ..rigid_film import true_pressure
 from .problem import Problem
 from .rheology import cell_fluid, mean_fluidity, thinning
 

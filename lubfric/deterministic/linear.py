@@ -14,7 +14,7 @@ from scipy.sparse.linalg import splu
 
 from .problem import Problem
 from .reynolds import derivatives
-from .state import FLUID, RUPTURED, TOUCHING, Look, Past, load_error
+from .state import RUPTURED, TOUCHING, Look, Past, load_error
 
 ACCURACY = 1e-3  # of the residual of the linear system
 KRYLOV, CYCLES = 40, 3

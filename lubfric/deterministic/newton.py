@@ -14,6 +14,7 @@ from .state import FLUID, Look, Past, State, load_error, look, residuals, resort
 KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
 SHORTEST = 0.1  # step, whatever the gap says
 HALVINGS, GROWTH = 5, 1.05
+PATIENCE, PROGRESS = 10, 0.95  # steps in which the residual has to fall to that part of what it was
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation it asks for (`resorted`). A step leaves every cell a fifth of its gap
-    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite.
+    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the residual has not fallen for ten steps.
     """
     history, krylov = [], 0
     at = look(problem, state, past)
@@ -47,7 +48,7 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
         worst = max(found.values())
         history.append(worst)
         best = Found(at, found, tuple(history), count, krylov)
-        if not math.isfinite(worst) or worst <= tolerance or count == most:
+        if not math.isfinite(worst) or worst <= tolerance or count == most or _stalled(history):
             return best
         try:
             step = System(problem, at, past).solve()
@@ -58,6 +59,12 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
             return best
         at = _advanced(problem, at, step, past)
     return best
+
+
+def _stalled(history) -> bool:
+    if len(history) <= PATIENCE:
+        return False
+    return not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
 def _advanced(problem: Problem, at: Look, step, past) -> Look:

@@ -68,5 +68,3 @@ def estimate(values) -> float | None:
     before = abs(values[-2] - values[-3]) if len(values) > 2 else 0.0
     ratio = UNKNOWN_RATIO if before == 0 else min(max(change / before, RATIO[0]), RATIO[1])
     return change * ratio / (1 - ratio) / abs(values[-1]) if change else 0.0
-
-

@@ -16,7 +16,10 @@ from .state import State
 
 TOLERANCE = 1e-5
 DIRECT, MARCHED = 50, 250  # LU factorisations from a start, and in time
-THIN_STRESS = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e6}  # of the fluid that starts a Newtonian
+THIN_STRESS = {
+    "limiting_stress_coefficient": 0.09,
+    "limiting_stress_offset": 2e6,
+}  # of the fluid that starts a Newtonian
 
 
 def solve_point(
@@ -98,5 +101,7 @@ def _report(found: Found, tolerance: float, work: Work, name: str) -> Report:
         found.residuals,
         tuple(work.history),
         work.krylov,
-        (f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} steps in time",),
+        (
+            f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} steps in time",
+        ),
     )
