@@ -11,6 +11,7 @@ _HOME = {
     "ConvergenceError": "errors",
     "InputError": "errors",
     "LubfricError": "errors",
+    "OutputError": "errors",
     "Report": "report",
     "Surface": "surface",
     "generate_surface": "surface",
@@ -35,10 +36,13 @@ _HOME = {
     "stribeck": "sweep",
     "StribeckResult": "sweep",
 }
-__all__ = sorted(_HOME)
+_PACKAGES = ("oil",)
+__all__ = sorted([*_HOME, *_PACKAGES])
 
 
 def __getattr__(name):
+    if name in _PACKAGES:
+        return import_module(f"lubfric.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
     value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)

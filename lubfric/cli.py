@@ -1,4 +1,4 @@
-"""The ``lubfric`` command: run, info, plot."""
+"""The ``lubfric`` command: run, info, plot, oils."""
 
 from __future__ import annotations
 
@@ -50,7 +50,21 @@ def _parser() -> argparse.ArgumentParser:
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.set_defaults(command=_plot)
+    oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
+    oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
+    oils.add_argument("name", nargs="?", help="its name")
+    oils.set_defaults(command=_oils)
     return parser
+
+
+def _oils(arguments) -> int:
+    from .errors import InputError
+    from .oil.describe import list_oils, show_oil
+
+    if arguments.show and not arguments.name:
+        raise InputError("lubfric oils show needs a name; 'lubfric oils' lists them")
+    print(show_oil(arguments.name) if arguments.name else list_oils())
+    return 0
 
 
 def _run(arguments) -> int:

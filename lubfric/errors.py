@@ -14,6 +14,13 @@ class InputError(LubfricError, ValueError):
     """
 
 
+class OutputError(LubfricError, OSError):
+    """A file could not be written or read: a full disk, a missing right, a folder that went away.
+
+    The message names the file and what the system said. What was complete on disk before stays.
+    """
+
+
 class ConvergenceError(LubfricError, RuntimeError):
     """A solver stopped before reaching the tolerance it was asked for.
 

@@ -15,6 +15,7 @@ from ..errors import ConvergenceError
 from ..mixed import prepare
 from ..output import _plain, read_csv
 from ..scene import Scene, scene_as_dict
+from .checkpoint import STATE
 from .plot import animate, plot_history
 from .result import TransientResult
 from .row import UNITS
@@ -34,7 +35,7 @@ def run_history(scene: Scene, out: Path, animation: bool, say) -> int:
     model = prepare(scene)
     say(model.surface.describe())
     folder = out / "checkpoint"
-    if (folder / "state.npz").is_file():
+    if (folder / STATE).is_file():
         say(f"going on from {folder}")
     failure = None
     try:

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import __version__
 from ..errors import InputError
 from ..history.plan import Transient
 from ..march.course import checked_times, steps
@@ -53,7 +52,7 @@ def transient(
     base = scene.scene if isinstance(scene, Model) else scene
     plan, times = _plan(base, times)
     run = begin(scene, plan)
-    store = None if checkpoint is None else Checkpoint(checkpoint, [base, plan, list(times), __version__])
+    store = None if checkpoint is None else Checkpoint(checkpoint, [run.model, plan, times])
     result = _run(run, times, store, on_step)
     if raise_on_failure:
         result.report.raise_if_failed(result)

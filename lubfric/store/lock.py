@@ -1,0 +1,62 @@
+"""One writer a folder: a lock that the system drops when its holder dies."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..errors import InputError
+from .whole import saying
+
+try:
+    import fcntl
+except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
+    import msvcrt
+
+    fcntl = None
+
+NAME = ".lock"
+
+
+class FolderLock:
+    """``with FolderLock(folder):`` - refuses with `InputError` while another process holds it. The folder is made.
+
+    The lock is held by the open file, so that a killed process leaves none behind; the file itself may stay.
+    """
+
+    def __init__(self, folder):
+        self.path = Path(folder) / NAME
+        self._file = None
+
+    def __enter__(self) -> FolderLock:
+        with saying(f"{self.path.parent} cannot be used"):
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            file = self.path.open("a+")
+        try:
+            _take(file)
+        except OSError:
+            file.seek(0)
+            holder = file.read().strip() or "unknown"
+            file.close()
+            raise InputError(
+                f"{self.path.parent} is being written by another run (process {holder}); "
+                "allowed: another folder, or wait until it ends"
+            ) from None
+        file.seek(0)
+        file.truncate()
+        file.write(str(os.getpid()))
+        file.flush()
+        self._file = file
+        return self
+
+    def __exit__(self, *_) -> None:
+        self._file.close()
+        self._file = None
+
+
+def _take(file) -> None:
+    if fcntl is not None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    else:
+        file.seek(2**20)  # beyond what is written, so that others can read who holds it
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
