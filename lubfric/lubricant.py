@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import InputError
+from .oil.oil import Oil
 from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -45,6 +46,7 @@ class Lubricant:
     temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at ambient
         pressure [1/K]; None: the heat of the film is not known
     conductivity : thermal, of the film [W/(m K)]
+    oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 
     Raises
     ------
@@ -61,6 +63,7 @@ class Lubricant:
     temperature: float | None = None
     temperature_coefficient: float | None = None
     conductivity: float = 0.13
+    oil: Oil | None = None
 
     def __post_init__(self):
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)

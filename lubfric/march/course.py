@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from ..history import Constant
+from ..history import History
 from ..history.read import check_history, history
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 from .bdf import March, Solver, advance, restarted
@@ -62,14 +62,14 @@ def checked_times(times) -> np.ndarray:
     return times
 
 
-def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> Constant:
+def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
     """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
     found = history(name, value)
     check_history(name, unit, found, duration, positive=positive)
     return found
 
 
-def plan_of(times: np.ndarray, histories: Iterable[Constant], first_step: float, tolerance: float) -> Plan:
+def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
     """The plan of a run up to the last of ``times`` [s] in which ``histories`` change."""
     histories, end = tuple(histories), float(times[-1])
     jumps = frozenset(t for h in histories for t in h.jumps(end))

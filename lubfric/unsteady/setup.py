@@ -11,7 +11,7 @@ from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import FINER, ContactHistory, Setting, make_setting
 from ..ehl.transient.solve import TIME_SHARE
 from ..errors import InputError
-from ..history import Constant
+from ..history import Constant, History
 from ..history.plan import Transient
 from ..march.bdf import March, Memory
 from ..march.course import Plan, Progress, plan_of
@@ -31,7 +31,7 @@ class Run:
     model: Model
     plan: Transient
     sharing: Sharing
-    sliding: Constant | None
+    sliding: History | None
     start: StepSolution
     grid_error: float
 
@@ -92,7 +92,7 @@ def _volume_tolerance(scene: Scene) -> float:
     return min(scene.numerics.volume_tolerance, 1e-4)
 
 
-def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Setting:
+def _setting(model: Model, plan: Transient, load: History, finer: float) -> Setting:
     scene = model.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = ContactHistory(
@@ -124,12 +124,11 @@ def _setting(model: Model, plan: Transient, load: Constant, finer: float) -> Set
 
 
 @dataclass(frozen=True)
-class _PerWidth(Constant):
+class _PerWidth(History):
     """A load history divided by the width."""
 
-    source: Constant | None = None
-    width: float = 1.0
-    value: float = 0.0
+    source: History
+    width: float
 
     def at(self, time: float) -> float:
         return self.source.at(time) / self.width
@@ -148,5 +147,5 @@ class _PerWidth(Constant):
         return low / self.width, high / self.width
 
 
-def _per_width(load: Constant, width: float) -> _PerWidth:
+def _per_width(load: History, width: float) -> _PerWidth:
     return _PerWidth(source=load, width=width)

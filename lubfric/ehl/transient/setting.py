@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...history import Constant
+from ...history import History
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...march.bdf import Level, Memory
@@ -39,11 +39,11 @@ class ContactHistory:
     initial_film [m]: flying height of the undeformed parabola at t = 0, or None: steady before t = 0.
     """
 
-    load: Constant
-    radius: Constant
+    load: History
+    radius: History
     e_prime: float
-    speed: Constant
-    viscosity: Constant
+    speed: History
+    viscosity: History
     lubricant: Lubricant
     duration: float
     initial_film: float | None = None
@@ -113,7 +113,7 @@ class Setting:
         return solve_step(self.grid, self.problem, self.conditions(0.0), steady(self.grid), z, max_steps=0)
 
     @property
-    def histories(self) -> tuple[Constant, ...]:
+    def histories(self) -> tuple[History, ...]:
         """All that changes in time."""
         return self.contact.speed, self.contact.load, self.contact.radius, self.contact.viscosity
 

@@ -17,7 +17,7 @@ from ...ehl.result import cubic, smallest
 from ...ehl.transient.setting import FIRST_STEP, WET
 from ...ehl.transient.solve import TransientFilm
 from ...errors import ConvergenceError
-from ...history import Constant
+from ...history import History
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...march.bdf import Level, March, Memory
@@ -47,8 +47,8 @@ class UniformSetting:
     marches."""
 
     contact: LineContact  # as it is before t = 0
-    load: Constant
-    speed: Constant
+    load: History
+    speed: History
     domain: tuple[float, float]
     nodes: int
     bandwidth: int
