@@ -13,6 +13,7 @@ import numpy as np
 
 from .errors import InputError
 from .oil.oil import Oil
+from .oil.temperature import checked_temperature
 from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -87,7 +88,7 @@ class Lubricant:
             positive("limiting_stress_coefficient", self.limiting_stress_coefficient, "")
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
         if self.temperature is not None:
-            number("temperature", self.temperature, "K", minimum=200, maximum=600)
+            checked_temperature(self.temperature, "lubricant.temperature")
         if self.temperature_coefficient is not None:
             nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
         number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)

@@ -10,6 +10,7 @@ from .analytic import hertz
 from .errors import InputError
 from .history.plan import Transient
 from .lubricant import Lubricant
+from .plausible import told_slips
 from .short_forms import resolve, short_keys
 from .surface.prepare import FORMS
 from .surface.table import DECIMALS
@@ -305,7 +306,8 @@ def _changed(section: str, old, values):
             raise InputError(
                 f"{section} has no field {key!r}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
             )
-    return replace(old, **resolve(section, values, old))
+    with told_slips(section, values):
+        return replace(old, **resolve(section, values, old))
 
 
 def scene_as_dict(scene: Scene) -> dict:

@@ -12,6 +12,7 @@ from .errors import InputError
 from .history.plan import Transient
 from .history.read import history
 from .lubricant import Lubricant
+from .plausible import told_slips
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
 from .short_forms import resolve, short_keys
 
@@ -155,7 +156,12 @@ def _build(section: str, table: dict):
     names = [f.name for f in fields(kind)]
     histories = ("sliding_speed",) if section == "motion" else ()
     _known(f"[{section}]", table, (*names, *short_keys(section), *histories))
-    table = resolve(section, table)
+    with told_slips(section, dict(table)):
+        return _made(section, kind, resolve(section, table))
+
+
+def _made(section: str, kind, table: dict):
+    """The section ``kind`` of plain fields."""
     for f in fields(kind):
         if f.default is MISSING and f.default_factory is MISSING and f.name not in table:
             raise InputError(f"[{section}] needs {f.name!r}{INSTEAD.get((section, f.name), '')}")

@@ -77,6 +77,11 @@ class EHLResult:
         """Moes' L."""
         return self.contact.L
 
+    @property
+    def cells(self) -> int:
+        """Of the finest grid, before rupture."""
+        return self.state.pressure.size
+
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.
 

@@ -30,6 +30,9 @@ def resolve(given: dict, old) -> dict:
             pair(f"bodies.{key}", given.pop(key), unit)
             for key, unit in (("young_modulus", "Pa"), ("poisson_ratio", "-"))
         )
+        for e in (e1, e2):
+            if e != math.inf:
+                validate.number("bodies.young_modulus", e, "Pa (inf: rigid)", minimum=1e4, maximum=1e13)
         given["e_prime"] = composite_modulus(e1, nu1, e2, nu2)
     if "hardness_hv" in given:
         number = validate.number("bodies.hardness_hv", given.pop("hardness_hv"), "(HV)", minimum=5, maximum=5000)

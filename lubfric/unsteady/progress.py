@@ -8,7 +8,7 @@ import numpy as np
 
 from ..march.bdf import Level, March
 from ..march.course import Progress
-from ..patch.closure import Closure
+from ..rough.contract import ContactState
 from .row import UNITS, moment
 from .setup import Run
 from .sharing import Contact
@@ -35,7 +35,7 @@ def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
 def state_of(run: Run, outputs: Outputs, now: Progress) -> dict:
     """All that `resume` needs, as plain numbers and arrays."""
     contact, closure = now.march.payload, now.march.payload.closure
-    pressure = getattr(closure.contact, "pressure", closure.contact)
+    pressure = closure.pressure
     return {
         "outputs": len(outputs.rows),
         "row_size": len(UNITS),
@@ -68,14 +68,14 @@ def resume(run: Run, store) -> tuple[Progress, Outputs] | None:
     steps, rejected, worst, step = state["steps"]
     load, softness, gap, film, real, plastic = (float(v) for v in state["contact"])
     pressure = state["contact_pressure"]
-    closure = Closure(
+    closure = ContactState(
         gap,
         film,
         run.sharing.patch.x,
         state["contact_fraction"],
         real,
         plastic,
-        pressure if pressure.size else None,
+        pressure=pressure if pressure.size else None,
     )
     levels = tuple(
         Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])

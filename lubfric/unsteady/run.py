@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..history.plan import Transient
 from ..march.course import checked_times, steps
-from ..mixed import Model
+from ..model import Model
 from ..scene import Scene
 from .checkpoint import Checkpoint
 from .progress import Outputs, keep, resume, state_of
