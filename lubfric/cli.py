@@ -48,6 +48,11 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
     )
+    run.add_argument(
+        "--accept",
+        action="store_true",
+        help="keep results outside the range of the model, marked, instead of refusing them",
+    )
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
@@ -85,6 +90,8 @@ def _run(arguments) -> int:
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    if arguments.accept:
+        scene = scene.with_(numerics={"accept": True})
     if scene.transient is not None:
         from .unsteady.command import run_history
 

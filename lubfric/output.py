@@ -6,6 +6,7 @@ import csv
 import io
 import math
 import platform
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -54,15 +55,17 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
         "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
+        "validity": list(curve.validity),
         "points": [_point(curve, i) for i in range(curve.speed.size)],
     }
     return plain(record)
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading."""
+    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold there."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
-    return table_bytes(columns)
+    texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+    return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
 
 
 def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
@@ -78,8 +81,8 @@ def read_csv(path: Path) -> dict[str, np.ndarray]:
     """The columns of a table that `table_bytes` made, by name."""
     with Path(path).open() as file:
         heading, *rows = list(csv.reader(file))
-    columns = np.array(rows, float).reshape(len(rows), len(heading)).T
-    return {name.split(" [")[0]: column for name, column in zip(heading, columns)}
+    columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+    return {name: np.array(column, str if name == "validity" else float) for name, column in columns.items()}
 
 
 def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
@@ -122,10 +125,11 @@ def _statistics(surface) -> dict:
 
 
 def _point(curve: StribeckResult, index: int) -> dict:
+    told = {"validity": [asdict(entry) for entry in curve.entries(index)]}
     if curve.points[index] is None:
-        return {"speed": curve.speed[index], "error": str(curve.errors[index])}
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     point = curve.points[index]
-    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()}
+    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
 
 
 def plain(value):

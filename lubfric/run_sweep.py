@@ -10,7 +10,7 @@ import numpy as np
 
 from . import validate
 from .console import keeping, say
-from .errors import ConvergenceError, InputError
+from .errors import ConvergenceError, InputError, ValidityError
 from .model import prepare
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import plot_contact, plot_stribeck
@@ -52,15 +52,23 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -
         )
         _write(folder, model, curve, chosen)
         folder.finish(curve_record(model, curve, time.perf_counter() - begun))
-    for text in sorted({caution.text for p in curve.points if p is not None for caution in p.cautions}):
+    for text in curve.validity:
         say(text)
+    if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
+        say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
     say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
-        raise ConvergenceError(
-            f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
-            curve.report,
-        )
+        raise _unsolved(curve)
     return 0
+
+
+def _unsolved(curve) -> ConvergenceError:
+    """How many speeds failed and how many were refused, and the first of them."""
+    total, failed = curve.speed.size, sum(not isinstance(error, ValidityError) for error in curve.errors.values())
+    counts = [f"{failed} of {total} speeds failed"] if failed else []
+    if len(curve.errors) > failed:
+        counts.append(f"{len(curve.errors) - failed} of {total} speeds refused (--accept keeps them, marked)")
+    return ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
 
 
 def _write(folder: RunFolder, model, curve, chosen) -> None:
@@ -106,7 +114,8 @@ def _with_chosen(speeds, chosen):
 
 def _progress(done, total, speed, outcome) -> None:
     if isinstance(outcome, Exception):
-        say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
+        verb = "refused" if isinstance(outcome, ValidityError) else "failed"
+        say(f"[{done}/{total}] U = {speed:.4g} m/s {verb}: {outcome}")
     else:
         say(
             f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "

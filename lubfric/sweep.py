@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import validate
-from .errors import ConvergenceError, InputError
+from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
@@ -15,8 +15,10 @@ from .steady import FrictionResult
 from .store import fingerprint
 from .studies.chain import Chain, make_chain
 from .studies.solve import solve_chains
+from .validity.entry import Validity
+from .validity.gather import gathered
 
-NOT_NUMBERS = ("report", "balance", "decision", "cautions")
+NOT_NUMBERS = ("report", "balance", "decision", "validity")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -25,7 +27,8 @@ class StribeckResult:
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}.
+    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the range
+    of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the speeds.
     """
 
     speed: np.ndarray
@@ -50,6 +53,18 @@ class StribeckResult:
     errors: dict[int, Exception]
     report: Report
 
+    def entries(self, index: int) -> tuple[Validity, ...]:
+        """Assumptions that do not hold at a speed, refused or not."""
+        point, error = self.points[index], self.errors.get(index)
+        if point is None and isinstance(error, ValidityError) and error.result is not None:
+            return error.result.validity
+        return () if point is None else point.validity
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold somewhere."""
+        return gathered([(float(u), self.entries(i)) for i, u in enumerate(self.speed)])
+
 
 def stribeck(
     scene: Scene | Model,
@@ -72,8 +87,9 @@ def stribeck(
     contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
     the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError` is raised with the whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of
-    the program, or an interrupt, goes through as it is, with the points so far as its ``result``.
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
+    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
+    as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
@@ -96,6 +112,9 @@ def stribeck(
         fault.result = _collect(speeds, points, errors)
         raise
     result = _collect(speeds, points, errors)
+    refused = [error for error in errors.values() if isinstance(error, ValidityError)]
+    if raise_on_failure and errors and len(refused) == len(errors):
+        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
     if raise_on_failure and errors:
         raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
     return result

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..lubricant import Lubricant, shear_stress
+from ..validity.stress import carried_stress
 
 
 @dataclass(frozen=True)
@@ -16,12 +17,15 @@ class ShearForce:
 
     couette: from the difference of the surface speeds; rolling: from the pressure gradient;
     total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sum that couette is, from two rules; it is
-    large where the nodes do not hold a pressure spike, whatever the error of the film.
+    large where the nodes do not hold a pressure spike, whatever the error of the film. excess [N]: part of couette, without
+    sign, from stresses above what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float
     rolling: float
     quadrature: float = 0.0
+    excess: float = 0.0
+    stress_ratio: float = 0.0
 
     @property
     def total(self) -> float:
@@ -56,6 +60,9 @@ def shear_force(
     couette = np.sum(face_tau[full])
     middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
+    carried = carried_stress(p)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
     rolling += 6 * lubricant.viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
@@ -64,7 +71,13 @@ def shear_force(
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
-    return ShearForce(float(width * sense * couette), float(width * sense * rolling), float(width * quadrature))
+    return ShearForce(
+        float(width * sense * couette),
+        float(width * sense * rolling),
+        float(width * quadrature),
+        float(width * excess),
+        float(np.max(np.abs(tau) / carried)),
+    )
 
 
 def _spike(x, tau) -> float:
