@@ -10,7 +10,7 @@ from ..errors import LubfricError, ValidityError
 from ..model import Model
 from ..steady import FrictionResult, friction
 from ..store import digest
-from .journal import Journal
+from .journal import Journal, without_fields
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,7 @@ def run_chain(
             return
         if journal is not None:
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
-        yield (
-            index,
-            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
-        )
+        yield index, outcome if chain.fields[index] else without_fields(outcome)
     if journal is not None:
         journal.end(chain.name)
 
