@@ -116,6 +116,15 @@ def _run(arguments) -> int:
         write_fields(out / "fields.npz", model, points)
         plot_contact(out / "contact.png", model, points[0])
         written += ["fields.npz", "contact.png"]
+    whole = [p for p in curve.points if p is not None and p.deterministic is not None]
+    if whole:
+        from .deterministic.output import plot_fields
+        from .deterministic.output import write_fields as write_whole
+
+        whole.sort(key=lambda p: chosen.index(p.speed))
+        write_whole(out / "fields.npz", [p.deterministic.result for p in whole])
+        plot_fields(out / "contact.png", whole[0].deterministic.result, scene.bodies.half_width)
+        written += ["fields.npz", "contact.png"]
     for text in sorted({caution.text for p in curve.points if p is not None for caution in p.cautions}):
         say(text)
     say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")

@@ -23,7 +23,7 @@ CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 CLOSURES = ("load", "separation")
 FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
-MODELS = ("auto", "full")
+MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
 GRIDS = ("auto", "given")
@@ -200,7 +200,8 @@ class Numerics:
     of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid. film_level, contact_level, grid: a level given by name instead.
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
+    contact_level, grid: a level given by name instead.
     """
 
     tolerance: float = 0.01

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
 from .steady import FrictionResult, friction
 
-NOT_NUMBERS = ("report", "balance", "decision", "cautions")
+NOT_NUMBERS = ("report", "balance", "decision", "cautions", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -107,8 +107,8 @@ def _run(model, cases, fields):
             start = None
             yield index, error
         else:
-            yield index, start if speed in fields else replace(start, balance=None)
-            start = start if start.balance.film is not None else None
+            yield index, start if speed in fields else start.without_fields()
+            start = start if start.starts else None
 
 
 def _run_list(model, cases, fields):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ..errors import LubfricError
 from ..model import Model
@@ -64,7 +64,7 @@ def run_chain(
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
         yield (
             index,
-            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
+            outcome if isinstance(outcome, Exception) or chain.fields[index] else outcome.without_fields(),
         )
     if journal is not None:
         journal.end(chain.name)
@@ -72,7 +72,7 @@ def run_chain(
 
 def continues(outcome) -> bool:
     """A neighbour can start from it."""
-    return isinstance(outcome, FrictionResult) and outcome.balance is not None and outcome.balance.film is not None
+    return isinstance(outcome, FrictionResult) and outcome.starts
 
 
 def _solved(model, chain, index, start):

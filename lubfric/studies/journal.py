@@ -75,9 +75,7 @@ def outcome_of(record: dict):
 
 
 def _without_fields(result: FrictionResult) -> FrictionResult:
-    from dataclasses import replace
-
-    return replace(result, balance=None)
+    return result.without_fields()
 
 
 def _storable(outcome):
