@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +12,17 @@ from .result import DeterministicResult
 FIELDS = ("x", "pressure", "gap", "shear", "dent", "touching", "spots", "wet")
 
 
-def write_fields(path: Path, results: list[DeterministicResult]) -> None:
-    """Arrays named ``<field>_<index>``, the ``speed`` and ``spacing`` [m] of each; SI units."""
+def deterministic_bytes(results: list[DeterministicResult]) -> bytes:
+    """An ``.npz`` file of arrays named ``<field>_<index>``, the ``speed`` and ``spacing`` [m] of each; SI units."""
     arrays = {"speed": np.array([r.speed for r in results]), "spacing": np.array([r.spacing for r in results])}
     for i, result in enumerate(results):
         arrays |= {f"{name}_{i}": getattr(result, name) for name in FIELDS}
-    np.savez_compressed(path, **arrays)
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    return buffer.getvalue()
 
 
-def plot_fields(path: Path, result: DeterministicResult, half_width: float) -> None:
+def plot_deterministic(path: Path, result: DeterministicResult, half_width: float) -> None:
     """Pressure, gap and shear around the Hertz strip of ``half_width`` [m], from above, as PNG."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import LogNorm

@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..line_contact import LineContact
-from ..point.cautions import ROELANDS_LIMIT, Caution
+from ..model import Model
 from ..scene import Scene
 from ..surface import Surface
+from ..validity.bodies import of_motion
+from ..validity.entry import Validity
+from ..validity.film import of_pressure, of_thickness
 from .domain import lay_out
 from .refine import Refined, solve_refined
 from .takes import check_scene
@@ -79,24 +82,28 @@ def notes(found: Refined) -> tuple[str, ...]:
     )
 
 
-def cautions(scene: Scene, found: Refined) -> tuple[Caution, ...]:
-    """Where the result leaves the range in which the model is meant to hold."""
-    told, result, lubricant = [], found.result, scene.lubricant
-    peak = float(result.pressure[result.wet].max(initial=0.0))
-    if peak > ROELANDS_LIMIT and lubricant.viscosity_law != "constant":
-        sentence = f"film pressure {peak / 1e9:.2g} GPa, where the viscosity law is an extrapolation"
-        told.append(Caution("film pressure", peak, ROELANDS_LIMIT, "Pa", sentence))
+def validity(model: Model, speed: float, found: Refined) -> tuple[Validity, ...]:
+    """Entries for all that does not hold; those of bodies and map first."""
+    scene, result = model.scene, found.result
+    entries = [*model.known, *of_motion(scene, speed, result.central_gap)]
+    entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
+    entries += of_thickness(scene.bodies, result.central_gap)
+    lubricant = scene.lubricant
     newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
     cut = (result.split.saturated - result.split.spots) / result.load
     if newtonian and cut > CUT:
-        remedy = "lubricant.eyring_stress or a limiting stress"
-        sentence = f"{100 * cut:.2g} % of the load is on a Newtonian film whose shear was cut at f_b p; choose {remedy}"
-        told.append(Caution("load on a film sheared beyond f_b p", cut, CUT, "-", sentence, remedy))
+        consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"
+        remedy = "choose lubricant.eyring_stress or a limiting stress"
+        entries.append(Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy))
     if result.drawn > DRAWN:
-        sentence = f"{100 * result.drawn:.2g} % of the flow under the strip comes out of ruptured valleys, which are taken as full"
-        told.append(Caution("flow out of ruptured valleys", result.drawn, DRAWN, "-", sentence))
-    error = found.error
-    if error is not None and error > scene.numerics.tolerance:
-        sentence = f"the finest grid leaves an estimated error of {100 * error:.2g} % in f, above the tolerance"
-        told.append(Caution("error of the grid", error, scene.numerics.tolerance, "-", sentence, "numerics.grid"))
-    return tuple(told)
+        consequence = "these are taken as full, and the film behind them is fed too well"
+        remedy = "none: lower loads and smoother surfaces have less of it"
+        entries.append(
+            Validity("share of the flow out of ruptured valleys", result.drawn, DRAWN, "", consequence, remedy)
+        )
+    error, tolerance = found.error, scene.numerics.tolerance
+    if error is not None and error > tolerance:
+        consequence = "the finest grid leaves more than the tolerance"
+        remedy = "a finer contact.spacing, a larger tolerance"
+        entries.append(Validity("estimated error of the grid in f", error, tolerance, "", consequence, remedy))
+    return tuple(entries)

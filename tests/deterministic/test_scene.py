@@ -100,12 +100,17 @@ def test_a_transient_is_refused():
         lubfric.transient(SCENE, [0.0, 1e-3])
 
 
-def test_cautions_tell_a_newtonian_film_beyond_its_range():
-    heavy = lubfric.friction(
-        SCENE.with_(bodies={"load": 60.0}, contact={"shape": (32, 32), "spacing": 90e-6 / 32}), 0.1
-    )
-    told = {caution.what for caution in heavy.cautions}
-    assert "film pressure" in told and "load on a film sheared beyond f_b p" in told
+def test_heat_is_refused_and_not_left_out_in_silence():
+    with pytest.raises(lubfric.InputError, match="isothermal"):
+        lubfric.prepare(
+            SCENE.with_(numerics={"heat": "on"}, lubricant={"temperature": 313.0, "temperature_coefficient": 0.04})
+        )
+
+
+def test_a_newtonian_film_beyond_its_range_is_told():
+    heavy = SCENE.with_(bodies={"load": 60.0}, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
+    told = {entry.what for entry in lubfric.friction(heavy, 0.1).validity}
+    assert "share of the load on a saturated film" in told and any("pressure" in what for what in told)
 
 
 def test_the_command_writes_its_fields(tmp_path):
