@@ -25,7 +25,7 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity")
+NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
