@@ -21,8 +21,15 @@ LEVELS = ("full", "quick")
 COUNT = {"full": 200, "quick": 16}
 SPEEDS = {"full": 240, "quick": 60}
 STUDIES = (
-    Study("saving", "verification.levels:saving", "Scenes at every tolerance beside the full model", LEVELS),
-    Study("switches", "verification.levels:switches", "f through every switch between levels and grids", LEVELS),
+    Study(
+        "saving", "verification.levels:scenes_beside_full", "Scenes at every tolerance beside the full model", LEVELS
+    ),
+    Study(
+        "switches",
+        "verification.levels:speeds_through_switches",
+        "f through every switch between levels and grids",
+        LEVELS,
+    ),
 )
 
 
@@ -31,7 +38,7 @@ def main(argv: list[str]) -> int:
     return run(Command("levels", __doc__, STUDIES, "out/levels", LEVELS, 0, _options, _prepared), argv)
 
 
-def saving(level: str, out: str, seed: int) -> Iterator[Item]:
+def scenes_beside_full(level: str, out: str, seed: int) -> Iterator[Item]:
     """Scenes over the whole range that a user may ask for, each at three tolerances beside everything modelled tightly.
 
     What is solved is kept in the folder, a line a scene, and not solved again.
@@ -55,7 +62,7 @@ def saving(level: str, out: str, seed: int) -> Iterator[Item]:
     yield charts.error_against_saving(found)
 
 
-def switches(level: str) -> Iterator[Item]:
+def speeds_through_switches(level: str) -> Iterator[Item]:
     """Fine steps of speed along three scenes, each beside the full model: no switch between levels shows."""
     from . import charts
     from .switches import TOLERANCE, scan
