@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from .deterministic.takes import check_scene
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
@@ -15,20 +16,24 @@ from .sampling.lines import Lines
 from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
 from .surface import Surface
+from .validity.beforehand import beforehand
+from .validity.entry import Validity
 
 
 @dataclass(frozen=True)
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. lines: where ``surface`` is a
-    line of the scene's roughness, more of it; given: it was given to `prepare`, and is all there is.
+    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that bodies
+    and map do not meet; lines: where ``surface`` is a line of the scene's roughness, more of it; given: it was given to
+    `prepare`, and is all there is.
     """
 
     scene: Scene
     surface: Surface
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
+    known: tuple[Validity, ...] = ()
     lines: Lines | None = None
     given: bool = False
 
@@ -50,6 +55,8 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
+    if scene.numerics.model == "deterministic":
+        check_scene(scene)
     if like is not None:
         return _another(scene, like)
     levels, given = tuple(film_levels), surface is not None or contact is not None
@@ -62,15 +69,15 @@ def prepare(
         check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
         surface = surface.periodic("mirror", axes=(True, False))
-    rough = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, rough, levels, given=given)
+    made = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, made, levels, beforehand(scene, surface), given=given)
 
 
 def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Model:
     lines = lines_of(scene)
     surface, contact = pilot(scene, lines)
     check_grid(scene, surface)
-    return Model(scene, surface, contact, levels, lines)
+    return Model(scene, surface, contact, levels, beforehand(scene, surface), lines)
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -110,7 +117,8 @@ def _another(scene: Scene, like: Model) -> Model:
         return _another_line(scene, like)
     if not like.contact.nominally_flat:
         check_grid(scene, like.surface)
-    return replace(like, scene=scene, contact=like.contact.again(scene, old))
+    contact = like.contact.again(scene, old)
+    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface))
 
 
 def _another_line(scene: Scene, like: Model) -> Model:
@@ -121,7 +129,8 @@ def _another_line(scene: Scene, like: Model) -> Model:
     if lines is None:
         return _on_a_line(scene, like.film_levels)
     check_grid(scene, like.surface)
-    return replace(like, scene=scene, contact=like.contact.again(scene, like.scene), lines=lines)
+    contact = like.contact.again(scene, like.scene)
+    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
 
 
 def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:

@@ -39,5 +39,8 @@ def quantities(point: OperatingPoint, balance: Balance) -> dict[str, float]:
         "boundary_force": found.boundary,
         "min_film": film.min_film,
         "central_film": film.central_film,
+        "inlet_film_factor": found.heat.film_factor,
+        "flash_temperature_rise": found.heat.flash,
+        "film_temperature_rise": found.heat.film,
         "mean_gap": weighted_mean(film.film_at(point.contact.x), point.contact.weight),
     }

@@ -16,6 +16,7 @@ from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interva
 
 FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
 SHEAR = ("shear_force", "couette_force", "rolling_force")
+HEAT = ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
 AREAS = ("real_contact_area_fraction", "real_contact_area")
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 
@@ -67,7 +68,7 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name in FILMS:
         errors[name] = errors.get(name, 0.0) + numerical.film
-    for name in SHEAR:
+    for name in (*SHEAR, *HEAT):
         errors[name] = errors.get(name, 0.0) + numerical.film
     load = balance.contact_load / together.contact_load if together.contact_load else 0.0
     for name, value, error, slope in (
@@ -94,7 +95,7 @@ def dry_errors(together: Pooled) -> dict[str, float]:
 
 def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
     """Without contact everything hangs on the film, of relative error ``film``."""
-    return dict.fromkeys(FILMS, film) | dict.fromkeys(SHEAR, film + found.quadrature) | {"film_load": 0.0}
+    return dict.fromkeys(FILMS, film) | dict.fromkeys((*SHEAR, *HEAT), film + found.quadrature) | {"film_load": 0.0}
 
 
 def uncertainty_of(

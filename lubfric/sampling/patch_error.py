@@ -38,7 +38,7 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
     The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half of a
     mirrored map counts. Nothing more is made of the surface: it is all there is.
     """
-    balance, found = point.balance, point.forces
+    balance = point.balance
     length = model.surface.size[1] / (2 if _mirrored(model) else 1)
     correlation, why = _correlation_length(model), ""
     response, gap_error, there = None, NOTHING, LineRecord(length, balance.contact_load)

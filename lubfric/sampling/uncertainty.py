@@ -97,6 +97,9 @@ class FieldErrors:
     central_film: float = math.nan
     mean_gap: float = math.nan
     film_to_roughness_ratio: float = math.nan
+    inlet_film_factor: float = math.nan
+    flash_temperature_rise: float = math.nan
+    film_temperature_rise: float = math.nan
     reasons: dict[str, str] = field(default_factory=dict)
 
 
@@ -107,6 +110,13 @@ def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
     """`FieldErrors` of the errors ``known`` by name; ``why`` of those that are not."""
     found = {name: float(value) for name, value in known.items() if math.isfinite(value)}
     return FieldErrors(**found, reasons={name: why for name in FIELDS if name not in found})
+
+
+def not_sampled(coefficient: float, numerical: float | None, scene, length: float, why: str) -> Uncertainty:
+    """Where nothing is known of the surface beyond the ``length`` [m] that was solved, and ``why``."""
+    error = math.nan if numerical is None else numerical
+    asked = scene.numerics.sampling_tolerance
+    return Uncertainty(error, math.nan, (math.nan, math.nan), math.nan, math.nan, length, 0.0, asked, notes=(why,))
 
 
 def interval(value: float, numerical: float, sampling: float, freedom: float) -> tuple[float, float]:

@@ -6,11 +6,13 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from .data import Point
+from ..check import Check
+from .data import point
 
 ROOT = Path(__file__).parents[2]
 START = "import json, resource, sys, time\nimport numpy as np\n"
@@ -44,7 +46,7 @@ FILM = (
     START
     + """
 from lubfric import solve_ehl, solve_differential_deflection
-from verification.stability.film_map import case_of
+from verification.cases import case_of
 case, nodes = case_of(20, 5), int(sys.argv[1])
 solve_differential_deflection(**case)
 """
@@ -63,14 +65,14 @@ NEWTON = (
     + """
 from lubfric.ehl.grid import make_grid
 from lubfric.ehl.newton import newton
-from lubfric.ehl.solve import _positions
+from lubfric.ehl.solve import problem_nodes
 from lubfric.ehl.start import rupture_guess, warm_start
 from verification.charts.growth import newton_problem
 problem, state = newton_problem()
 
 
 def solve(n):
-    grid = make_grid(_positions(problem, n, rupture_guess(problem)))
+    grid = make_grid(problem_nodes(problem, n, rupture_guess(problem)))
     return newton(grid, problem, *warm_start(grid, problem, state), 1e-6, 60)
 
 
@@ -119,17 +121,20 @@ def newton_problem():
     """A contact (M = 20, L = 5) and a solution to start every grid from."""
     from lubfric import solve_ehl
     from lubfric.ehl.problem import Problem
+    from lubfric.line_contact import LineContact
     from lubfric.lubricant import Lubricant
 
-    from ..stability.film_map import case_of
+    from ..cases import case_of
 
     case = case_of(20, 5)
     oil = Lubricant(case["viscosity"], case["pressure_viscosity_coefficient"], "roelands", "constant")
-    problem = Problem(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+    problem = Problem(
+        LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+    )
     return problem, solve_ehl(**case, tolerance=1e-2).state
 
 
-def points(level: str) -> Iterator[Point]:
+def points(level: str) -> Iterator[Check]:
     """Each size in a process of its own, whose peak memory is its own."""
     quick = level == "quick"
     for label, code, sizes in (
@@ -148,17 +153,9 @@ def points(level: str) -> Iterator[Point]:
     ):
         for size in sizes:
             found = measured(code, size)
-            yield Point(
-                "growth",
-                label,
-                label,
-                str(size),
-                float("nan"),
-                *np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist(),
-                size=found["size"],
-                memory=max(found["memory"], 1),
-                work=found["work"],
-            )
+            seconds = np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist()
+            at = {"size": found["size"], "memory": max(found["memory"], 1), "work": found["work"]}
+            yield replace(point(label, label, str(size), seconds[0], seconds, **at), unit="s", source="the clock")
 
 
 def measured(code: str, size: int) -> dict:
@@ -171,10 +168,13 @@ def measured(code: str, size: int) -> dict:
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def exponent(points: list[Point], quantity: str) -> float:
-    """Least-squares slope of log(quantity) over log(size), the larger half of the sizes."""
-    chosen = sorted((p for p in points if getattr(p, quantity) > 0), key=lambda p: p.size)
-    chosen = chosen[len(chosen) // 2 - 1 :] if len(chosen) > 3 else chosen
-    if len(chosen) < 2:
+def exponent(points: list[Check], quantity: str) -> float:
+    """Least-squares slope of log(quantity) over log(size), the larger half of the sizes; quantity: "memory", "work", or
+    "seconds"."""
+    pairs = sorted((p.at["size"], p.seconds if quantity == "seconds" else p.at[quantity]) for p in points)
+    pairs = [(size, value) for size, value in pairs if value > 0]
+    pairs = pairs[len(pairs) // 2 - 1 :] if len(pairs) > 3 else pairs
+    if len(pairs) < 2:
         return float("nan")
-    return float(np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0])
+    size, value = np.log(np.array(pairs)).T
+    return float(np.polyfit(size, value, 1)[0])
