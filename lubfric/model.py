@@ -46,15 +46,9 @@ def prepare(
     """
     if like is not None:
         return _another(scene, like)
-    if surface is None:
-        surface = contact_map(scene)
-    else:
-        check_grid(scene, surface)
-    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
-        surface = surface.periodic("mirror", axes=(True, False))
-    levels = tuple(film_levels)
-    _check_levels(scene, levels)
-    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
+    _check_levels(scene, film_levels)
+    surface = contact_map(scene, surface)
+    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, tuple(film_levels))
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -89,13 +83,13 @@ def _another(scene: Scene, like: Model) -> Model:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
+    _check_levels(scene, like.film_levels)
     if not like.contact.nominally_flat:
         check_grid(scene, like.surface)
-    _check_levels(scene, like.film_levels)
     return Model(scene, like.surface, like.contact.again(scene, old), like.film_levels)
 
 
-def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:
+def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
     names = [level.name for level in levels]
     if not names:
         raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")

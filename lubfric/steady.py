@@ -10,7 +10,7 @@ from . import validate
 from .model import Model, at_tolerance
 from .point.adapt import Solved, solved
 from .point.balance import Balance
-from .point.cautions import Caution, cautions
+from .point.cautions import Caution
 from .point.decision import Decision
 from .report import Report
 from .scene import Scene
@@ -87,12 +87,11 @@ def friction(
 
 
 def _result(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:
-    scene, balance, found = model.scene, point.balance, point.forces
-    contact, film = balance.contact, balance.film
+    scene, balance = model.scene, point.balance
+    contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = cautions(scene, balance, found.shear)
-    notes = (*balance.report.notes, point.decision.text, *(caution.text for caution in passed))
+    notes = (*balance.report.notes, point.decision.text, *(caution.text for caution in point.cautions))
     sq = model.surface.sq
     return FrictionResult(
         speed=speed,
@@ -116,5 +115,5 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
         report=replace(balance.report, notes=notes),
         balance=balance,
         decision=point.decision,
-        cautions=passed,
+        cautions=point.cautions,
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..film.shear import ShearForce
 from ..scene import Scene
 from .balance import Balance
 
@@ -35,13 +34,13 @@ class Caution:
         return f"caution: {self.sentence}"
 
 
-def cautions(scene: Scene, balance: Balance, shear: ShearForce) -> tuple[Caution, ...]:
-    """Where a `Balance` and its `ShearForce` leave the range in which the model is meant to hold."""
+def cautions(scene: Scene, balance: Balance) -> tuple[Caution, ...]:
+    """Where ``balance`` leaves the range in which the model is meant to hold."""
     if balance.film is None:
         return ()
     found = (
         _pressure(scene, balance),
-        _newtonian(scene, balance, shear),
+        _newtonian(scene, balance),
         _strip(scene, balance),
         _thick(scene, balance),
     )
@@ -56,12 +55,12 @@ def _pressure(scene: Scene, balance: Balance) -> Caution | None:
     return Caution("film pressure", peak, ROELANDS_LIMIT, "Pa", sentence)
 
 
-def _newtonian(scene: Scene, balance: Balance, shear: ShearForce) -> Caution | None:
+def _newtonian(scene: Scene, balance: Balance) -> Caution | None:
     lubricant = scene.lubricant
     newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
-    if not newtonian or not shear.couette > FLUID_FRICTION * balance.film_load:
+    if not newtonian or not balance.forces.shear.couette > FLUID_FRICTION * balance.film_load:
         return None
-    value, remedy = shear.couette / balance.film_load, "lubricant.eyring_stress or a limiting stress"
+    value, remedy = balance.forces.shear.couette / balance.film_load, "lubricant.eyring_stress or a limiting stress"
     sentence = f"Newtonian shear gives the film a friction coefficient of {value:.2g}; choose {remedy}"
     return Caution("friction coefficient of the film", value, FLUID_FRICTION, "-", sentence, remedy)
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..film.contract import FilmLevel
 from ..film.shear import ShearForce
 from ..scene import Scene
-from .balance import Balance
+from .operating_point import Trial
 
 
 @dataclass(frozen=True)
@@ -29,17 +30,28 @@ class Forces:
     quadrature: float = 0.0
 
 
-def forces(scene: Scene, balance: Balance) -> Forces:
-    """Boundary and viscous friction of a balance (paper, Eqs. 9-12)."""
+def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | None = None) -> Forces:
+    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` (None: no film) and a contact that share
+    the load, ``slope`` that of the balance."""
     bodies, motion = scene.bodies, scene.motion
-    shear = _shear(scene, balance)
+    shear = ShearForce(0.0, 0.0)
+    if level is not None:
+        with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
+            shear = level.shear(
+                found.film,
+                scene.lubricant,
+                width=bodies.width,
+                slide_roll_ratio=motion.slide_roll_ratio,
+                cavitated=scene.numerics.cavitated_shear,
+                contact_fraction=found.contact.touching,
+            )
     sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
-    boundary = sliding * balance.contact_load
+    boundary = sliding * found.contact_load
     total = abs(boundary + shear.total)
-    moved = sliding * balance.film_load * (balance.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
+    moved = sliding * found.film_load * (found.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
     gain = 1.0
-    if balance.slope and balance.contact_load > 0:
-        gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))
+    if slope and found.contact_load > 0:
+        gain = max(1.0, 0.5 * found.contact_load / (bodies.load * slope))
     known = 0 < total < math.inf
     return Forces(
         (boundary + shear.total) / bodies.load,
@@ -48,17 +60,3 @@ def forces(scene: Scene, balance: Balance) -> Forces:
         gain * moved / total if known else 1.0,
         shear.quadrature / total if known else 0.0,
     )
-
-
-def _shear(scene: Scene, balance: Balance) -> ShearForce:
-    if balance.film is None:
-        return ShearForce(0.0, 0.0)
-    with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
-        return balance.level.shear(
-            balance.film,
-            scene.lubricant,
-            width=scene.bodies.width,
-            slide_roll_ratio=scene.motion.slide_roll_ratio,
-            cavitated=scene.numerics.cavitated_shear,
-            contact_fraction=balance.contact.touching,
-        )

@@ -11,15 +11,18 @@ REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 
 
-def contact_map(scene: Scene) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``.
+def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
+    """Generate, or read, turn, scale, cut and close the heights of ``scene``, or take those of ``surface`` as they are.
 
     A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
     it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
     Everything done is in the notes of the surface.
     """
-    surface = _measured(scene) if scene.surface.file is not None else _generated(scene)
+    if surface is None:
+        surface = _measured(scene) if scene.surface.file is not None else _generated(scene)
     check_grid(scene, surface)
+    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
+        surface = surface.periodic("mirror", axes=(True, False))
     return surface
 
 
