@@ -9,7 +9,7 @@ from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
 from .rough.contract import RoughContact
-from .rough.height_map import check_grid, contact_map
+from .rough.height_map import contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
@@ -44,11 +44,13 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
+    levels = tuple(film_levels) if like is None else like.film_levels
+    _check_levels(scene, levels)
     if like is not None:
-        return _another(scene, like)
-    _check_levels(scene, film_levels)
+        _check_likeness(scene, like.scene, surface, contact)
+        return Model(scene, like.surface, like.contact.again(scene, like.scene), levels)
     surface = contact_map(scene, surface)
-    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, tuple(film_levels))
+    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -66,15 +68,13 @@ def scene_of(scene: Scene | Model) -> Scene:
 def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
     """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    asked = scene_of(scene).with_(numerics=changed)
-    if not isinstance(scene, Model):
-        return prepare(asked)
-    return prepare(asked, like=scene) if asked != scene.scene else scene
+    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Model) else None
+    return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 
-def _another(scene: Scene, like: Model) -> Model:
-    """The model of another scene on the map and contact of ``like``."""
-    old = like.scene
+def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
+    if surface is not None or contact is not None:
+        raise InputError("like = a model brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("contact", scene.contact, old.contact),
@@ -83,10 +83,6 @@ def _another(scene: Scene, like: Model) -> Model:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
-    _check_levels(scene, like.film_levels)
-    if not like.contact.nominally_flat:
-        check_grid(scene, like.surface)
-    return Model(scene, like.surface, like.contact.again(scene, old), like.film_levels)
 
 
 def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:

@@ -10,8 +10,9 @@ from . import validate
 from .errors import ConvergenceError, InputError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
+from .result import FrictionResult
 from .scene import Scene
-from .steady import FrictionResult, friction
+from .steady import friction
 
 NOT_NUMBERS = ("report", "balance", "decision", "cautions")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)

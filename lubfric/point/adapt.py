@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ..film.contract import FilmLevel, LeftOut
-from ..film.ladder import given_level, lowest_level
+from ..errors import ConvergenceError
+from ..film.ladder import given_level, level_for
 from ..line_contact import LineContact
 from ..model import Model
 from ..report import CONVERGED, Report
 from .balance import Balance, separated
-from .cautions import Caution, cautions
 from .decision import Decision, alone, dry, in_contact
 from .forces import forces
 from .grids import coarser_grids, on_enough_cells
@@ -23,11 +22,10 @@ SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, how far it was modelled, and the limits of the model that it has passed."""
+    """A balance, and how far it was modelled."""
 
     balance: Balance
     decision: Decision
-    cautions: tuple[Caution, ...] = ()
 
 
 def solved(model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
@@ -39,11 +37,19 @@ def solved(model: Model, speed: float, start: Balance | None = None, *, given_gr
     numerics = model.scene.numerics
     if speed == 0 or numerics.film_level == "none":
         return _dry(model)
-    if numerics.contact_level == "none" or not _certainly_touching(model, speed):
-        found = _film_alone(model, speed, start)
-        if found.decision.clearance >= 0 or numerics.contact_level == "none":
-            return found
-    return _in_contact(model, speed, start, given_grid)
+    if numerics.contact_level == "none":
+        return _film_alone(model, speed, start)
+    notes: tuple[str, ...] = ()
+    if not _certainly_touching(model, speed):
+        try:
+            found = _film_alone(model, speed, start)
+        except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
+            notes = (f"the film of the whole load was not solved ({error})",)
+        else:
+            if found.decision.clearance >= 0:
+                return found
+    found = _in_contact(model, speed, start, given_grid)
+    return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
 
 
 def _dry(model: Model) -> Solved:
@@ -77,7 +83,8 @@ def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
     numerics, load = model.scene.numerics, model.scene.bodies.load
     settings = Settings(model.film_levels[0], film_alone_tolerance(numerics), numerics.volume_tolerance)
     point = OperatingPoint(model, speed, model.contact, settings)
-    level, left_out = _level(point, load, allowed_left_out(numerics, 1.0))
+    allowed = allowed_left_out(numerics, 1.0)
+    level, left_out = level_for(model.film_levels, numerics, point.line(load), allowed)
     point, film = replace(point, settings=replace(settings, level=level)), start.film if start else None
     while True:
         balance = separated(point, film)
@@ -85,7 +92,7 @@ def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
         if cells == point.settings.film_cells:
             break
         point, film = replace(point, settings=replace(point.settings, film_cells=cells)), balance.film
-    return Solved(balance, alone(Stage(point, balance, left_out)), cautions(model.scene, balance))
+    return Solved(balance, alone(Stage(point, balance, left_out)))
 
 
 def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: bool) -> Solved:
@@ -93,21 +100,14 @@ def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: b
     nothing and tells what is needed."""
     numerics = model.scene.numerics
     level = given_level(model.film_levels, numerics) or model.film_levels[0]
-    settings = Settings(level, first_film_tolerance(numerics), numerics.volume_tolerance, touching=True)
+    settings = Settings(level, first_film_tolerance(numerics), numerics.volume_tolerance)
     point = OperatingPoint(model, speed, model.contact, settings)
     if start is not None and start.film is not None and start.contact_load > 0:
-        level, _ = _level(point, start.film_load, allowed_left_out(numerics, start.forces.sensitivity))
+        allowed, line = allowed_left_out(numerics, start.forces.sensitivity), point.line(start.film_load)
+        level, _ = level_for(model.film_levels, numerics, line, allowed)
         point = replace(point, settings=replace(settings, level=level))
     own = given_grid or numerics.grid == "given" or numerics.model == "full"
     grids = [model.contact] if own else coarser_grids(model.contact, model.surface.sq)
     stage, index, error = on_enough_cells(point, grids, start)
     decision = in_contact(stage, error, finest=index == len(grids) - 1)
-    return Solved(stage.balance, decision, cautions(model.scene, stage.balance))
-
-
-def _level(point: OperatingPoint, film_load: float, allowed: float) -> tuple[FilmLevel, LeftOut]:
-    """The level given, or the lowest that leaves out no more than ``allowed`` at ``film_load`` [N], and what that is."""
-    levels = point.model.film_levels
-    given = given_level(levels, point.scene.numerics)
-    level, left_out = (given, LeftOut()) if given else lowest_level(levels, point.line(film_load), allowed)
-    return level, left_out if left_out.total <= allowed else LeftOut()
+    return Solved(stage.balance, decision)

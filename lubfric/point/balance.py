@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..errors import ConvergenceError
 from ..film.contract import Film, FilmLevel
 from ..report import CONVERGED, Report
 from ..roots import increasing_root
@@ -66,14 +65,11 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Balance:
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Where the film of the whole load clears the summits it carries it all. Stops at |residual| <=
-    settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at the same gap carried in proportion
-    to its speed.
+    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at
+    the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
     """
-    whole, notes = _whole(point, start)
-    if whole is not None and whole.contact.volume_residual <= 0:
-        return whole
     by_load = point.scene.numerics.closure == "load"
+    first = Trial() if start is None else Trial(film=start.film, start=start.contact)
     begin = point.guessed_split() if start is None else start.split + _faster(point, start)
     root = increasing_root(
         partial(volume_residual if by_load else load_residual, point),
@@ -82,14 +78,14 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Balance:
         bounds=BOUNDS,
         tolerance=point.settings.volume_tolerance,
         slope=start.slope if start else None,
-        first=_first(start, whole),
+        first=first,
     )
     found = root.payload
     residuals = {"volume": min(root.history), "load": 0.0}
     if not by_load:
         residuals = {"volume": abs(found.contact.volume_residual), "load": min(root.history)}
     slope = (root.slope or (start.slope if start else None)) if by_load else None
-    return _balance(point, found, residuals, root.history, root.status, notes, slope)
+    return _balance(point, found, residuals, root.history, root.status, (), slope)
 
 
 def separated(point: OperatingPoint, start: Film | None = None) -> Balance:
@@ -114,25 +110,6 @@ def load_residual(point: OperatingPoint, split: float, last: Trial) -> tuple[flo
     load = point.scene.bodies.load
     found = point.with_imposed_film(point.with_film(divided(load, split)[0], last))
     return math.log((found.contact_load + found.film_load) / load), found
-
-
-def _whole(point: OperatingPoint, start: Balance | None) -> tuple[Balance | None, tuple[str, ...]]:
-    """`separated`, unless it is known that the summits touch, or the film of the whole load fails: then the balance
-    that is found, one of a kind, is what excludes separation."""
-    if point.settings.touching:
-        return None, ()
-    try:
-        return separated(point, start.film if start else None), ()
-    except ConvergenceError as error:
-        return None, (f"the film of the whole load was not solved ({error})",)
-
-
-def _first(start: Balance | None, whole: Balance | None) -> Trial:
-    """What the first trial starts from: a neighbour, or the film of the whole load."""
-    solved = () if whole is None or whole.film is None else (whole.film.cells,)
-    if start is not None:
-        return Trial(film=start.film, start=start.contact, solved=solved)
-    return Trial(film=None if whole is None else whole.film, solved=solved)
 
 
 def _faster(point: OperatingPoint, start: Balance) -> float:

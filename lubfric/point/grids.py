@@ -44,21 +44,20 @@ def on_enough_cells(
 ) -> tuple[Stage, int, float]:
     """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid, and
     that error (infinite: unknown)."""
-    numerics, load = point.scene.numerics, point.scene.bodies.load
-    limit, last = budget.CONTACT_GRID * numerics.tolerance, len(grids) - 1
-    index, error = 0, math.inf
+    limit = budget.CONTACT_GRID * point.scene.numerics.tolerance
+    index, last = 0, len(grids) - 1
+    point = replace(point, contact=grids[0])
     changes: tuple[float, ...] = ()
-    stage = on_grid(replace(point, contact=grids[0]), grids[0], start)
-    while index < last and error > limit:
-        if stage.balance.contact_load < LEAST_CONTACT * load:  # too coarse to hold the summits
-            index += 1
-            stage = on_grid(replace(stage.point, contact=grids[index]), grids[index], None)
-            continue
-        finer = refined(stage, grids, index, changes, limit)
-        index, changes = finer.index, finer.changes
-        stage = on_grid(finer.point, grids[index], finer.balance)
-        error = grid_error(changes, stage.balance, limit)
-    return stage, index, error
+    while True:
+        stage = on_grid(point, grids[index], start)
+        error = grid_error(changes, stage.balance, limit) if changes else math.inf
+        if index == last or error <= limit:
+            return stage, index, error
+        if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
+            index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None
+        else:
+            finer = refined(stage, grids, index, changes, limit)
+            index, changes, point, start = finer.index, finer.changes, finer.point, finer.balance
 
 
 def refined(

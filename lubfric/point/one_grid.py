@@ -32,7 +32,7 @@ def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -
     """
     for _ in range(ROUNDS):
         balance = balanced(point, start)
-        if not holds(point, whole, balance):
+        if not point.suffices(whole, balance.film, balance.contact):
             point = replace(point, contact=whole)
             continue
         line = point.line(balance.film_load)
@@ -43,13 +43,6 @@ def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -
         point, start = replace(point, settings=settings), balance
     whole.check(stage.balance.contact)
     return stage
-
-
-def holds(point: OperatingPoint, whole: RoughContact, balance: Balance) -> bool:
-    """Nothing outside the point's part of ``whole`` touches."""
-    if point.contact is whole:
-        return True
-    return whole.holds(point.contact, point.imposed_on(whole, balance.film)[1], balance.contact)
 
 
 def needed_settings(stage: Stage) -> Settings | None:

@@ -16,13 +16,12 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain; how many
-    cells a numerical film has at least; tolerance of the contact (None: its own)."""
+    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at least;
+    tolerance of the contact (None: its own)."""
 
     level: FilmLevel
     film_tolerance: float
     volume_tolerance: float
-    touching: bool = False
     film_cells: int = 0
     contact_tolerance: float | None = None
 
@@ -110,6 +109,10 @@ class OperatingPoint:
             return thickness, thickness - film.imposed_deflection(contact.x)
         parabola = contact.x**2 / (2 * film.radius)
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
+
+    def suffices(self, whole: RoughContact, film: Film, state: ContactState) -> bool:
+        """Nothing of ``whole`` outside the point's own contact, a part of it in ``state`` under ``film``, touches."""
+        return self.contact is whole or whole.holds(self.contact, self.imposed_on(whole, film)[1], state)
 
     def guessed_split(self) -> float:
         """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""

@@ -13,7 +13,7 @@ from ..halfspace import HalfSpace, half_space
 from ..scene import Scene
 from .contract import ContactState
 from .half_space_grid import HalfSpaceGrid
-from .strip import area_half_width, area_weight, centred_axis, weighted_mean
+from .strip import area_half_width, area_weight, centred_axis, check_strip, weighted_mean
 
 EDGE_SHARE = 0.01
 BOUNDARY = ("free", "periodic")
@@ -88,6 +88,7 @@ class HalfSpaceContact(HalfSpaceGrid):
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
         """With the same operator."""
+        check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return half_space_contact(scene, self.heights, self.spacing, self.operator)
 
     def _state(self, film, gap, found) -> ContactState:

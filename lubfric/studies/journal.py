@@ -8,7 +8,7 @@ from pathlib import Path
 from .. import errors
 from ..errors import ConvergenceError, LubfricError
 from ..report import Report
-from ..steady import FrictionResult
+from ..result import FrictionResult
 from ..store import Records, decode, encode, read_checked, write_checked
 from ..store.codec import from_plain, to_plain
 
