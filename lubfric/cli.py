@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from .console import INTERRUPTED, Interrupted, interruptible, say
-from .errors import ConvergenceError, LubfricError
+from .errors import ConvergenceError, LubfricError, ValidityError
 
 OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
 
@@ -49,6 +49,11 @@ def _parser() -> argparse.ArgumentParser:
         "--animation",
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
+    )
+    run.add_argument(
+        "--accept",
+        action="store_true",
+        help="keep results outside the range of the model, marked, instead of refusing them",
     )
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
@@ -91,6 +96,8 @@ def _run(arguments) -> int:
     from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    if arguments.accept:
+        scene = scene.with_(numerics={"accept": True})
     if scene.transient is not None:
         from .unsteady.command import run_history
 
@@ -116,14 +123,20 @@ def _run(arguments) -> int:
         write_fields(out / "fields.npz", model, points)
         plot_contact(out / "contact.png", model, points[0])
         written += ["fields.npz", "contact.png"]
-    for text in sorted({caution.text for p in curve.points if p is not None for caution in p.cautions}):
+    for text in curve.validity:
         say(text)
+    if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
+        say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
     say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
-        raise ConvergenceError(
-            f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
-            curve.report,
-        )
+        failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
+        counts = [f"{failed} of {curve.speed.size} speeds failed"] if failed else []
+        if len(curve.errors) > failed:
+            counts.append(
+                f"{len(curve.errors) - failed} of {curve.speed.size} speeds refused (--accept keeps them, marked)"
+            )
+        first = curve.errors[min(curve.errors)]
+        raise ConvergenceError(f"{', '.join(counts)}; first: {first}", curve.report)
     return 0
 
 
@@ -201,7 +214,9 @@ def _folder(path: Path) -> Path:
 
 def _progress(done, total, speed, outcome) -> None:
     if isinstance(outcome, Exception):
-        say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
+        say(
+            f"[{done}/{total}] U = {speed:.4g} m/s {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
+        )
     else:
         say(
             f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "

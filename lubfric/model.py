@@ -13,11 +13,15 @@ from .rough.height_map import contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
+from .validity.beforehand import beforehand
+from .validity.entry import Validity
 
 
 @dataclass(frozen=True)
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
+
+    known: assumptions that bodies and map do not meet.
 
     Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes.
     """
@@ -26,6 +30,7 @@ class Model:
     surface: Surface
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
+    known: tuple[Validity, ...] = ()
 
 
 def prepare(
@@ -48,9 +53,11 @@ def prepare(
     _check_levels(scene, levels)
     if like is not None:
         _check_likeness(scene, like.scene, surface, contact)
-        return Model(scene, like.surface, like.contact.again(scene, like.scene), levels)
-    surface = contact_map(scene, surface)
-    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
+        surface, contact = like.surface, like.contact.again(scene, like.scene)
+    else:
+        surface = contact_map(scene, surface)
+        contact = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, contact, levels, beforehand(scene, surface))
 
 
 def scene_of(scene: Scene | Model) -> Scene:

@@ -7,11 +7,13 @@ import time
 from dataclasses import dataclass, replace
 
 from .model import Model
+from .oil.describe import estimate_in_words
 from .point.adapt import Solved
 from .point.balance import Balance
-from .point.cautions import Caution, cautions
 from .point.decision import Decision
+from .point.judge import judged_validity
 from .report import Report
+from .validity.entry import Validity
 
 
 @dataclass(frozen=True)
@@ -20,11 +22,14 @@ class FrictionResult:
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
     carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
-    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. The residuals are relative: load
+    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the film, by the
+    heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and (mean across) of the film above
+    them (1, 0, 0 where heat is left out). The residuals are relative: load
     (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
     (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
-    (``decision.text`` in words); ``cautions``: the limits of the model that the result has passed.
+    (``decision.text`` in words); ``validity``: the assumptions that do not hold
+    (`lubfric.Validity`); a severe one is there only where it was accepted.
     """
 
     speed: float
@@ -42,13 +47,16 @@ class FrictionResult:
     central_film: float
     mean_gap: float
     film_to_roughness_ratio: float
+    inlet_film_factor: float
+    flash_temperature_rise: float
+    film_temperature_rise: float
     load_residual: float
     volume_residual: float
     seconds: float
     report: Report
     balance: Balance | None = None
     decision: Decision | None = None
-    cautions: tuple[Caution, ...] = ()
+    validity: tuple[Validity, ...] = ()
 
 
 def result_of(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:
@@ -57,8 +65,10 @@ def result_of(model: Model, speed: float, point: Solved, begun: float) -> Fricti
     contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = cautions(scene, balance)
-    notes = (*balance.report.notes, point.decision.text, *(caution.text for caution in passed))
+    passed = judged_validity(model, speed, balance)
+    oil = scene.lubricant.oil
+    known = (estimate_in_words(oil, scene.lubricant.temperature),) if oil else ()
+    notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
     sq = model.surface.sq
     return FrictionResult(
         speed=speed,
@@ -76,11 +86,14 @@ def result_of(model: Model, speed: float, point: Solved, begun: float) -> Fricti
         central_film=central,
         mean_gap=contact.mean_film if separated else contact.mean_gap,
         film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
+        inlet_film_factor=found.heat.film_factor,
+        flash_temperature_rise=found.heat.flash,
+        film_temperature_rise=found.heat.film,
         load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
         volume_residual=0.0 if film is None or separated else contact.volume_residual,
         seconds=time.perf_counter() - begun,
         report=replace(balance.report, notes=notes),
         balance=balance,
         decision=point.decision,
-        cautions=passed,
+        validity=passed,
     )

@@ -9,6 +9,7 @@ from .model import Model, at_tolerance
 from .point.adapt import solved
 from .result import FrictionResult, result_of
 from .scene import Scene
+from .validity.entry import refused
 
 
 def friction(
@@ -33,7 +34,8 @@ def friction(
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
-    not converge (``raise_on_failure=False`` returns the unconverged balance, but a failed film or contact always raises).
+    not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
+    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always raises).
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
@@ -42,4 +44,5 @@ def friction(
     result = result_of(ready, speed, point, begun)
     if raise_on_failure:
         result.report.raise_if_failed(result)
+        refused(result.validity, ready.scene.numerics.accept, result)
     return result

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..film.contract import FilmLevel
 from ..film.shear import ShearForce
+from ..heat.point import Heat, WarmFilm, point_heat
 from ..scene import Scene
 from .operating_point import Trial
 
@@ -20,7 +21,8 @@ class Forces:
     sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). a is what a change of
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
     the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
-    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
+    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film. heat: of
+    inlet, film and surfaces, and what it changes.
     """
 
     coefficient: float
@@ -28,25 +30,19 @@ class Forces:
     shear: ShearForce
     sensitivity: float
     quadrature: float = 0.0
+    heat: Heat = Heat()
 
 
 def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | None = None) -> Forces:
     """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` (None: no film) and a contact that share
     the load, ``slope`` that of the balance."""
     bodies, motion = scene.bodies, scene.motion
-    shear = ShearForce(0.0, 0.0)
-    if level is not None:
-        with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
-            shear = level.shear(
-                found.film,
-                scene.lubricant,
-                width=bodies.width,
-                slide_roll_ratio=motion.slide_roll_ratio,
-                cavitated=scene.numerics.cavitated_shear,
-                contact_fraction=found.contact.touching,
-            )
     sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
     boundary = sliding * found.contact_load
+    shear = _shear(scene, level, found)
+    heat, warm = point_heat(scene, found, abs(boundary + shear.total), shear)
+    if warm is not None:
+        shear = _shear(scene, level, found, warm)
     total = abs(boundary + shear.total)
     moved = sliding * found.film_load * (found.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
     gain = 1.0
@@ -59,4 +55,20 @@ def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | N
         shear,
         gain * moved / total if known else 1.0,
         shear.quadrature / total if known else 0.0,
+        heat,
     )
+
+
+def _shear(scene: Scene, level: FilmLevel | None, found: Trial, warm: WarmFilm | None = None) -> ShearForce:
+    if level is None:
+        return ShearForce(0.0, 0.0)
+    with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
+        return level.shear(
+            found.film,
+            scene.lubricant,
+            width=scene.bodies.width,
+            slide_roll_ratio=scene.motion.slide_roll_ratio,
+            cavitated=scene.numerics.cavitated_shear,
+            contact_fraction=found.contact.touching,
+            **({} if warm is None else {"warm": warm}),
+        )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
+from ..validity.stress import meaningless
 from .balance import Balance
 from .operating_point import OperatingPoint, Settings
 
@@ -43,8 +44,10 @@ def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
 
 
 def least_cells(numerics: Numerics, settings: Settings, balance: Balance) -> int:
-    """Of the film: twice as many as it has where the sum of its shear stress is not good enough."""
-    resolved = balance.forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance
+    """Of the film: twice as many as it has where the sum of its shear stress is not good enough, unless that sum is one of
+    stresses that no oil carries."""
+    found = balance.forces
+    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if not settings.level.numerical or numerics.ehl_tolerance is not None or resolved:
         return settings.film_cells
     return min(2 * balance.film.cells, max(budget.MOST_CELLS, settings.film_cells))
