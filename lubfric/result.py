@@ -6,6 +6,7 @@ import math
 import time
 from dataclasses import dataclass, replace
 
+from .deterministic.refine import Refined
 from .model import Model
 from .oil.describe import estimate_in_words
 from .point.adapt import Solved
@@ -57,6 +58,16 @@ class FrictionResult:
     balance: Balance | None = None
     decision: Decision | None = None
     validity: tuple[Validity, ...] = ()
+    deterministic: Refined | None = None
+
+    @property
+    def starts(self) -> bool:
+        """A neighbouring speed can start from it: it has its fields, and a film."""
+        return self.deterministic is not None or (self.balance is not None and self.balance.film is not None)
+
+    def without_fields(self) -> FrictionResult:
+        """Its numbers alone."""
+        return replace(self, balance=None, deterministic=None)
 
 
 def result_of(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:

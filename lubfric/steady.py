@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 
 from . import validate
+from .deterministic.answer import deterministic_result
+from .deterministic.point import deterministic_point
 from .model import Model, at_tolerance
 from .point.adapt import solved
 from .result import FrictionResult, result_of
@@ -29,7 +31,8 @@ def friction(
     entrainment the contact carries everything; when the film clears the summits no contact is solved.
 
     ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid.
+    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``: no
+    load is shared, one pressure carries it (docs/deterministic.md).
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
@@ -40,8 +43,12 @@ def friction(
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
     speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
-    point = solved(ready, speed, start.balance if start else None, given_grid=fields)
-    result = result_of(ready, speed, point, begun)
+    if ready.scene.numerics.model == "deterministic" and speed != 0:
+        found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
+        result = deterministic_result(ready, speed, found, begun)
+    else:
+        point = solved(ready, speed, start.balance if start else None, given_grid=fields)
+        result = result_of(ready, speed, point, begun)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, ready.scene.numerics.accept, result)
