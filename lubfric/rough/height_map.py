@@ -57,7 +57,7 @@ def _generated(scene: Scene) -> Surface:
     if rough.oversize == 1:
         return surface
     surface = surface.cropped(patch.shape).periodic("mirror", axes=(patch.geometry == "flat", True))
-    return surface.scaled(sq=rough.sq)
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
 def _measured(scene: Scene) -> Surface:
