@@ -17,6 +17,7 @@ import math
 import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
+from .projection import with_load
 from .residual import dot
 from .stencil import Stencil
 
@@ -29,7 +30,7 @@ REACH = 0.5  # of the deepest overlap: cells with a gap below it may come into t
 NARROWINGS, WORTH = (4, 8, 16, 32), 0.7
 FORGOTTEN = 1e-6
 FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
-HUGE = np.float32(1e30)
+HUGE = np.float32(1e20)
 PATIENCE = 20  # iterations without a tenth off the best residual
 
 
@@ -44,9 +45,12 @@ class Descent:
     def __init__(self, problem, cells, pressure, gap, load, scale: float, slack: float, pace: float):
         base = cells.take(pressure)
         total, operator = float(base.sum()), problem.operator
-        self.unit = total / np.count_nonzero(base)
+        if not math.isfinite(scale):  # no pressure yet
+            scale = max(-float(gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
+        ripple = operator.e_prime * scale / min(operator.spacing)
+        self.unit = total / np.count_nonzero(base) if total > 0 else ripple
         self.cells, self.pace, self.given = cells, pace, load is not None
-        self.target = (load - total) / self.unit if self.given else 0.0
+        self.load, self.target = (load / self.unit, (load - total) / self.unit) if self.given else (None, 0.0)
         self.slack = slack * total / self.unit
         self.hardness = problem.hardness
         base /= self.unit
@@ -93,25 +97,38 @@ class Descent:
 
     def _look(self):
         """Free cells (as flags and as 1 or 0), gap on them without its mean, and the worst residual."""
-        low = self.change > self.lower
-        free = self.gap < self.level
+        inside = self.change > self.lower
+        yielded = False
         if self.upper is not None:
             yielded = self.change >= self.upper
-            free ^= yielded
-            low &= ~yielded
-        free |= low
+            inside &= ~yielded
+            self._follow(inside, yielded)
+        free = self.gap < self.level
+        free ^= yielded
+        free |= inside
         weight = free.astype(np.float32)
         count = np.count_nonzero(free)
-        if self.given and count and low.any():
+        if self.given and self.upper is None and count:
             self.level = dot(self.gap, weight) / count
         residue = self.gap - np.float32(self.level)
         residue *= weight
         size = np.abs(residue)
         total = float(self.change.sum()) - float(self.lower.sum())
         misfit = (dot(self.change, size) - dot(self.lower, size)) / total if total > 0 else math.inf
-        overlap = -float(residue.min()) if self.upper is None else -float(residue.min(where=~yielded, initial=0.0))
+        overlap = -float(residue.min() if self.upper is None else residue[~yielded].min(initial=0.0))
         self.overlap = overlap
-        return free, weight, residue, max(overlap, misfit)
+        excess = abs(total - self.load) / self.load if self.given else 0.0
+        return free, weight, residue, max(overlap, misfit, excess)
+
+    def _follow(self, inside, yielded) -> None:
+        """Level where cells may yield: mean gap in elastic contact, or between the highest yielded and lowest free."""
+        if not self.given:
+            return
+        if inside.any():
+            self.level = float(self.gap[inside].mean())
+        elif yielded.any():
+            highest = float(self.gap[yielded].max())
+            self.level = 0.5 * (highest + float(self.gap[~yielded].min(initial=highest)))
 
     def _narrowed(self, free) -> bool:
         """Leave out cells that came nowhere near touch, where they are many."""
@@ -119,7 +136,7 @@ class Descent:
         near |= free
         near |= np.abs(self.known - self.lower) > FORGOTTEN
         near |= self.change > self.lower
-        if np.count_nonzero(near) > WORTH * near.size:
+        if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return False
         kept = np.flatnonzero(near)
         self.cells = self.cells.narrowed(kept)
@@ -164,22 +181,27 @@ class Descent:
         for _ in range(SHIFTS):
             missing = self.target - float(trial.sum())
             if abs(missing) <= self.slack:
-                break
+                return trial
             movable = trial > self.lower
             if self.upper is not None:
                 movable &= trial < self.upper
                 movable &= free
             count = np.count_nonzero(movable)
             if not count:
-                if free.all():
-                    break
-                free = np.ones_like(free)
-                count = free.size
+                break
             shift += missing / count
             self._within(np.add(aim, np.float32(shift), out=trial))
             if self.upper is not None or shift > 0:
                 np.copyto(trial, self.change, where=~free)
-        return trial
+        return self._projected(aim)
+
+    def _projected(self, aim) -> np.ndarray:
+        """The trial by a bracketed shift of all cells, in double precision: where few of many cells stay in contact, or
+        the free ones cannot carry their share."""
+        base = np.negative(self.lower, dtype=float)
+        limit = self.hardness / self.unit
+        pressure = with_load(base + aim, self.target + float(base.sum()), limit)
+        return self._within((pressure - base).astype(np.float32))
 
     def _within(self, values) -> np.ndarray:
         np.maximum(values, self.lower, out=values)
@@ -194,7 +216,7 @@ class Descent:
         slope = dot(self.gap, asked) - self.level * float(asked.sum())
         curvature = self.compliance * dot(asked, answer)
         step = -slope / curvature if curvature > 0 else 1.0
-        step = min(max(step, STEPS[0]), STEPS[1])
+        step = min(max(step, STEPS[0]), STEPS[1] if self.upper is None else 1.0)
         way *= np.float32(step)
         self.known += way
         answer *= np.float32(step * self.compliance)

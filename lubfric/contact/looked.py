@@ -37,7 +37,7 @@ def look(problem, operator, pressure, level=None) -> State:
         gap,
         approach,
         scale,
-        residuals["penetration"] * scale,
+        max(0.0, -float(gap.min())),
         max(residuals["complementarity"], residuals["penetration"]),
     )
 

@@ -52,7 +52,7 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
         status = _status(problem, state.residual, exact, iterations, wasted)
         if status:
             return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
-        goal = max(MARGIN * problem.tolerance, FALL * state.residual)
+        goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
         if state.residual > goal and iterations < problem.max_iterations:
             descent = Descent(
                 problem,
@@ -95,6 +95,8 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     """One round in single precision throughout: a start for a finer grid."""
     fast = problem.operator.single
     state = look(problem, fast, pressure, level)
+    if not state.residual:
+        return Found(state, "", 0, 1.0, (), pace)
     cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
     descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace)
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
