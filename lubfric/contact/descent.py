@@ -31,6 +31,7 @@ NARROWINGS, WORTH = (4, 8, 16, 32), 0.7
 FORGOTTEN = 1e-6
 FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
 HUGE = np.float32(1e20)
+CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have to be more
 PATIENCE = 20  # iterations without a tenth off the best residual
 
 
@@ -40,9 +41,11 @@ class Descent:
     ``pressure`` [Pa] and ``gap`` [m] (over the whole patch, the gap belonging to the pressure and measured from the
     approach) are where it begins. ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is
     prescribed; ``slack``: relative error of the load in a trial. ``pace``: of an earlier descent, or `FIRST_PACE`.
+    ``careful``: every step exact for the cells that are free, what the limits cut off convolved at once: two or three
+    convolutions an iteration, and sure where the pressure is far from small changes of the set (nearly rigid bodies).
     """
 
-    def __init__(self, problem, cells, pressure, gap, load, scale: float, slack: float, pace: float):
+    def __init__(self, problem, cells, pressure, gap, load, scale: float, slack: float, pace: float, careful=False):
         base = cells.take(pressure)
         total, operator = float(base.sum()), problem.operator
         if not math.isfinite(scale):  # no pressure yet
@@ -64,8 +67,8 @@ class Descent:
         self.direction, self.residue, self.power = None, None, 1.0
         self.level, self.iterations, self.convolutions, self.history = 0.0, 0, 0, []
         factor = operator.e_prime / 4 / self.compliance
-        self.stiffness = self.stencil = None
-        if np.count_nonzero(base) > TRANSFORMED * pressure.size:
+        self.careful, self.stiffness, self.stencil = careful, None, None
+        if careful or np.count_nonzero(base) > TRANSFORMED * pressure.size:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
@@ -80,10 +83,13 @@ class Descent:
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
-            if self.iterations in NARROWINGS and self._narrowed(free):
+            if self.iterations in NARROWINGS and not self.careful and self._narrowed(free):
                 free, weight, residue, worst = self._look()
             self._turn(weight, residue)
-            self._move(self._trial(free))
+            if self.careful:
+                self._move_carefully(free, residue)
+            else:
+                self._move(self._trial(free))
 
     def found(self, pressure) -> np.ndarray:
         """``pressure`` [Pa], the field it began with, changed."""
@@ -106,6 +112,8 @@ class Descent:
         free = self.gap < self.level
         free ^= yielded
         free |= inside
+        if self.careful and self.upper is not None and self.given:
+            free = self._enough(free, yielded)
         weight = free.astype(np.float32)
         count = np.count_nonzero(free)
         if self.given and self.upper is None and count:
@@ -129,6 +137,14 @@ class Descent:
         elif yielded.any():
             highest = float(self.gap[yielded].max())
             self.level = 0.5 * (highest + float(self.gap[~yielded].min(initial=highest)))
+
+    def _enough(self, free, yielded) -> np.ndarray:
+        """The free cells, or everything that has not yielded for good when they could not carry their share."""
+        share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
+        limit = self.hardness / self.unit
+        if share <= CAPACITY * limit * np.count_nonzero(free):
+            return free
+        return ~yielded | (self.gap > self.level)
 
     def _narrowed(self, free) -> bool:
         """Leave out cells that came nowhere near touch, where they are many."""
@@ -207,19 +223,47 @@ class Descent:
         np.maximum(values, self.lower, out=values)
         return values if self.upper is None else np.minimum(values, self.upper, out=values)
 
+    def _move_carefully(self, free, residue) -> None:
+        """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
+        answer = self._answer(self.direction)
+        curvature, slope = dot(self.direction, answer), dot(residue, self.direction)
+        if not (curvature > 0 and slope < 0):
+            self.direction = None
+            return
+        step = -slope / curvature
+        aim = (self.change + np.float32(step) * self.direction)[free]
+        base = np.negative(self.lower[free], dtype=float)
+        new, limit = base + aim, self.hardness / self.unit
+        if self.given:
+            share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
+            new = with_load(new, share, limit)
+        else:
+            np.clip(new, 0.0, limit, out=new)
+        way = np.zeros_like(self.change)
+        way[free] = (new - base).astype(np.float32) - self.change[free]
+        self.change += way
+        self._within(self.change)
+        self.gap += self._answer(way)
+        self.known[:] = self.change
+
+    def _answer(self, way) -> np.ndarray:
+        """Change of the gap under a change of pressure."""
+        answer = self.cells.gather(self.cells.operator.apply(self.cells.field(way)))
+        self.convolutions += 1
+        return answer * np.float32(self.compliance)
+
     def _move(self, trial) -> None:
         """From the known pressure towards the trial, by the step that is exact along the change it asks for."""
         way = trial - self.known
-        answer = self.cells.gather(self.cells.operator.apply(self.cells.field(way)))
-        self.convolutions += 1
+        answer = self._answer(way)
         asked = np.subtract(trial, self.change, out=self.change)
         slope = dot(self.gap, asked) - self.level * float(asked.sum())
-        curvature = self.compliance * dot(asked, answer)
+        curvature = dot(asked, answer)
         step = -slope / curvature if curvature > 0 else 1.0
         step = min(max(step, STEPS[0]), STEPS[1] if self.upper is None else 1.0)
         way *= np.float32(step)
         self.known += way
-        answer *= np.float32(step * self.compliance)
+        answer *= np.float32(step)
         self.gap += answer
         self.pace *= step**LEARNING
         yielded = None if self.upper is None else trial >= self.upper

@@ -63,13 +63,14 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
                 state.scale,
                 LOAD_ERROR * min(1.0, state.residual),
                 pace,
+                careful=wasted > 0,
             )
             pressure, state = state.pressure, None
             descent.run(goal, problem.max_iterations - iterations)
             pressure = descent.found(pressure)
             if load is not None:
                 pressure = rescaled(pressure, load, problem.hardness)
-            iterations, pace = iterations + descent.iterations, descent.pace
+            iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
             history += descent.history[:-1]
             convolutions += descent.convolutions
             del descent
