@@ -32,7 +32,7 @@ FORGOTTEN = 1e-6
 FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
 HUGE = np.float32(1e20)
 CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have to be more
-PATIENCE = 20  # iterations without a tenth off the best residual
+PATIENCE = 8  # iterations without a tenth off the best residual
 
 
 class Descent:
@@ -260,7 +260,7 @@ class Descent:
         slope = dot(self.gap, asked) - self.level * float(asked.sum())
         curvature = dot(asked, answer)
         step = -slope / curvature if curvature > 0 else 1.0
-        step = min(max(step, STEPS[0]), STEPS[1] if self.upper is None else 1.0)
+        step = min(max(step, STEPS[0]), STEPS[1])
         way *= np.float32(step)
         self.known += way
         answer *= np.float32(step)

@@ -21,6 +21,7 @@ from .projection import rescaled
 MARGIN = 0.8  # of the tolerance, aimed at by the search
 FALL = 1e-5  # of the residual within a round: as far as single precision goes
 LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
+RIGID = 1e-3  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
 WASTED = 4  # rounds without halving the residual
 
 
@@ -63,7 +64,7 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
                 state.scale,
                 LOAD_ERROR * min(1.0, state.residual),
                 pace,
-                careful=wasted > 0,
+                careful=wasted > 0 or _rigid(problem),
             )
             pressure, state = state.pressure, None
             descent.run(goal, problem.max_iterations - iterations)
@@ -79,6 +80,12 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
         state, exact = look(problem, operator, pressure, level), True
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
+
+
+def _rigid(problem) -> bool:
+    """Cells yield before they bend noticeably: which ones is all that is to be found."""
+    bent = problem.hardness * min(problem.operator.spacing) / problem.operator.e_prime
+    return bent < RIGID * problem.roughness
 
 
 def _status(problem, residual, exact, iterations, wasted) -> str | None:
@@ -99,7 +106,7 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     if not state.residual:
         return Found(state, "", 0, 1.0, (), pace)
     cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-    descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace)
+    descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace, _rigid(problem))
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     state = State(descent.found(pressure), None, None, state.approach, state.scale, 0.0, descent.history[-1])
     return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)
