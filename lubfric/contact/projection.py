@@ -49,7 +49,7 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
     yielded = result >= hardness
     for movable in ((result > 0) & ~yielded, result > 0, np.ones(result.shape, bool)):
         share = load - result[~movable].sum()
-        if 0 < share < hardness * np.count_nonzero(movable):
+        if 0 < share <= hardness * np.count_nonzero(movable):
             result[movable] = with_load(result[movable], share, hardness)
             return result
     return np.full(pressure.shape, load / pressure.size)

@@ -21,7 +21,7 @@ from .projection import rescaled
 MARGIN = 0.8  # of the tolerance, aimed at by the search
 FALL = 1e-5  # of the residual within a round: as far as single precision goes
 LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
-RIGID = 1e-3  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
+RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
 WASTED = 4  # rounds without halving the residual
 
 
