@@ -11,6 +11,9 @@ _HOME = {
     "ConvergenceError": "errors",
     "InputError": "errors",
     "LubfricError": "errors",
+    "OutputError": "errors",
+    "ValidityError": "errors",
+    "Validity": "validity",
     "Report": "report",
     "Surface": "surface",
     "generate_surface": "surface",
@@ -22,23 +25,33 @@ _HOME = {
     "AsperityResult": "asperity",
     "solve_ehl": "ehl",
     "EHLResult": "ehl",
-    "solve_differential_deflection": "ehl.differential",
+    "solve_differential_deflection": "paper.differential",
     "Scene": "scene",
     "load_scene": "scene_file",
-    "friction": "mixed",
-    "prepare": "mixed",
-    "Model": "mixed",
-    "FrictionResult": "mixed",
+    "friction": "steady",
+    "prepare": "model",
+    "Model": "model",
+    "FrictionResult": "steady",
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",
     "Transient": "history.plan",
+    "study": "studies",
+    "plan_study": "studies",
+    "open_study": "studies",
+    "sample": "studies",
+    "Between": "studies",
+    "StudyPlan": "studies",
+    "StudyResult": "studies",
     "stribeck": "sweep",
     "StribeckResult": "sweep",
 }
-__all__ = sorted(_HOME)
+_PACKAGES = ("oil",)
+__all__ = sorted([*_HOME, *_PACKAGES])
 
 
 def __getattr__(name):
+    if name in _PACKAGES:
+        return import_module(f"lubfric.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
     value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)

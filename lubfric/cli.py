@@ -1,29 +1,35 @@
-"""The ``lubfric`` command: run, info, plot."""
+"""The ``lubfric`` command: run, info, plot, oils."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import sys
-import time
 from pathlib import Path
 
+from .console import INTERRUPTED, Interrupted, interruptible, put, say
 from .errors import ConvergenceError, LubfricError
-
-OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
 
 
 def main(argv=None) -> int:
-    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input."""
+    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot
+    be written, 130 interrupted, 143 terminated."""
     arguments = _parser().parse_args(argv)
     try:
-        return arguments.command(arguments)
+        with interruptible():
+            return arguments.command(arguments)
     except ConvergenceError as error:
-        print(f"lubfric: {error}", file=sys.stderr)
+        say(f"lubfric: {error}")
         return 1
     except LubfricError as error:
-        print(f"lubfric: {error}", file=sys.stderr)
+        say(f"lubfric: {error}")
         return 2
+    except Interrupted as error:
+        say(f"lubfric: {error}")
+        return error.code
+    except KeyboardInterrupt:
+        say("lubfric: interrupted")
+        return INTERRUPTED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -42,66 +48,70 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
     )
+    run.add_argument(
+        "--accept",
+        action="store_true",
+        help="keep results outside the range of the model, marked, instead of refusing them",
+    )
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
     info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     info.set_defaults(command=_info)
+    study = commands.add_parser("study", help="vary anything in a scene: many points, kept as they end")
+    study.add_argument("study", help="TOML file that says what is varied")
+    study.add_argument("--out", type=Path, default=Path("study"), help="folder of the study (default: study)")
+    study.add_argument("--workers", type=int, default=1, help="processes that share the points (default: 1)")
+    study.add_argument("--explain", action="store_true", help="say points, predicted time and disk, and solve nothing")
+    study.add_argument("--netcdf", action="store_true", help="also write study.nc (needs the 'study' extra)")
+    study.add_argument("--parquet", action="store_true", help="also write study.parquet (needs the 'study' extra)")
+    study.set_defaults(command=_study)
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.set_defaults(command=_plot)
+    oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
+    oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
+    oils.add_argument("name", nargs="?", help="its name")
+    oils.set_defaults(command=_oils)
     return parser
 
 
+def _oils(arguments) -> int:
+    from .errors import InputError
+    from .oil.describe import list_oils, show_oil
+
+    if arguments.show and not arguments.name:
+        raise InputError("lubfric oils show needs a name; 'lubfric oils' lists them")
+    put(sys.stdout, (show_oil(arguments.name) if arguments.name else list_oils()) + "\n")
+    return 0
+
+
 def _run(arguments) -> int:
-    from .mixed import prepare
-    from .output import read_csv, write_csv, write_fields, write_json
-    from .plot import plot_contact, plot_stribeck
     from .scene_file import load_scene
-    from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    if arguments.accept:
+        scene = scene.with_(numerics={"accept": True})
     if scene.transient is not None:
         from .unsteady.command import run_history
 
-        return run_history(scene, arguments.out, arguments.animation, _say)
-    speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
-    speeds, chosen = _with_chosen(speeds, chosen)
-    out = _folder(arguments.out)
-    begun = time.perf_counter()
-    _say(f"{scene.name}: preparing the height map and the contact")
-    model = prepare(scene)
-    _say(model.surface.describe())
-    curve = stribeck(model, speeds, fields=chosen, on_point=_progress, raise_on_failure=False)
-    write_csv(out / "stribeck.csv", curve)
-    write_json(out / "result.json", model, curve, time.perf_counter() - begun)
-    written = ["result.json", "stribeck.csv"]
-    if len(curve.errors) < curve.speed.size:
-        plot_stribeck(out / "stribeck.png", read_csv(out / "stribeck.csv"), scene.name)
-        written.append("stribeck.png")
-    points = [p for p in curve.points if p is not None and p.balance is not None]
-    if points:
-        points.sort(key=lambda p: chosen.index(p.speed))
-        write_fields(out / "fields.npz", model, points)
-        plot_contact(out / "contact.png", model, points[0])
-        written += ["fields.npz", "contact.png"]
-    for note in sorted({n for p in curve.points if p is not None for n in p.report.notes if n.startswith("caution")}):
-        _say(note)
-    _say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
-    if curve.errors:
-        raise ConvergenceError(
-            f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
-            curve.report,
-        )
-    return 0
+        return run_history(scene, arguments.out, arguments.animation)
+    from .run_sweep import run_sweep
+
+    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields)
+
+
+def _study(arguments) -> int:
+    from .studies.command import run_study
+
+    return run_study(arguments)
 
 
 def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
 
-    print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
+    put(sys.stdout, describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)) + "\n")
     return 0
 
 
@@ -120,58 +130,3 @@ def _plot(arguments) -> int:
     record = json.loads((arguments.folder / "result.json").read_text())
     plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
     return 0
-
-
-def _speeds(text: str | None) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
-    import numpy as np
-
-    from .errors import InputError
-
-    if not text:
-        return []
-    try:
-        if ":" in text:
-            low, high, count = text.split(":")
-            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
-        return [float(u) for u in text.split(",")]
-    except ValueError:
-        raise InputError(f"speeds = {text!r}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low, in m/s") from None
-
-
-def _with_chosen(speeds, chosen):
-    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
-    import math
-
-    own = []
-    for speed in chosen:
-        near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
-        own.append(near[0] if near else speed)
-        speeds = speeds if near else [*speeds, speed]
-    return speeds, own
-
-
-def _folder(path: Path) -> Path:
-    """An existing folder without results of an earlier run."""
-    from .errors import InputError
-
-    if path.exists() and not path.is_dir():
-        raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
-    path.mkdir(parents=True, exist_ok=True)
-    for name in OUTPUTS:
-        (path / name).unlink(missing_ok=True)
-    return path
-
-
-def _progress(done, total, speed, outcome) -> None:
-    if isinstance(outcome, Exception):
-        _say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
-    else:
-        _say(
-            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
-            f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
-        )
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

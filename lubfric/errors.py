@@ -14,6 +14,13 @@ class InputError(LubfricError, ValueError):
     """
 
 
+class OutputError(LubfricError, OSError):
+    """A file could not be written or read: a full disk, a missing right, a folder that went away.
+
+    The message names the file and what the system said. What was complete on disk before stays.
+    """
+
+
 class ConvergenceError(LubfricError, RuntimeError):
     """A solver stopped before reaching the tolerance it was asked for.
 
@@ -25,6 +32,23 @@ class ConvergenceError(LubfricError, RuntimeError):
         super().__init__(message, report, result)
         self.message = message
         self.report = report
+        self.result = result
+
+    def __str__(self) -> str:
+        return self.message
+
+
+class ValidityError(LubfricError, ValueError):
+    """A converged solution outside the range of the model, so that its coefficient is no answer.
+
+    ``entries`` are the `lubfric.Validity` entries that refuse it; ``result`` is the whole result (or ``None``), so that nothing
+    computed is lost. ``numerics.accept = true`` returns it instead. Survives pickling.
+    """
+
+    def __init__(self, message: str, entries=(), result=None):
+        super().__init__(message, entries, result)
+        self.message = message
+        self.entries = entries
         self.result = result
 
     def __str__(self) -> str:

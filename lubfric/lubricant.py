@@ -12,7 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import InputError
-from .validate import choice, nonnegative, positive
+from .oil.oil import Oil
+from .oil.temperature import checked_temperature
+from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
@@ -42,6 +44,10 @@ class Lubricant:
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
         doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
+    temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at ambient
+        pressure [1/K]; None: the heat of the film is not known
+    conductivity : thermal, of the film [W/(m K)]
+    oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 
     Raises
     ------
@@ -55,6 +61,10 @@ class Lubricant:
     eyring_stress: float | None = None
     limiting_stress_coefficient: float | None = None
     limiting_stress_offset: float = 1e6
+    temperature: float | None = None
+    temperature_coefficient: float | None = None
+    conductivity: float = 0.13
+    oil: Oil | None = None
 
     def __post_init__(self):
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
@@ -77,6 +87,16 @@ class Lubricant:
         if self.limiting_stress_coefficient is not None:
             positive("limiting_stress_coefficient", self.limiting_stress_coefficient, "")
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
+        if self.temperature is not None:
+            checked_temperature(self.temperature, "lubricant.temperature")
+        if self.temperature_coefficient is not None:
+            nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
+        number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
+
+    @property
+    def heats(self) -> bool:
+        """True where temperature and temperature coefficient are known, so that the heat of the film can be found."""
+        return self.temperature is not None and bool(self.temperature_coefficient)
 
     @property
     def roelands_exponent(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
     top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
     top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    _mark(figure, top, speed, c)
     top.set_ylabel("friction coefficient (-)")
     top.set_ylim(bottom=min(0, 1.1 * c["coefficient"].min()))
     top.set_title(title)
@@ -54,6 +56,24 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     figure.savefig(path, dpi=150)
 
 
+def _mark(figure, axes, speed, columns) -> None:
+    """Ring the points at which an assumption fails, cross out those that it makes meaningless, and say which below."""
+    told = columns.get("validity")
+    if told is None or not any(told):
+        return
+    severe = np.array(["not valid: " in text for text in told])
+    minor = np.array([bool(text) for text in told]) & ~severe
+    for chosen, marker, color, label in (
+        (minor, "o", GREY, "with cautions"),
+        (severe, "x", RED, "no answer (accepted)"),
+    ):
+        if chosen.any():
+            axes.plot(speed[chosen], columns["coefficient"][chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    heads = dict.fromkeys(entry.split(": ")[1] for text in told for entry in text.split(" | ") if entry)
+    names = list(dict.fromkeys(re.split(r" [-\d.]+(?:e[+-]?\d+)?(?: \S+)?, ", head)[0] for head in heads))
+    figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
+
+
 def plot_contact(path: Path, model, point) -> None:
     """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
@@ -63,9 +83,9 @@ def plot_contact(path: Path, model, point) -> None:
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
-    x = model.patch.x
+    x = model.contact.x
     heights = model.surface.heights - model.surface.heights.mean()
-    contact = point.balance.closure.contact
+    contact = point.balance.contact.fields
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     _pressure_map(figure, left, model, contact, row)
     left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
@@ -89,7 +109,7 @@ def _pressure_map(figure, axes, model, contact, row) -> None:
         )
         axes.set_axis_off()
         return
-    x, (_, dy), half_width = model.patch.x, model.surface.spacing, model.scene.bodies.half_width
+    x, (_, dy), half_width = model.contact.x, model.surface.spacing, model.scene.bodies.half_width
     image = axes.imshow(
         contact.pressure.T / 1e9,
         origin="lower",
@@ -106,7 +126,7 @@ def _pressure_map(figure, axes, model, contact, row) -> None:
 
 
 def _section(axes, x, surface, balance, row) -> None:
-    smooth, contact = balance.film.film_at(x), balance.closure.contact
+    smooth, contact = balance.film.film_at(x), balance.contact.fields
     micro = x * 1e6
     axes.plot(micro, smooth * 1e9, color=BLUE, label="film thickness h")
     axes.plot(micro, surface * 1e9, color=GREY, lw=0.8, ls="--", label="surface z, undeformed")

@@ -4,55 +4,99 @@ from __future__ import annotations
 
 import difflib
 import math
+from collections.abc import Iterable
+from decimal import Decimal
+from numbers import Real
+from typing import Any
 
 import numpy as np
 
 from .errors import InputError
 
+LONGEST_SHOWN = 80  # characters of a value in a message
+DEEPEST = 3  # nested lists that are looked into
+NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
+
+
+def shown(value: Any) -> str:
+    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000 digits)."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):
+        return f"<{type(value).__name__}>"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[: LONGEST_SHOWN - 4]} ..."
+
+
+def _real(value: Any) -> float:
+    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float holds."""
+    if type(value) in (float, int):
+        return float(value)
+    if isinstance(value, (np.ma.MaskedArray, str, bytes)):
+        raise TypeError
+    if not isinstance(value, (np.ndarray, np.generic)) and isinstance(value, (Real, Decimal)):
+        if isinstance(value, bool):
+            raise TypeError
+        return float(value)
+    scalar = np.asarray(value)
+    if scalar.ndim or scalar.dtype.kind not in NUMBERS:
+        raise TypeError
+    return float(scalar[()])
+
 
 def number(
-    name: str, value, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
+    name: str, value: Any, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
 ) -> float:
     """A finite real number with ``above < value``, ``minimum <= value <= maximum``."""
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
     allowed = f"allowed: a finite number in {low}, {maximum:g}{')' if math.isinf(maximum) else ']'} {unit}"
-    if isinstance(value, (bool, str)) or value is None:
-        raise InputError(f"{name} = {value!r} is not a number; {allowed}")
     try:
-        x = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} = {value!r} is not a number; {allowed}") from None
+        x = _real(value)
+    except OverflowError:
+        raise InputError(f"{name} = {shown(value)} {unit} is out of range; {allowed}") from None
+    except (TypeError, ValueError, RecursionError):
+        raise InputError(f"{name} = {shown(value)} is not a number; {allowed}") from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
         raise InputError(f"{name} = {x:g} {unit} is out of range; {allowed}")
     return x
 
 
-def positive(name: str, value, unit: str, *, maximum: float = math.inf) -> float:
-    """A finite number > 0."""
-    return number(name, value, unit, above=0.0, maximum=maximum)
+def positive(name: str, value: Any, unit: str, *, minimum: float = -math.inf, maximum: float = math.inf) -> float:
+    """A finite number > 0, in [minimum, maximum]."""
+    return number(name, value, unit, above=0.0, minimum=minimum, maximum=maximum)
 
 
-def nonnegative(name: str, value, unit: str, *, maximum: float = math.inf) -> float:
+def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) -> float:
     """A finite number >= 0."""
     return number(name, value, unit, minimum=0.0, maximum=maximum)
 
 
-def integer(name: str, value, *, minimum: int) -> int:
-    """A whole number >= ``minimum``."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < minimum:
-        raise InputError(f"{name} = {value!r} must be a whole number >= {minimum}")
+def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
+    """A whole number >= ``minimum`` and <= ``maximum``."""
+    whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+    if not whole or value < minimum or maximum is not None and value > maximum:
+        most = "" if maximum is None else f" and <= {maximum}"
+        raise InputError(f"{name} = {shown(value)} must be a whole number >= {minimum}{most}")
     return int(value)
 
 
-def array(name: str, value, unit: str, *, ndim: int) -> np.ndarray:
-    """A non-empty array of finite floats with ``ndim`` axes."""
-    try:
-        a = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        hint = f"; allowed: its .heights [{unit}]" if hasattr(value, "heights") else ""
+def boolean(name: str, value: Any) -> bool:
+    """True or False; a word such as "no" is neither."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} = {shown(value)} is neither true nor false; allowed: true, false")
+    return bool(value)
+
+
+def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
+    """A non-empty array of finite floats with ``ndim`` axes: ``value`` itself where it is one.
+
+    Refused with `InputError`: truth values, complex numbers, words, dates and None, which NumPy would turn into
+    numbers, and a masked array with masked values, whose mask it would drop.
+    """
+    a = real_array(name, value, unit)
+    if np.ma.is_masked(value):
         raise InputError(
-            f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}"
-        ) from None
+            f"{name} has {np.ma.count_masked(value)} of {a.size} values masked; allowed: none (finite values in {unit})"
+        )
     if a.ndim != ndim:
         raise InputError(f"{name} has {a.ndim} axes (shape {a.shape}); allowed: exactly {ndim} [{unit}]")
     if a.size == 0:
@@ -65,24 +109,54 @@ def array(name: str, value, unit: str, *, ndim: int) -> np.ndarray:
     return a
 
 
-def choice(name: str, value, options) -> str:
+def real_array(name: str, value: Any, unit: str) -> np.ndarray:
+    """``value`` as an array of floats, of any shape, NaN and infinity among them; a mask is left out."""
+    odd = _odd_entry(value, DEEPEST)
+    try:
+        found = np.empty(0) if odd else np.asarray(value)
+        if found.dtype.kind == "O":
+            found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+    except (TypeError, ValueError, OverflowError, RecursionError):
+        hint = f"; allowed: its .heights [{unit}]" if hasattr(value, "heights") else ""
+        raise InputError(
+            f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}"
+        ) from None
+    if odd or found.dtype.kind not in NUMBERS:
+        raise InputError(f"{name} holds {odd or f'values of type {found.dtype}'}; allowed: real numbers in {unit}")
+    with np.errstate(over="ignore"):
+        return found.astype(float, copy=False)
+
+
+def _odd_entry(value: Any, depth: int) -> str:
+    """What a list holds that NumPy would turn into a number beside others: True and False, masked values."""
+    if isinstance(value, (list, tuple)) and depth > 0:
+        return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
+    if isinstance(value, (bool, np.bool_)):
+        return "truth values"
+    return "masked values" if value is np.ma.masked else ""
+
+
+def choice(name: str, value: Any, options: Iterable) -> Any:
     """One of ``options``; the error names the nearest valid one."""
-    if value in options:
+    options = tuple(options)
+    if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return value
     raise InputError(
-        f"{name} = {value!r} is not known{nearest(value, options)}; allowed: {', '.join(map(repr, options))}"
+        f"{name} = {shown(value)} is not known{nearest(value, options)}; allowed: {', '.join(map(repr, options))}"
     )
 
 
-def nearest(word, options) -> str:
+def nearest(word: Any, options: Iterable) -> str:
     """' (did you mean ...?)' or an empty string."""
-    found = difflib.get_close_matches(str(word), [str(o) for o in options], n=1, cutoff=0.4)
+    text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
+    found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=0.4)
     return f" (did you mean {found[0]!r}?)" if found else ""
 
 
-def spacing(name: str, value) -> tuple[float, float]:
+def spacing(name: str, value: Any) -> tuple[float, float]:
     """(dx, dy) in metres; one number means equal spacing."""
-    pair = (value, value) if np.ndim(value) == 0 else tuple(value)
-    if len(pair) != 2:
-        raise InputError(f"{name} = {value!r} must be one length or a pair (dx, dy) in m")
-    return positive(f"{name}[0]", pair[0], "m"), positive(f"{name}[1]", pair[1], "m")
+    several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
+    if several and len(value) != 2:
+        raise InputError(f"{name} = {shown(value)} must be one length or a pair (dx, dy) in m")
+    pair = tuple(value) if several else (value, value)
+    return tuple(positive(f"{name}[{axis}]", step, "m") for axis, step in enumerate(pair))  # type: ignore[return-value]

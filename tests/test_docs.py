@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from lubfric.scene_file import EXTRA_KEYS, SECTIONS
+from lubfric.scene_file import SECTIONS
+from lubfric.short_forms import short_keys
 
 ROOT = Path(__file__).parent.parent
 
@@ -14,7 +15,7 @@ ROOT = Path(__file__).parent.parent
 def test_every_scene_key_is_documented(section):
     text = (ROOT / "docs" / "scene.md").read_text()
     part = text.split(f"## [{section}]")[1].split("\n## ")[0]
-    for key in [f.name for f in fields(SECTIONS[section])] + list(EXTRA_KEYS.get(section, ())):
+    for key in [f.name for f in fields(SECTIONS[section])] + list(short_keys(section)):
         assert f"`{key}`" in part, f"[{section}] {key} is missing in docs/scene.md"
 
 
@@ -38,6 +39,24 @@ def test_examples_run(script, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     namespace = runpy.run_path(str(script))
     namespace["main"]()
+
+
+@pytest.mark.parametrize("script", sorted((ROOT / "docs" / "gallery").glob("plot_*.py")), ids=lambda p: p.stem)
+def test_gallery_runs_and_draws(script, tmp_path, monkeypatch):
+    """Every script of the gallery stands alone, and ends with a picture that has something in it."""
+    import runpy
+
+    import matplotlib
+
+    monkeypatch.chdir(tmp_path)
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.close("all")
+    runpy.run_path(str(script))
+    figures = [plt.figure(number) for number in plt.get_fignums()]
+    plt.close("all")
+    assert any(axes.has_data() for figure in figures for axes in figure.axes)
 
 
 def test_example_scenes_are_valid_but_for_their_file(tmp_path):

@@ -26,7 +26,7 @@ def moes_numbers(
     """(M, L) from w [N/m], R [m], E' [Pa], U > 0 [m/s], eta0 [Pa s], alpha [1/Pa]."""
     validate.positive("entrainment_speed", entrainment_speed, "m/s")
     u1 = speed_number(radius=radius, e_prime=e_prime, entrainment_speed=entrainment_speed, viscosity=viscosity)
-    return (load_per_width / (e_prime * radius * math.sqrt(u1)), pressure_viscosity_coefficient * e_prime * u1**0.25)
+    return load_per_width / (e_prime * (radius * math.sqrt(u1))), pressure_viscosity_coefficient * (e_prime * u1**0.25)
 
 
 def load_and_speed(m, l, *, radius, e_prime, viscosity, pressure_viscosity_coefficient) -> tuple[float, float]:
@@ -46,16 +46,18 @@ def moes_film(m, l) -> float:
 
     Joins the four asymptotes H_RI = 3/M, H_EI = 2.621 M^(-1/5), H_RP = 1.287 L^(2/3) and
     H_EP = 1.311 M^(-1/8) L^(3/4); within about 5 % of converged solutions for M 5..100, L 5..10.
+    Below L = 1e-6 the viscosity counts as constant.
     """
     validate.positive("m", m, "(-)")
     validate.nonnegative("l", l, "(-)")
-    h_ri, h_ei = 3 / m, 2.621 * m**-0.2
-    s = (7 + 8 * math.exp(-2 * h_ei / h_ri)) / 5
-    isoviscous = (h_ri ** (7 / 3) + h_ei ** (7 / 3)) ** (3 * s / 7)
-    if l == 0:
-        return isoviscous ** (1 / s)
-    h_rp, h_ep = 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75
-    return (isoviscous + (h_rp**-3.5 + h_ep**-3.5) ** (-2 * s / 7)) ** (1 / s)
+    h_ri, h_ei = 3.0 / m, 2.621 * m**-0.2
+    s = (7.0 + 8.0 * math.exp(-2.0 * h_ei / h_ri)) / 5.0
+    isoviscous = (h_ri ** (7 / 3) + h_ei ** (7 / 3)) ** (3 / 7)
+    if l < 1e-6:
+        return isoviscous
+    piezoviscous = ((1.287 * l ** (2 / 3)) ** -3.5 + (1.311 * m**-0.125 * l**0.75) ** -3.5) ** (-2 / 7)
+    larger, smaller = max(isoviscous, piezoviscous), min(isoviscous, piezoviscous)
+    return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
 
 
 def moes_flow_film(

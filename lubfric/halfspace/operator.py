@@ -10,6 +10,7 @@ from scipy import fft
 
 from .. import validate
 from ..errors import InputError
+from ..frozen import FrozenArrays
 from .free import love_coefficients
 from .semiperiodic import semiperiodic_coefficients
 
@@ -17,7 +18,7 @@ KINDS = ("periodic", "free")
 
 
 @dataclass(frozen=True)
-class HalfSpace:
+class HalfSpace(FrozenArrays):
     """Linear map from cell pressures [Pa] to deflections [m] of the cell centres, made by `half_space`.
 
     ``symbol`` [m/Pa]: the eigenvalues, real and even along both axes, so only the non-negative
@@ -32,6 +33,9 @@ class HalfSpace:
     padded: tuple[int, int]
     symbol: np.ndarray
     workers: int | None = None
+
+    def __post_init__(self):
+        self.freeze()
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.

@@ -15,20 +15,16 @@ from .. import validate
 from ..errors import InputError
 
 
-@dataclass(frozen=True)
-class Constant:
-    """The same ``value`` at all times."""
-
-    value: float
-
-    def __post_init__(self):
-        validate.number("history value", self.value, "(SI)")
+class History:
+    """A quantity that changes in time; the kinds below are its only ones in scene files."""
 
     def at(self, time: float) -> float:
         """Value at (just after) ``time`` [s]."""
-        return float(self.value)
+        raise NotImplementedError
 
-    before = at
+    def before(self, time: float) -> float:
+        """Value just before ``time`` [s]."""
+        return self.at(time)
 
     def stops(self, duration: float) -> tuple[float, ...]:
         """Times [s] inside the run at which the value or its slope jumps: a step ends there."""
@@ -40,29 +36,44 @@ class Constant:
 
     def range(self, duration: float) -> tuple[float, float]:
         """Smallest and largest value from 0 to ``duration`` [s]."""
-        return float(self.value), float(self.value)
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class Harmonic(Constant):
+class Constant(History):
+    """The same ``value`` at all times."""
+
+    value: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "value", validate.number("history value", self.value, "(SI)"))
+
+    def at(self, time: float) -> float:
+        """Value at ``time`` [s]."""
+        return self.value
+
+    def range(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest value from 0 to ``duration`` [s]."""
+        return self.value, self.value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Harmonic(History):
     """mean + amplitude sin(2 pi frequency t + phase); frequency [Hz] > 0, phase [rad]."""
 
     amplitude: float = 0.0
     frequency: float = 1.0
     phase: float = 0.0
     mean: float = 0.0
-    value: float = 0.0
 
     def __post_init__(self):
         for name, unit in (("amplitude", "(SI)"), ("mean", "(SI)"), ("phase", "rad")):
-            validate.number(f"history {name}", getattr(self, name), unit)
-        validate.positive("history frequency", self.frequency, "Hz")
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+        object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
 
     def at(self, time: float) -> float:
         """Value at ``time`` [s]."""
         return self.mean + self.amplitude * math.sin(2.0 * math.pi * self.frequency * time + self.phase)
-
-    before = at
 
     def range(self, duration: float) -> tuple[float, float]:
         """Smallest and largest value from 0 to ``duration`` [s]."""
@@ -74,8 +85,8 @@ class Harmonic(Constant):
         return min(values), max(values)
 
 
-@dataclass(frozen=True)
-class Table(Constant):
+@dataclass(frozen=True, kw_only=True)
+class Table(History):
     """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
 
     A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table
@@ -85,7 +96,6 @@ class Table(Constant):
     times: tuple[float, ...] = ()
     values: tuple[float, ...] = ()
     repeat: bool = False
-    value: float = 0.0
 
     def __post_init__(self):
         times = validate.array("history times", self.times, "s", ndim=1)
@@ -103,6 +113,7 @@ class Table(Constant):
             raise InputError(
                 f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a later time"
             )
+        object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
         if self.repeat and times[0] != 0.0:
             raise InputError(f"history times start at {times[0]:g} s; allowed for repeat: 0 s")
         if np.any(times[2:] == times[:-2]):
@@ -141,7 +152,9 @@ class Table(Constant):
             found = np.unique((found[None, :] + laps[:, None] * t[-1]).ravel())
         return tuple(float(x) for x in found if 0.0 <= x < duration)
 
-    stops = jumps
+    def stops(self, duration: float) -> tuple[float, ...]:
+        """The jumps; a step may go over a corner."""
+        return self.jumps(duration)
 
     def range(self, duration: float) -> tuple[float, float]:
         """Smallest and largest value from 0 to ``duration`` [s]."""
@@ -150,8 +163,8 @@ class Table(Constant):
         return min(values), max(values)
 
 
-@dataclass(frozen=True)
-class Ramp(Constant):
+@dataclass(frozen=True, kw_only=True)
+class Ramp(History):
     """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end``
     after it."""
 
@@ -159,20 +172,17 @@ class Ramp(Constant):
     end: float = 0.0
     until: float = 1.0
     begin: float = 0.0
-    value: float = 0.0
 
     def __post_init__(self):
         for name in ("start", "end"):
-            validate.number(f"history {name}", getattr(self, name), "(SI)")
-        validate.nonnegative("history begin", self.begin, "s")
-        validate.number("history until", self.until, "s", above=self.begin)
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), "(SI)"))
+        object.__setattr__(self, "begin", validate.nonnegative("history begin", self.begin, "s"))
+        object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))
 
     def at(self, time: float) -> float:
         """Value at ``time`` [s]."""
         share = min(max((time - self.begin) / (self.until - self.begin), 0.0), 1.0)
         return self.start + share * (self.end - self.start)
-
-    before = at
 
     def stops(self, duration: float) -> tuple[float, ...]:
         """The two corners."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import validate
-from .kinds import Constant
+from .kinds import History
 from .read import check_history, history
 
 
@@ -24,11 +24,11 @@ class Transient:
 
     duration: float
     outputs: int = 200
-    speed: Constant | None = None
-    sliding: Constant | None = None
-    load: Constant | None = None
-    radius: Constant | None = None
-    viscosity: Constant | None = None
+    speed: History | None = None
+    sliding: History | None = None
+    load: History | None = None
+    radius: History | None = None
+    viscosity: History | None = None
     initial: str = "auto"
     initial_film: float | None = None
     tolerance: float | None = None

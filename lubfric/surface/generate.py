@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from . import checks
 from .height_map import Surface
 from .prepare import pair
 from .statistics import INVERSE_E, correlation_length, first_crossing
@@ -16,6 +17,7 @@ from .statistics import INVERSE_E, correlation_length, first_crossing
 ACFS = ("exponential", "gaussian")
 FINEST = 2.0  # cells in one correlation length (1/e)
 LENGTH_TOLERANCE = 0.10  # of the correlation length that the finite, zero-mean map can have
+LARGEST_SEED = 2**128 - 1
 NEGLIGIBLE = 37.0  # exp(-37) is below rounding
 ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero
 
@@ -48,11 +50,12 @@ def generate_surface(
     (gaussian)), or when the grid has fewer than 2 cells per length at 1/e.
     """
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
-    sq = validate.nonnegative("sq", sq, "m")
+    checks.points("shape", shape)
+    sq = validate.nonnegative("sq", sq, "m", maximum=1.0)
     lengths = validate.spacing("correlation_length", correlation_length)
     validate.choice("acf", acf, ACFS)
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
-    seed = validate.integer("seed", seed, minimum=0)
+    seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
     scales = _decay_scales(lengths, level, acf)
     _check_grid(shape, spacing, scales)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from . import prepare, statistics
+from ..frozen import FrozenArrays
+from . import checks, filters, pair, prepare, regrid, statistics
+from .outliers import LIMIT, WINDOW, outliers
+
+HIGHEST = 1e3  # m, of any height
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class Surface(FrozenArrays):
     """Heights on a uniform grid; x, the direction of motion, is axis 0. Every method returns a new map.
 
-    heights : (nx, ny) [m], upwards. Read-only. Unmeasured points are NaN until `fill` is called.
+    heights : (nx, ny) [m], upwards, at most 1 km. Read-only. Unmeasured points are NaN until `fill` is called.
     spacing : (dx, dy) [m]; one number means equal.
-    mask : (nx, ny) True where measured, also after filling; None: everywhere.
+    mask : (nx, ny) True where measured, also after filling; None: everywhere, or where a masked array is not masked.
     periodic_axes : whether the map continues smoothly onto itself along x and along y.
     source, seed, notes : where it came from and everything that was done to it.
 
@@ -34,27 +39,18 @@ class Surface:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self):
-        mask = self.mask
-        if mask is None:
-            heights = validate.array("heights", self.heights, "m", ndim=2).copy()
-        else:
-            heights = np.array(self.heights, dtype=float)
-            mask = np.array(mask, dtype=bool)
-            if mask.shape != heights.shape or not mask.any():
-                raise InputError(
-                    f"mask has shape {mask.shape} and {np.count_nonzero(mask)} measured points; "
-                    f"allowed: shape {heights.shape} and at least one point"
-                )
-            validate.array("heights", np.where(mask, heights, 0.0), "m", ndim=2)
-            if mask.all():
-                mask = None
-            else:
-                mask.flags.writeable = False
-        heights.flags.writeable = False
+        heights = validate.real_array("heights", self.heights, "m").copy()
+        mask = checks.mask(self.mask, self.heights, heights.shape)
+        if np.ma.is_masked(self.heights):
+            heights[np.ma.getmaskarray(self.heights)] = np.nan
+        measured = validate.array("heights", heights if mask is None else np.where(mask, heights, 0.0), "m", ndim=2)
+        validate.number("heights, the largest", np.abs(measured).max(), "m", maximum=HIGHEST)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))
-        object.__setattr__(self, "periodic_axes", tuple(bool(p) for p in self.periodic_axes))
+        object.__setattr__(self, "periodic_axes", checks.two_booleans("periodic_axes", self.periodic_axes))
+        object.__setattr__(self, "notes", tuple(self.notes))
+        self.freeze()
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -82,11 +78,11 @@ class Surface:
         return float(self.measured.std())
 
     def describe(self) -> str:
-        """One line: size, points, Sq, missing share, source."""
+        """One line: size, points, Sq, largest height over Sq, missing share, source."""
         (lx, ly), (nx, ny) = self.size, self.shape
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} um, Sq {self.sq * 1e9:.4g} nm, "
-            f"{100 * self.missing_fraction:.3g} % missing"
+            f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
         return f"{self.source}: {text}" if self.source else text
 
@@ -110,10 +106,39 @@ class Surface:
         filled = prepare.harmonic_fill(self.heights, self.mask, self.spacing)
         return self._with(filled, f"filled: {np.count_nonzero(~self.mask)} unmeasured points, harmonically")
 
+    def without_outliers(self) -> Surface:
+        """Outliers become unmeasured points; see `lubfric.surface.outliers` for the rule (level first, then fill)."""
+        mask = np.ones(self.shape, bool) if self.mask is None else self.mask
+        while True:
+            found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
+            if not found.any():
+                break
+            mask = mask & ~found
+        count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
+        note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
+        return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
+
+    def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
+        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this order.
+
+        S-filter: waves shorter than ``s`` are taken out; L-filter: waves longer than ``l``. Level first (F-operation:
+        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells or
+        longer than the map, and for s >= l.
+        """
+        s, l = filters.checked_indices(self, s, l)
+        new = self
+        if s is not None:
+            mean = filters.gaussian_mean(new.heights, new.mask, new.spacing, new.periodic_axes, s)
+            new = new._with(mean, f"S-filter: waves shorter than {s:.4e} m taken out")
+        if l is not None:
+            mean = filters.gaussian_mean(new.heights, new.mask, new.spacing, new.periodic_axes, l)
+            new = new._with(new.heights - mean, f"L-filter: waves longer than {l:.4e} m taken out")
+        return new
+
     def scaled(self, *, sq: float) -> Surface:
         """Heights about their mean, multiplied so that Sq is ``sq`` [m]."""
         target, now = validate.nonnegative("sq", sq, "m"), self.sq
-        if now == 0:
+        if now <= prepare.FLAT * np.abs(self.measured).max():
             raise InputError("sq of the surface = 0 m: a flat surface cannot be scaled; allowed: above 0 m")
         mean = self.measured.mean()
         return self._with((self.heights - mean) * (target / now), f"scaled from Sq {now:.4e} m to {target:.4e} m")
@@ -140,7 +165,7 @@ class Surface:
         new = self._filled("periodic")
         for axis in range(2):
             if axes[axis] and not new.periodic_axes[axis]:
-                new = new._closed(edge, axis, None)
+                new = regrid.closed(new, axis, edge)
         return new
 
     def cropped(self, shape, start=None) -> Surface:
@@ -173,7 +198,7 @@ class Surface:
         shape = (None, None) if shape is None else prepare.pair("shape", shape)
         spacing = (None, None) if spacing is None else validate.spacing("spacing", spacing)
         for axis in range(2):
-            new = new._resampled(axis, shape[axis], spacing[axis])
+            new = regrid.resampled(new, axis, shape[axis], spacing[axis])
         return new
 
     def patch(self, shape, spacing=None, *, edge=(None, None)) -> Surface:
@@ -187,7 +212,7 @@ class Surface:
         if spacing is not None:
             new = new.resampled(spacing=spacing)
         for axis in range(2):
-            new = new._fitted(axis, shape[axis], edge[axis])
+            new = regrid.fitted(new, axis, shape[axis], edge[axis])
         return new
 
     def _with(self, heights, note) -> Surface:
@@ -201,74 +226,21 @@ class Surface:
             )
         return self
 
-    def _changed(self, axis, heights, note, *, step=None, closed=None, mask=None) -> Surface:
-        """A copy with new heights along one axis, and whatever else changes with them."""
-        spacing, periodic = list(self.spacing), list(self.periodic_axes)
-        spacing[axis] = spacing[axis] if step is None else step
-        periodic[axis] = periodic[axis] if closed is None else closed
-        return replace(
-            self,
-            heights=heights,
-            spacing=tuple(spacing),
-            mask=mask,
-            periodic_axes=tuple(periodic),
-            notes=(*self.notes, note),
-        )
+    def combined(self, other: Surface) -> Surface:
+        """This map and that of the body that faces it as one: what both take of the gap; see `lubfric.surface.pair`."""
+        return pair.combined(self, other)
 
-    def _closed(self, edge, axis, count) -> Surface:
-        heights = prepare.close_axis(self.heights, axis, edge, count)
-        mask = None if self.mask is None else prepare.close_mask(self.mask, axis, edge, count)
-        note = f"made periodic along {'xy'[axis]}: {edge}"
-        return self._changed(axis, heights, note, closed=True, mask=mask)
-
-    def _resampled(self, axis, count, step) -> Surface:
-        n, old = self.shape[axis], self.spacing[axis]
-        closed = self.periodic_axes[axis]
-        if count is None:
-            exact = n * old / step
-            count = int(np.floor(exact * (1 + 1e-9)))
-            closed = closed and abs(exact - round(exact)) < 1e-6
-        else:
-            step = n * old / count
-        if count < 1:
-            raise InputError(f"spacing[{axis}] = {step:g} m is longer than the map; allowed: up to {n * old:g} m")
-        if count == n and abs(step / old - 1) < 1e-9:
+    def continued(self, length: float) -> Surface:
+        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x then."""
+        if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
-        heights = prepare.resample_axis(self.heights, axis, count, step / old, closed)
-        note = f"resampled along {'xy'[axis]} from {n} points at {old:.4e} m to {count} at {step:.4e} m"
-        if self.mask is not None:
-            note += f" (mask dropped, {100 * self.missing_fraction:.3g} % was unmeasured)"
-        return self._changed(axis, heights, note, step=step, closed=closed)
-
-    def _fitted(self, axis, count, edge) -> Surface:
-        if edge is not None:
-            validate.choice("edge", edge, prepare.EDGES)
-        n = self.shape[axis]
-        if count == n and (edge is None or self.periodic_axes[axis]):
-            return self
-        if self.periodic_axes[axis] and (edge is None or count % n == 0):
-            pick = np.arange(count) % n
-            mask = None if self.mask is None else np.take(self.mask, pick, axis)
-            return self._changed(
-                axis,
-                np.take(self.heights, pick, axis),
-                closed=count % n == 0,
-                mask=mask,
-                note=f"repeated along {'xy'[axis]} from {n} to {count} points",
-            )
-        need = count if edge is None else prepare.points_to_close(count, edge)
-        if need > n:
-            raise InputError(
-                f"patch of {count} points along {'xy'[axis]} needs {need} points of the map "
-                f"({need * self.spacing[axis]:g} m); allowed: up to {n} "
-                f"({self.size[axis]:g} m), or a periodic map"
-            )
-        shape = list(self.shape)
-        shape[axis] = need
-        cut = self.cropped(shape)
-        return cut if edge is None else cut._closed(edge, axis, count)
+        new = self.periodic("mirror", axes=(True, False))
+        count = new.shape[0] * math.ceil(length / new.size[0] * (1 - 1e-9))
+        checks.points("continued", (count, new.shape[1]))
+        return regrid.fitted(new, 0, count, None)
 
     # statistics of the measured points, by the functions of lubfric.surface.statistics
+    largest_ratio = property(statistics.largest_ratio)
     sa = property(statistics.sa)
     ssk = property(statistics.ssk)
     sku = property(statistics.sku)

@@ -11,6 +11,8 @@ FORMS = ("plane", "quadratic")
 EDGES = ("mirror", "window")
 BLEND = 0.1  # share of a map's length that the window blends
 MOST_MISSING = 0.5
+FLAT = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
+DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
 
 
 def pair(name, value) -> tuple[int, int]:
@@ -24,29 +26,49 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     """Least-squares polynomial (nx, ny) [m] of the measured points, its slopes [-] and curvatures [1/m] along x and y.
 
     "plane": first order; "quadratic": second, with the mixed term. An axis of one point has no slope, one of two no
-    curvature. Slopes are those at the middle of the map. Raises `InputError` when the points do not fix the form.
+    curvature. Slopes are those at the middle of the map. Where nothing is left but rounding (`FLAT` of the largest
+    height), the form is the map itself. Raises `InputError` when the points do not fix the form.
     """
     order = 1 + FORMS.index(form)
     valid = np.ones(heights.shape, bool) if mask is None else mask
-    along = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
     powers = [
         (p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < heights.shape[0] and q < heights.shape[1]
     ]
-    where = np.nonzero(valid)
-    matrix = np.stack([along[0][where[0]] ** p * along[1][where[1]] ** q for p, q in powers], axis=1)
-    solution, _, rank, _ = np.linalg.lstsq(matrix, heights[valid], rcond=None)
-    if rank < len(powers):
+    along = [
+        ((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(2 * order + 1) for n in heights.shape
+    ]  # columns: powers of the place
+    z = np.where(valid, heights, 0.0)
+    terms = _normal_solution(z, valid.astype(float), along, powers)
+    if terms is None:
         curve = "line" if order == 1 else "line or conic"
         raise InputError(
-            f"{where[0].size} measured points lie on one {curve}; allowed: points that fix the "
+            f"{np.count_nonzero(valid)} measured points lie on one {curve}; allowed: points that fix the "
             f"{len(powers)} terms of the form {form!r}"
         )
-    terms = dict(zip(powers, solution))
-    fitted = sum(c * np.multiply.outer(along[0] ** p, along[1] ** q) for (p, q), c in terms.items())
+    fitted = sum(c * np.multiply.outer(along[0][:, p], along[1][:, q]) for (p, q), c in terms.items())
+    if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
+        fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
     slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
     curvatures = 2 * terms.get((2, 0), 0.0) / length[0] ** 2, 2 * terms.get((0, 2), 0.0) / length[1] ** 2
     return fitted, slopes, curvatures
+
+
+def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] | None:
+    """{powers: coefficient} of the weighted least squares, from the normal equations, whose sums take no array but
+    ``z`` itself; solved twice, the second time for what is left. None where they have no one solution."""
+    moments = along[0].T @ weight @ along[1]
+    matrix = np.array([[moments[p + r, q + s] for r, s in powers] for p, q in powers])
+    values = np.linalg.eigvalsh(matrix)
+    if values[0] <= DEPENDENT * values[-1]:
+        return None
+    found, rest = np.zeros(len(powers)), z
+    for _ in range(2):
+        right = along[0].T @ rest @ along[1]
+        found = found + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
+        fitted = sum(c * np.multiply.outer(along[0][:, p], along[1][:, q]) for (p, q), c in zip(powers, found))
+        rest = np.where(weight > 0, z - fitted, 0.0)
+    return dict(zip(powers, found.tolist()))
 
 
 def harmonic_fill(heights, mask, spacing) -> np.ndarray:
@@ -55,6 +77,8 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     from scipy.sparse.linalg import spsolve
 
     missing = ~mask
+    if not missing.any():
+        return heights
     if np.count_nonzero(missing) > MOST_MISSING * mask.size:
         raise InputError(
             f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "

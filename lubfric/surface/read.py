@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,17 +10,22 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from . import checks, instrument
 from .height_map import Surface
 from .prepare import FORMS
 from .table import DECIMALS
 from .text import read_matrix, read_points
+from .units import UNITS
 from .x3p import read_x3p
 
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-SUFFIXES = (".npy", ".txt", ".csv", ".asc", ".dat", ".xyz", ".x3p")
+TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
+SUFFIXES = (".npy", *TEXT, ".x3p")
+MOST_BYTES = 2**30  # of a file of text
 
 
-def read_surface(path, *, level=True, form="plane", fill=True, spacing=None, unit=None, decimal=None) -> Surface:
+def read_surface(
+    path, *, level=True, form="plane", fill=True, spacing=None, unit=None, decimal=None, missing_value=None
+) -> Surface:
     """Read a measured height map; take off its form, then fill what was not measured (the mask stays).
 
     ==================== ==================================================================
@@ -28,51 +34,83 @@ def read_surface(path, *, level=True, form="plane", fill=True, spacing=None, uni
                          values; needs ``spacing``, or a line ``# spacing = dx dy`` (m)
     .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
+    .sur .al3d .opd ...  every format that SurfaceTopography reads (the extra ``lubfric[formats]``;
+                         `read_instrument_file` chooses a channel of a file that has several)
     ==================== ==================================================================
 
     Parameters
     ----------
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
-    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares
+    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares. The F-operation of ISO 25178-2;
+        `Surface.filtered` has the S- and L-filters
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
-    unit : "m" (default), "mm", "um" or "nm" of the heights (and of x, y in .xyz); not for .x3p
+    unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
+    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN does always
 
     Text: lines that start with # and titles without numbers above the table are skipped (the latter noted in
     ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
-    NaN means unmeasured. Raises `InputError` for a file that is missing, truncated, of an unknown kind,
+    Raises `InputError` for a file that is missing, truncated, of an unknown kind,
     inconsistent or hostile, for words among the numbers, commas that can be read both ways, a title that names a unit
     when ``unit`` is not given, infinite heights, non-uniform spacing and spacing given twice or not at all.
-    Nothing is printed: look at ``surface.describe()`` (size, Sq, missing share) before trusting a file.
+    Nothing is printed: look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before trusting a file.
     """
-    path = Path(path)
+    path = _existing(path)
     _check_form(level, form)
-    if not path.is_file():
-        raise InputError(f"path = {str(path)!r}: no such file")
-    suffix = path.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise InputError(
-            f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: "
-            f"{', '.join(SUFFIXES)} (lubfric.surface.read_instrument_file reads others)"
-        )
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
-    if suffix == ".x3p":
-        _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal)
+    suffix = path.suffix.lower()
+    if suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in instrument.SUFFIXES:
+        _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
+        surface = instrument.read_instrument(path, 0, None)
+    elif suffix not in SUFFIXES:
+        raise InputError(
+            f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: {', '.join(SUFFIXES)}, and with "
+            f"SurfaceTopography ({instrument.HINT}) {', '.join(instrument.SUFFIXES)}"
+        )
+    elif suffix == ".x3p":
+        _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
         surface = read_x3p(path)
     else:
-        surface = _plain(path, suffix, spacing, unit, decimal)
+        surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
     return _prepared(replace(surface, source=path.name), level, fill, form)
 
 
-def _plain(path, suffix, spacing, unit, decimal) -> Surface:
+def _existing(path) -> Path:
+    """A file that is there and can be opened."""
+    try:
+        path = Path(path)
+        found = path.is_file()
+    except (TypeError, ValueError, OSError) as problem:
+        raise InputError(f"path = {validate.shown(path)} is no path ({problem}); allowed: a file") from None
+    if not found:
+        raise InputError(f"path = {validate.shown(str(path))}: no such file")
+    try:
+        with path.open("rb"):
+            return path
+    except OSError as problem:
+        raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
+
+
+def _binary(path: Path) -> bool:
+    """Zero bytes at the beginning: no text, whatever the suffix says (the .dat of an interferometer)."""
+    with path.open("rb") as file:
+        head = file.read(4096)
+    return b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))
+
+
+def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
+    if missing_value is not None:
+        missing_value = validate.number("missing_value", missing_value, "(unit of the file)")
     notes = ()
+    if path.stat().st_size > MOST_BYTES:
+        raise InputError(f"path = {str(path)!r} has {path.stat().st_size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}")
     if suffix == ".xyz":
         _refuse(suffix, spacing=spacing)
         heights, own, notes = read_points(path, decimal, unit)
-        return _masked(heights * scale, (own[0] * scale, own[1] * scale), notes)
+        return _masked(heights, scale, missing_value, (own[0] * scale, own[1] * scale), notes)
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
         heights, own = _read_npy(path), None
@@ -84,7 +122,7 @@ def _plain(path, suffix, spacing, unit, decimal) -> Surface:
         raise InputError(
             f"spacing of {path.name} is missing: the file does not carry it; allowed: one length or (dx, dy) in m"
         )
-    return _masked(heights * scale, spacing if own is None else own, notes)
+    return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
 
 
 def _refuse(suffix, **given) -> None:
@@ -96,12 +134,15 @@ def _refuse(suffix, **given) -> None:
             )
 
 
-def _masked(heights, spacing, notes=()) -> Surface:
-    """NaN is unmeasured; infinite heights are refused by `Surface`."""
+def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
+    """NaN and ``missing_value`` are unmeasured; infinite heights are refused by `Surface`."""
     measured = ~np.isnan(heights)
+    if missing_value is not None:
+        measured &= heights != missing_value
+        notes = (*notes, f"missing_value = {missing_value:g}: {np.count_nonzero(heights == missing_value)} points")
     if not measured.any():
-        raise InputError(f"heights: all {heights.size} values are NaN; allowed: measured heights in m")
-    return Surface(heights, spacing, mask=measured, notes=notes)
+        raise InputError(f"heights: none of {heights.size} values is measured; allowed: measured heights in m")
+    return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)
 
 
 def _check_form(level, form) -> None:
@@ -119,45 +160,34 @@ def _prepared(surface, level, fill, form) -> Surface:
 def _read_npy(path) -> np.ndarray:
     """Memory-mapped first, so that a header cannot ask for more than the file holds."""
     try:
-        data = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, OSError, EOFError, SyntaxError, TypeError, OverflowError) as problem:
-        raise InputError(f"path = {str(path)!r} is not a readable .npy array ({problem})") from None
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            data = np.load(path, mmap_mode="r", allow_pickle=False)
+    except Exception as problem:  # the header is Python text: any error of its parser, or of the map made from it
+        raise InputError(
+            f"path = {str(path)!r} is not a readable .npy array ({validate.shown(str(problem))})"
+        ) from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
         raise InputError(
             f"path = {str(path)!r} holds {getattr(data, 'dtype', type(data))} of shape "
             f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]"
         )
-    return np.array(data, dtype=float)
+    checks.points(f"path = {str(path)!r}: shape", data.shape)
+    with np.errstate(over="ignore"):
+        return np.array(data, dtype=float)
 
 
 def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form="plane", fill=True) -> Surface:
-    """Other instrument formats (.sur, .al3d, .opd, ...) through the optional package SurfaceTopography.
+    """A file of an instrument (.sur, .al3d, .opd, ...) through the optional package SurfaceTopography.
 
-    Slow to import (seconds, hundreds of MB), hence only here. Its units are not always right (lateral
-    units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
-    ``lateral_unit`` ("m", "mm", "um", "nm") overrules the unit of x and y that the reader found.
-    ``level``, ``form`` and ``fill`` as in `read_surface`; ``channel`` is the index of the height channel.
-    Raises `InputError` for a file it cannot read or a unit it does not know; ImportError when the package
-    is not installed.
+    As `read_surface`, and with what only these files have: ``channel`` is the index of the height channel;
+    ``lateral_unit`` ("m", "mm", "um", "nm") overrules the unit of x and y that the reader found. Its units are not
+    always right (lateral units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's
+    report. Raises `InputError` for a file it cannot read, a unit it does not know, and without the package.
     """
-    path = Path(path)
+    path = _existing(path)
     _check_form(level, form)
-    if not path.is_file():
-        raise InputError(f"path = {str(path)!r}: no such file")
     channel = validate.integer("channel", channel, minimum=0)
     if lateral_unit is not None:
         validate.choice("lateral_unit", lateral_unit, UNITS)
-    from SurfaceTopography import open_topography
-
-    try:
-        topography = open_topography(str(path)).topography(channel_index=channel)
-    except Exception as problem:  # the package raises many kinds for files it cannot read
-        raise InputError(f"path = {str(path)!r} cannot be read by SurfaceTopography ({problem})") from problem
-    found = "um" if topography.unit in ("µm", "μm") else topography.unit
-    vertical = UNITS[validate.choice("unit found in the file", found, UNITS)]
-    lateral = UNITS[lateral_unit or found]
-    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan) * vertical
-    spacing = tuple(size / n * lateral for size, n in zip(topography.physical_sizes, heights.shape))
-    note = f"read by SurfaceTopography, heights in {found}, lateral in {lateral_unit or found}"
-    surface = replace(_masked(heights, spacing), source=path.name, notes=(note,))
-    return _prepared(surface, level, fill, form)
+    return _prepared(instrument.read_instrument(path, channel, lateral_unit), level, fill, form)

@@ -20,7 +20,7 @@ from ..errors import InputError
 from .height_map import Surface
 
 MOST_XML = 4 * 2**20  # bytes of main.xml
-MOST_POINTS = 2**27  # 1 GiB of doubles
+MOST_POINTS = 2**25  # 256 MiB of doubles
 TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 CORRUPT = (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError, ValueError)
 

@@ -1,7 +1,9 @@
 """Height maps from files: every format and number type, and files made to mislead."""
 
 import hashlib
+import math
 import os
+import sys
 import zipfile
 from pathlib import Path
 
@@ -9,7 +11,8 @@ import numpy as np
 import pytest
 
 from lubfric import InputError, Surface, read_surface
-from lubfric.surface import correlation_length, read_instrument_file, rms_slope
+from lubfric.surface import correlation_length, instrument, read_instrument_file, rms_slope
+from lubfric.surface.read import SUFFIXES
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
@@ -490,6 +493,23 @@ def test_reader_refuses(tmp_path, name, content, options):
         read_surface(tmp_path / name, **options)
 
 
+def test_npy_with_a_damaged_header_is_refused_or_read(tmp_path):
+    """Bytes of the header overwritten at random: an answer of the right kind, never another exception."""
+    np.save(tmp_path / "good.npy", heights((6, 5)))
+    good = (tmp_path / "good.npy").read_bytes()
+    rng, refused = np.random.default_rng(5), 0
+    for _ in range(300):
+        bad = bytearray(good)
+        for place in rng.integers(0, 128, rng.integers(1, 4)):
+            bad[place] = rng.integers(256)
+        (tmp_path / "bad.npy").write_bytes(bad)
+        try:
+            read_surface(tmp_path / "bad.npy", spacing=1e-6, **RAW)
+        except InputError:
+            refused += 1
+    assert refused > 200
+
+
 def test_npy_refuses_objects_vectors_and_complex_numbers(tmp_path):
     for k, array in enumerate((np.array([[{}]], dtype=object), np.zeros(5), np.ones((2, 2), complex))):
         np.save(tmp_path / f"{k}.npy", array, allow_pickle=True)
@@ -520,19 +540,103 @@ def test_ground_surface():
 
 
 @pytest.mark.parametrize(
-    "name, raw, levelled, missing",
-    [("areal-optical.al3d", 7.69e-6, 0.290e-6, 0), ("areal-missing.sur", 17.52e-9, 17.10e-9, 117)],
+    "name, raw, levelled, missing, shape, size, largest",
+    [
+        ("ground-77nm.x3p", 77.28e-9, 77.19e-9, 0, (650, 650), (82.98e-6, 204.48e-6), 4.09),
+        ("areal-optical.al3d", 7.69e-6, 0.2898e-6, 0, (200, 296), (87.6e-6, 129.7e-6), 3.71),
+        ("areal-missing.sur", 17.52e-9, 17.10e-9, 117, (563, 484), (1.961e-3, 1.686e-3), 72.4),
+    ],
 )
-def test_other_instrument_formats(name, raw, levelled, missing):
-    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+def test_instrument_files(name, raw, levelled, missing, shape, size, largest):
+    """Sq, extent and missing points as their supplier states, and the largest height, which tells the outliers."""
     path = measured(name)
-    surface = read_instrument_file(path)
-    assert read_instrument_file(path, **RAW).sq == pytest.approx(raw, rel=1e-3)
-    assert surface.sq == pytest.approx(levelled, rel=1e-3)
-    assert (0 if surface.mask is None else np.count_nonzero(~surface.mask)) == missing
-    assert 50e-6 < min(surface.size) and max(surface.size) < 2e-3
+    if not name.endswith(".x3p"):
+        pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    surface = read_surface(path)
+    assert surface.shape == shape and surface.size == pytest.approx(size, rel=1e-3)
+    assert surface.sq == pytest.approx(levelled, rel=1e-3) and surface.largest_ratio == pytest.approx(largest, rel=5e-3)
+    assert surface.missing_fraction == pytest.approx(missing / math.prod(shape), abs=1e-12)
+    assert read_surface(path, **RAW).sq == pytest.approx(raw, rel=1e-3)
+    for option in ({"spacing": 1e-6}, {"unit": "um"}, {"decimal": ","}, {"missing_value": 0.0}):
+        with pytest.raises(InputError, match=next(iter(option))):
+            read_surface(path, **option)
+
+
+def test_outliers_of_a_measured_map():
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    surface = read_surface(measured("areal-missing.sur"), fill=False).without_outliers()
+    assert np.count_nonzero(~surface.mask) == 117 + 101 and "101 outliers" in surface.notes[-1]
+    assert surface.level().fill().largest_ratio < 7  # 72 with them
+    assert "no outliers" in surface.without_outliers().notes[-1]
+
+
+def test_options_of_instrument_files():
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    path = measured("areal-optical.al3d")
+    assert read_instrument_file(path, lateral_unit="mm").size[0] == pytest.approx(87.6e-9, rel=1e-3)
     with pytest.raises(InputError, match="lateral_unit"):
         read_instrument_file(path, lateral_unit="inch")
+    with pytest.raises(InputError, match="channel 9"):
+        read_instrument_file(path, channel=9)
+
+
+def test_every_format_of_the_optional_package_is_known():
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    from SurfaceTopography.IO import readers
+
+    found = {f".{word}" for reader in readers for word in reader.file_extensions() or ()}
+    assert found <= set(instrument.SUFFIXES) | set(SUFFIXES)
+
+
+@pytest.mark.parametrize("name", ["map.sur", "map.al3d", "map.opd", "map.dat", "map.zip", "map.mnt", "map.xlsx"])
+@pytest.mark.parametrize("content", [b"", b"\0" * 300, bytes(range(256)) * 40])
+def test_instrument_files_that_are_none(tmp_path, name, content):
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match="path"):
+        read_surface(tmp_path / name)
+
+
+def test_without_the_optional_package_the_error_names_the_extra(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    (tmp_path / "map.sur").write_bytes(b"x")
+    with pytest.raises(InputError, match=r"lubfric\[formats\]"):
+        read_surface(tmp_path / "map.sur")
+    (tmp_path / "map.foo").write_bytes(b"x")
+    with pytest.raises(InputError, match=r"\.foo.*\.x3p.*lubfric\[formats\].*\.sur"):
+        read_surface(tmp_path / "map.foo")
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".txt", ".xyz"])
+def test_a_number_can_stand_for_not_measured(tmp_path, suffix):
+    """In the unit of the file; the same map as with NaN."""
+    z = heights((20, 30)) * 1e9
+    z[3, 4] = z[10, 11] = -9999.0
+    path = tmp_path / f"map{suffix}"
+    options = {"unit": "nm", "spacing": 2e-9}
+    if suffix == ".npy":
+        np.save(path, z)
+    elif suffix == ".txt":
+        np.savetxt(path, z, fmt="%.6f")
+    else:
+        x, y = np.meshgrid(2.0 * np.arange(20), 2.0 * np.arange(30), indexing="ij")
+        np.savetxt(path, np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1), fmt="%.6f")
+        options.pop("spacing")
+    surface = read_surface(path, **options, missing_value=-9999, **RAW)
+    assert np.argwhere(~surface.mask).tolist() == [[3, 4], [10, 11]] and np.isnan(surface.heights[3, 4])
+    assert np.nanmax(np.abs(surface.heights)) < 1e-6 and "2 points" in surface.notes[-1]
+    with pytest.raises(InputError, match="none of"):
+        np.save(tmp_path / "all.npy", np.full((3, 3), 7.0))
+        read_surface(tmp_path / "all.npy", spacing=1e-6, missing_value=7)
+    with pytest.raises(InputError, match="missing_value"):
+        read_surface(path, **options, missing_value="-")
+
+
+@pytest.mark.parametrize("unit", ["um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"])
+def test_micrometres_in_each_spelling(tmp_path, unit):
+    np.save(tmp_path / "map.npy", heights((8, 9)) * 1e6)
+    surface = read_surface(tmp_path / "map.npy", spacing=1e-6, unit=unit, **RAW)
+    np.testing.assert_allclose(surface.heights, heights((8, 9)), rtol=1e-12)
 
 
 def test_surface_of_a_reader_is_an_ordinary_surface(tmp_path):

@@ -15,9 +15,9 @@ import lubfric
 from lubfric.cli import main
 from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 from lubfric.unsteady import setup
-from lubfric.unsteady.checkpoint import Checkpoint
+from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.8e-6},
@@ -197,7 +197,7 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
         ).returncode
 
     assert start("whole") == 0 and not (tmp_path / "whole").exists()
-    assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / "state.npz").is_file()
+    assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / STATE).is_file()
     assert start("killed") == 0 and not (tmp_path / "killed").exists()
     whole, resumed = (np.load(tmp_path / f"{name}.npz") for name in ("whole", "killed"))
     assert whole["calls"] == resumed["calls"] + 13
@@ -205,16 +205,79 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
         np.testing.assert_array_equal(resumed[name], whole[name])
 
 
-def test_a_checkpoint_of_another_run_or_a_damaged_one_is_refused(tmp_path):
+def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
     store = Checkpoint(tmp_path, ["one"])
-    store.append(np.arange(3.0), np.arange(5.0))
-    store.save({"outputs": 1, "row_size": 3, "field_size": 5})
-    assert Checkpoint(tmp_path, ["one"]).load()[1].tolist() == [[0, 1, 2]]
+    store.append(np.zeros(3), np.zeros(5))  # killed before the first state
+    assert store.load() is None and not (tmp_path / ROWS).exists()
+    for i in range(2):
+        store.append(np.arange(3.0) + i, np.arange(5.0) - i)
+    store.save({"outputs": 2, "row_size": 3, "field_size": 5})
+    store.append(np.zeros(3), np.zeros(5))  # killed here
+    again = Checkpoint(tmp_path, ["one"])
+    state, rows, fields = again.load()
+    assert rows.tolist() == [[0, 1, 2], [1, 2, 3]] and fields[1].tolist() == [-1, 0, 1, 2, 3]
+    again.append(np.ones(3), np.ones(5))
+    again.save({"outputs": 3, "row_size": 3, "field_size": 5})
+    assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
-    (tmp_path / "rows.bin").write_bytes(b"")
-    with pytest.raises(lubfric.InputError, match="shorter"):
-        Checkpoint(tmp_path, ["one"]).load()
+
+
+def test_any_damage_of_a_checkpoint_is_refused(tmp_path):
+    store = Checkpoint(tmp_path, ["one"])
+    for i in range(2):
+        store.append(np.arange(3.0) + i, np.arange(5.0) - i)
+    store.save({"outputs": 2, "row_size": 3, "field_size": 5, "level": np.arange(20.0)})
+    rng = np.random.default_rng(2)
+    for name in (STATE, ROWS, FIELDS):
+        whole = (tmp_path / name).read_bytes()
+        for at in rng.integers(0, len(whole), 40):
+            overwritten = bytearray(whole)
+            overwritten[at] ^= int(rng.integers(1, 256))
+            for content in (bytes(overwritten), whole[:at]):
+                (tmp_path / name).write_bytes(content)
+                with pytest.raises(lubfric.InputError, match=f"{name} is damaged.*empty one to begin again"):
+                    Checkpoint(tmp_path, ["one"]).load()
+        (tmp_path / name).write_bytes(whole)
+    assert Checkpoint(tmp_path, ["one"]).load() is not None
+
+
+class Killed(Exception):
+    pass
+
+
+def stopped(model, folder, steps):
+    count = [0]
+
+    def on_step(*_):
+        count[0] += 1
+        if count[0] == steps:
+            raise Killed
+
+    plan = Transient(0.01, outputs=10, speed=Harmonic(mean=0.05, amplitude=0.02, frequency=100.0))
+    return run(plan, model=model, checkpoint=folder, on_step=on_step)
+
+
+@pytest.mark.parametrize("changed", ["heights", "spacing", "load", "boundary", "tolerance"])
+def test_a_checkpoint_of_another_map_or_scene_is_refused(tmp_path, changed):
+    with pytest.raises(Killed):
+        stopped(MODEL, tmp_path, 3)
+    surface = MODEL.surface
+    if changed == "heights":
+        other = prepare(SCENE, surface=replace(surface, heights=surface.heights[::-1]))
+    elif changed == "spacing":
+        other = prepare(SCENE, surface=replace(surface, spacing=(0.8e-6, 0.81e-6)))
+    else:
+        sections = {
+            "load": {"bodies": {"load": 5.6}},
+            "boundary": {"bodies": {"boundary_friction_coefficient": 0.1}},
+            "tolerance": {"numerics": {"tolerance": 0.02}},
+        }
+        other = prepare(SCENE.with_(**sections[changed]))
+    with pytest.raises(lubfric.InputError, match="belongs to another run"):
+        stopped(other, tmp_path, 3)
+    with pytest.raises(Killed):
+        stopped(MODEL, tmp_path, 3)
 
 
 def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):

@@ -1,0 +1,56 @@
+"""How the site is built: `sphinx-build -W docs site` (extra ``docs``), without network."""
+
+import sys
+from pathlib import Path
+
+import lubfric
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+project = "lubfric"
+author = "the lubfric developers"
+version = release = lubfric.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.mathjax",
+    "sphinx_gallery.gen_gallery",
+]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+exclude_patterns = ["examples", "gallery", "images"]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+suppress_warnings = ["config.cache"]
+
+default_role = "code"  # docstrings quote names with single backticks
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autosummary_generate = True
+napoleon_numpy_docstring = True
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "auto_gallery",
+    "filename_pattern": r"[\\/]plot_",
+    "within_subsection_order": "FileNameSortKey",
+    "download_all_examples": False,
+    "show_memory": False,
+    "abort_on_example_error": True,
+}
+
+html_theme = "furo"
+html_title = f"lubfric {version}"
+html_static_path: list[str] = []
+
+
+def escape_bars(app, what, name, obj, options, lines) -> None:
+    """Docstrings write |x| for the absolute value; reStructuredText would take it for a substitution."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def setup(app) -> None:
+    """Called by Sphinx."""
+    app.connect("autodoc-process-docstring", escape_bars)

@@ -1,0 +1,28 @@
+"""
+A first Stribeck curve
+======================
+
+The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the asperities carry the
+load at low speed, the film carries it at high speed, and in between they share it.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import lubfric
+
+scene = lubfric.load_scene("paper")
+curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 13))
+
+# %%
+# The two forces add up to the load of 5.5 N at every speed.
+
+print(f"largest load error: {max(abs(curve.load_residual)):.1e}")
+
+figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.6), layout="constrained")
+upper.semilogx(curve.speed, curve.coefficient, "o-", color="#1f5a94")
+upper.set(ylabel="friction coefficient (-)", ylim=(0, None))
+lower.semilogx(curve.speed, curve.contact_load, "o-", color="#b3392f", label="asperities")
+lower.semilogx(curve.speed, curve.film_load, "o-", color="#1f5a94", label="film")
+lower.set(xlabel="entrainment speed (m/s)", ylabel="load (N)")
+lower.legend(frameon=False)

@@ -1,0 +1,36 @@
+"""
+Film formulas beside the numerical film
+=======================================
+
+Formulas for the film thickness are quick, and a few per cent off. Here Moes' formula for the film where the pressure has its
+maximum is set beside the numerical film, from light to heavy loads.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import lubfric
+from lubfric.analytic.film import moes_flow_film
+
+CONTACT = dict(
+    radius=0.01,  # m
+    e_prime=230e9,  # Pa
+    entrainment_speed=1.0,  # m/s
+    viscosity=0.04,  # Pa s
+    pressure_viscosity_coefficient=22e-9,  # 1/Pa
+)
+loads = np.geomspace(1e3, 3e5, 9)  # N/m
+
+numerical = np.array([lubfric.solve_ehl(load_per_width=w, **CONTACT).flow_film for w in loads])
+formula = np.array([moes_flow_film(load_per_width=w, **CONTACT) for w in loads])
+error = 100 * (formula / numerical - 1)
+print(f"the formula is off by {error.min():+.1f} to {error.max():+.1f} %")
+
+figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.2), layout="constrained")
+upper.loglog(loads, 1e6 * numerical, "o", color="#1f5a94", label="numerical")
+upper.loglog(loads, 1e6 * formula, color="#555555", label="Moes")
+upper.set(ylabel="film (µm)")
+upper.legend(frameon=False)
+lower.semilogx(loads, error, "o-", color="#b3392f")
+lower.axhline(0, color="0.7", lw=1)
+lower.set(xlabel="load per width (N/m)", ylabel="formula off by (%)")

@@ -1,0 +1,119 @@
+"""Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..lubricant import Lubricant, shear_stress
+from ..validity.stress import carried_stress
+
+
+@dataclass(frozen=True)
+class ShearForce:
+    """Forces [N] on the upper surface, in the direction in which it slides over the lower one.
+
+    couette: from the difference of the surface speeds; rolling: from the pressure gradient;
+    total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sum that couette is, from two rules; it is
+    large where the nodes do not hold a pressure spike, whatever the error of the film. excess [N]: part of couette, without
+    sign, from stresses above what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
+    """
+
+    couette: float
+    rolling: float
+    quadrature: float = 0.0
+    excess: float = 0.0
+    stress_ratio: float = 0.0
+
+    @property
+    def total(self) -> float:
+        """F_sh [N]."""
+        return self.couette + self.rolling
+
+
+def shear_force(
+    film,
+    lubricant: Lubricant,
+    *,
+    slide_roll_ratio: float,
+    width: float,
+    contact_fraction,
+    cavitated: str = "none",
+    warm=None,
+) -> ShearForce:
+    """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
+
+    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``, for nodes x (n,) [m], is the
+    share of the width that is in contact and carries no fluid shear, averaged over each of the n - 1 cells between them
+    (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
+    far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
+    cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
+    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`,
+    the stress of the heated film and the viscosity that it was solved with; None: isothermal.
+    """
+    entrainment_speed, radius = film.entrainment_speed, film.radius
+    direction = math.copysign(1.0, entrainment_speed)
+    sliding = slide_roll_ratio * abs(entrainment_speed)
+    x = film.x * direction  # run downstream
+    order = np.argsort(x)
+    x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
+    wet = 1.0 - contact_fraction(x * direction)
+
+    rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet)
+
+    def stress(at, pressure, thickness):
+        if warm is not None and warm.stress is not None:
+            return warm.stress(at, pressure, thickness)
+        return shear_stress(lubricant, pressure, sliding / thickness)
+
+    inlet_viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
+    tau = stress(x, p, h)
+    face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
+    full = x[:-1] < film.rupture * direction  # the rupture point is a node
+    couette = np.sum(face_tau[full])
+    middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
+    quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
+    carried = carried_stress(p)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
+    inlet, thin = _upstream(h[0], -x[0], radius)
+    couette += lubricant.viscosity * sliding * inlet
+    rolling += 6 * inlet_viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
+    if cavitated == "striated":
+        h_rupture = np.interp(film.rupture * direction, x, h)
+        share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
+        couette += np.sum((face_tau * share)[~full])
+    sense = math.copysign(1.0, slide_roll_ratio)
+    return ShearForce(
+        float(width * sense * couette),
+        float(width * sense * rolling),
+        float(width * quadrature),
+        float(width * excess),
+        float(np.max(np.abs(tau) / carried)),
+    )
+
+
+def _spike(x, tau) -> float:
+    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum over
+    every second node, which a spike makes larger than the error by that or more."""
+    second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
+    coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
+    return abs(coarse - fine) / 24
+
+
+def _upstream(h_inlet, distance, radius) -> tuple[float, float]:
+    """∫ dx/h [-] and ∫ dx/h^2 [1/m] upstream of the first node, where the gap is parabolic: h = floor + x^2/2R.
+
+    There Reynolds' equation gives (h/2) dp/dx = 6 eta0 U (1/h - h_flow/h^2).
+    """
+    floor = h_inlet - distance**2 / (2 * radius)
+    if abs(floor) < 1e-9 * h_inlet:
+        return 2 * radius / distance, 4 * radius**2 / (3 * distance**3)
+    scale = math.sqrt(2 * radius * abs(floor))
+    if floor > 0:
+        first = scale / floor * math.atan2(scale, distance)
+    else:
+        first = radius / scale * math.log((distance + scale) / (distance - scale))
+    return first, (first - distance / h_inlet) / (2 * floor)

@@ -1,0 +1,127 @@
+"""Columns of a CSV file of a logger: headings with units, any usual separator and decimal mark."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from pathlib import Path
+
+from .. import validate
+from ..errors import InputError
+
+MOST_BYTES = 2**27
+UNITS = {  # dimension: {unit: in SI}
+    "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "km/h": 1 / 3.6, "m/min": 1 / 60},
+    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
+    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9},
+    "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
+}
+HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
+
+
+def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | None]) -> list[list[float]]:
+    """Two columns in SI units, found by the ``names`` in the first row.
+
+    A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI. ``units``: the SI unit that each
+    column must be convertible to (None: any of `UNITS`). Comma, semicolon or tab separate; where it is one of the latter
+    two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or Windows-1252.
+
+    Raises `InputError` naming file and line for anything else.
+    """
+    rows = _rows(path)
+    headings = [HEADING.fullmatch(text) for text in rows[0][1]]
+    known = ["" if h is None else h["name"] for h in headings]
+    columns, factors = [], []
+    for name, unit in zip(names, units):
+        places = [i for i, heading in enumerate(known) if heading == name]
+        if len(places) != 1:
+            found = f"{len(places)} columns" if places else "no column"
+            raise InputError(
+                f"history file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
+                f"allowed: one; it has: {', '.join(known)}"
+            )
+        columns.append(places[0])
+        factors.append(_factor(path, name, headings[places[0]]["unit"], unit))
+    return [
+        [factor * _number(path, line, row, place) for line, row in rows[1:]] for place, factor in zip(columns, factors)
+    ]
+
+
+def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
+    """What a value is to be multiplied by to be in SI."""
+    if given is None:
+        return 1.0
+    word = " ".join(given.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
+    word = re.sub(r"\s*[\N{MIDDLE DOT}.*]\s*s$", " s", word)  # Pa.s, Pa·s, Pa*s
+    tables = [table for unit, table in UNITS.items() if expected in (None, unit)]
+    for table in tables:
+        if word in table:
+            return table[word]
+    allowed = ", ".join(unit for table in tables for unit in table)
+    raise InputError(
+        f"history file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, "
+        "or no unit for SI"
+    )
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """(line number, fields) of the rows that are neither empty nor comments; decimal marks made points."""
+    lines = [
+        (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+    ]
+    if len(lines) < 2:
+        raise InputError(f"history file {path.name} has {len(lines)} rows; allowed: a heading and at least two rows")
+    separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
+    try:
+        rows = [(n, next(csv.reader([line], delimiter=separator))) for n, line in lines]
+    except csv.Error as problem:
+        raise InputError(f"history file {path.name} is no table ({problem}); allowed: a CSV file") from None
+    if separator == ",":
+        return rows
+    return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
+
+
+def _decimal_point(path: Path, line: int, field: str) -> str:
+    if "," in field and "." in field:
+        raise InputError(
+            f"history file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none "
+            "for thousands"
+        )
+    return field.replace(",", ".")
+
+
+def _number(path: Path, line: int, row: list[str], place: int) -> float:
+    field = row[place].strip() if place < len(row) else ""
+    try:
+        value = float(field)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or "_" in field:
+        raise InputError(
+            f"history file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a number; allowed: a "
+            "finite number in every row"
+        )
+    return value
+
+
+def _text(path: Path) -> str:
+    try:
+        if not path.is_file():
+            raise InputError(f"history file {str(path)!r} does not exist; allowed: a CSV file")
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"history file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
+        content = path.read_bytes()
+    except (OSError, ValueError) as problem:
+        raise InputError(f"history file {validate.shown(str(path))} cannot be read ({problem})") from None
+    codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
+    for code in codes:
+        try:
+            text = content.decode(code)
+        except UnicodeDecodeError:
+            continue
+        if "\0" not in text:
+            return text
+    raise InputError(f"history file {path.name} is not text; allowed: CSV in UTF-8, UTF-16 or Windows-1252")

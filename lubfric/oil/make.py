@@ -1,0 +1,73 @@
+"""Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name."""
+
+from __future__ import annotations
+
+import re
+
+from .. import validate
+from ..errors import InputError
+from .named import GRADES, OILS
+from .oil import Oil
+from .temperature import CELSIUS, ViscosityTable, walther
+from .viscosity_index import viscosity_at_100
+
+AT_40, AT_100 = 40 + CELSIUS, 100 + CELSIUS
+
+
+def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
+    """An `Oil` from its kinematic viscosities [m²/s] at 40 and 100 °C, by ASTM D341 (constant 0.7).
+
+    ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
+    """
+    return Oil(walther((AT_40, _viscosity("nu40", nu40)), (AT_100, _viscosity("nu100", nu100))), **properties)
+
+
+def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
+    """An `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448) and a
+    viscosity index (ASTM D2270 inverted, then D341)."""
+    nu40 = grade_viscosity(grade)
+    properties.setdefault("name", f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}")
+    return from_viscosities(nu40, viscosity_at_100(nu40, viscosity_index), **properties)
+
+
+def from_table(temperatures, viscosities, **properties) -> Oil:
+    """An `Oil` from pairs of temperature [K], rising, and kinematic viscosity [m²/s]; D341 between neighbours."""
+    table = ViscosityTable(tuple(map(float, temperatures)), tuple(_viscosity("viscosities", v) for v in viscosities))
+    return Oil(table, **properties)
+
+
+def named_oil(name: str, **properties) -> Oil:
+    """One of the oils that `oil_names` lists, its fields replaced by ``properties``."""
+    if str(name).lower() not in OILS:
+        near = validate.nearest(str(name).lower(), OILS)
+        raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
+    entry = OILS[str(name).lower()]
+    fields = {"base": entry.base, "density": entry.density, "alpha": entry.alpha, "name": entry.name} | properties
+    return Oil(walther(*((t + CELSIUS, nu * 1e-6) for t, nu in entry.points)), **fields)
+
+
+def oil_names() -> tuple[str, ...]:
+    """Names that `named_oil` knows."""
+    return tuple(OILS)
+
+
+def grade_viscosity(grade: str) -> float:
+    """Kinematic viscosity [m²/s] at 40 °C in the middle of an ISO viscosity grade (ISO 3448): "ISO VG 68", "VG68", "68"."""
+    found = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
+    if not found or float(found[1]) not in GRADES:
+        names = ", ".join(f"{g:g}" for g in GRADES)
+        hint = "; an SAE grade is no ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
+        raise InputError(
+            f"grade = {grade!r} is not an ISO viscosity grade; allowed: 'ISO VG n' with n of {names}{hint}"
+        )
+    return GRADES[float(found[1])] * 1e-6
+
+
+def _viscosity(name: str, value: float) -> float:
+    """A kinematic viscosity [m²/s]; an error tells mm²/s where those were likely meant."""
+    nu = validate.positive(name, value, "m²/s")
+    if nu > 0.5:
+        raise InputError(
+            f"{name} = {nu:g} m²/s is out of range; allowed: up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g})"
+        )
+    return nu

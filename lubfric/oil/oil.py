@@ -1,0 +1,127 @@
+"""An oil: viscosity, density and pressure-viscosity coefficient as functions of temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .. import validate
+from ..errors import InputError
+from .pressure import BASES, Estimate, gold, so_klaus
+from .temperature import CELSIUS, ViscosityTable, Walther, checked_temperature
+from .viscosity_index import viscosity_index
+
+AT_15 = 15 + CELSIUS  # K
+DENSITY = {"mineral": 880.0, "pao": 840.0, "ester": 950.0, "polyglycol": 1030.0}  # kg/m³ at 15 °C, typical
+DENSITY_SLOPE = {"mineral": 0.64, "pao": 0.62, "ester": 0.72, "polyglycol": 0.78}  # kg/(m³ K), typical within 10 %
+CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 15 %
+ESTIMATES = ("so-klaus", "gold")
+STEP = 0.05  # K, of a central difference
+
+
+@dataclass(frozen=True)
+class Oil:
+    """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
+
+    viscosity_law : kinematic viscosity over temperature, `Walther` (ASTM D341, constant 0.7) or `ViscosityTable`
+    base : "mineral", "pao", "ester" or "polyglycol", for what is not given below
+    density : at 15 °C [kg/m³], and density_slope : by which it falls [kg/(m³ K)] (None: typical of the base)
+    alpha : pressure-viscosity coefficient [1/Pa] where it is known (None: estimated)
+    estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
+    conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
+    name : in words
+
+    Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
+    """
+
+    viscosity_law: Walther | ViscosityTable
+    base: str = "mineral"
+    density: float | None = None
+    density_slope: float | None = None
+    alpha: float | None = None
+    estimate: str | None = None
+    conductivity: float | None = None
+    name: str = "oil"
+
+    def __post_init__(self):
+        validate.choice("base", self.base, BASES)
+        if self.density is not None:
+            validate.number("density", self.density, "kg/m³ (at 15 °C)", minimum=600, maximum=2000)
+        if self.density_slope is not None:
+            validate.nonnegative("density_slope", self.density_slope, "kg/(m³ K)", maximum=3.0)
+        if self.alpha is not None:
+            validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
+        if self.conductivity is not None:
+            validate.number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
+        if self.estimate is not None:
+            validate.choice("estimate", self.estimate, ESTIMATES)
+        if self.estimate == "so-klaus" and self.base != "mineral":
+            raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
+
+    def kinematic_viscosity(self, temperature: float) -> float:
+        """nu [m²/s] at ``temperature`` [K]."""
+        return self.viscosity_law(temperature)
+
+    def density_at(self, temperature: float) -> float:
+        """rho [kg/m³] at ``temperature`` [K]: that at 15 °C less ``density_slope`` times the distance from there.
+
+        A straight line, good to some 0.5 % between 0 and 100 °C.
+        """
+        slope = DENSITY_SLOPE[self.base] if self.density_slope is None else self.density_slope
+        return self.density_15 - slope * (checked_temperature(temperature) - AT_15)
+
+    @property
+    def density_15(self) -> float:
+        """Density at 15 °C [kg/m³]: given, or typical of the base oil (within 5 %)."""
+        return DENSITY[self.base] if self.density is None else self.density
+
+    @property
+    def thermal_conductivity(self) -> float:
+        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 15 %; about twice as much at 1 GPa)."""
+        return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
+
+    def viscosity(self, temperature: float) -> float:
+        """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K]."""
+        return self.kinematic_viscosity(temperature) * self.density_at(temperature)
+
+    def temperature_coefficient(self, temperature: float) -> float:
+        """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
+        from math import log
+
+        low, high = temperature - STEP, temperature + STEP
+        if isinstance(self.viscosity_law, ViscosityTable):
+            low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])
+        return log(self.viscosity(low) / self.viscosity(high)) / (high - low)
+
+    def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:
+        """alpha at ``temperature`` [K] with the range in which measured oils lie; as given where it is known."""
+        if self.alpha is not None:
+            return Estimate(self.alpha, self.alpha, self.alpha, "the scene")
+        method = self.estimate or ("so-klaus" if self.base == "mineral" else "gold")
+        return self._estimated(method, temperature)
+
+    def other_estimate(self, temperature: float) -> Estimate | None:
+        """alpha by the estimate that was not chosen, where there is one: their difference is a warning."""
+        if self.alpha is not None or self.base != "mineral":
+            return None
+        return self._estimated("gold" if self.estimate in (None, "so-klaus") else "so-klaus", temperature)
+
+    def _estimated(self, method: str, temperature: float) -> Estimate:
+        nu = self.kinematic_viscosity(temperature)
+        if method == "gold":
+            return gold(nu, self.base)
+        return so_klaus(nu, self.slope(temperature), self.density_at(temperature))
+
+    def slope(self, temperature: float) -> float:
+        """n of ASTM D341 [-] at ``temperature`` [K]."""
+        if isinstance(self.viscosity_law, Walther):
+            return self.viscosity_law.n
+        return self.viscosity_law.piece(temperature).n
+
+    @property
+    def index(self) -> float:
+        """Viscosity index [-] (ASTM D2270), from the law at 40 and 100 °C."""
+        return viscosity_index(self.kinematic_viscosity(40 + CELSIUS), self.kinematic_viscosity(100 + CELSIUS))
+
+    def with_(self, **changed) -> Oil:
+        """A copy with fields replaced."""
+        return replace(self, **changed)

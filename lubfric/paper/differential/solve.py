@@ -1,0 +1,223 @@
+"""`solve_differential_deflection`: the film by the method that the load-sharing model was first built on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...analytic.film import moes_film
+from ...ehl.problem import Problem
+from ...ehl.result import EHLResult, cubic
+from ...ehl.solve import Effort, make_problem
+from ...ehl.start import expected_rupture, rupture_guess
+from ...errors import InputError
+from ...line_contact import LineContact
+from ...lubricant import Lubricant
+from ...report import CONVERGED
+from ...validate import integer, number
+from .equations import load_row
+from .mesh import Mesh, convolve, make_mesh
+from .newton import Solution, newton
+from .result import assemble, grid_error
+
+COARSEST, FINEST = 64, 32768  # cells
+FEWEST = 3  # grids to judge an error by: two may agree by chance
+RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
+
+
+@dataclass(frozen=True)
+class UniformEffort:
+    """What is asked ``on_a_grid``; nodes (None: doubled until accurate), the most of them, and the bandwidth."""
+
+    on_a_grid: Effort = Effort()
+    nodes: int | None = None
+    most_nodes: int = FINEST + 1
+    bandwidth: int = 8
+
+    def __post_init__(self):
+        if self.nodes is not None:
+            integer("nodes", self.nodes, minimum=COARSEST + 1)
+        integer("most_nodes", self.most_nodes, minimum=COARSEST + 1)
+        integer("bandwidth", self.bandwidth, minimum=0)
+
+
+def solve_differential_deflection(
+    *,
+    load_per_width: float,
+    radius: float,
+    e_prime: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_viscosity_coefficient: float,
+    viscosity_law: str = "roelands",
+    density: str = "constant",
+    tolerance: float = 3e-3,
+    inlet_length: float | None = None,
+    start: EHLResult | None = None,
+    max_iterations: int = 60,
+    nodes: int | None = None,
+    domain: tuple[float, float] | None = None,
+    bandwidth: int = 8,
+    most_nodes: int = FINEST + 1,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """Film of a smooth line contact by differential deflection, on a uniform grid.
+
+    The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
+    of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
+    ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
+    from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
+    (`lubfric.paper.differential.equations`). A step costs O(N log N + N bandwidth²).
+
+    Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
+    H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,
+    Proc. IMechE J 215 (2001) 319-337. The far pressures are not lagged: GMRES adds them to each Newton step.
+
+    Parameters beyond those of `lubfric.solve_ehl`
+    ----------
+    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
+    domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
+        contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
+        behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
+    max_iterations : Newton steps per grid; start : used on the coarsest grid; its x, pressure and film
+
+    report.residuals, all relative, must be <= tolerance:
+    discretisation : largest change of min_film, central_film and flow_film against the grid of half the
+        cells, or a quarter of the change before that
+    domain : estimated effect of the finite inlet on flow_film (0 with inlet_length)
+    mass : largest |flux through a face before rupture/q - 1|; load : |∫ p dx/load - 1|
+    film : largest |h - full integral|/h
+    complementarity : largest of -p/p_max and of 1 - flux/q behind rupture
+    (the last four are <= 1e-3 tolerance where Newton's method converged)
+    report.evaluations counts banded solves, each with one convolution.
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : residuals above tolerance, with report and result; not if raise_on_failure is False
+
+    ``x`` in the result is the uniform grid with the rupture point added as a node. Checked for M = 1e-3 to
+    1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
+    needs about 50 times the nodes of a graded one at M = 1000.
+    """
+    contact = LineContact(
+        load_per_width,
+        radius,
+        e_prime,
+        entrainment_speed,
+        Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density),
+    )
+    effort = UniformEffort(Effort(tolerance, max_iterations=max_iterations), nodes, most_nodes, bandwidth)
+    if start is not None and not isinstance(start, EHLResult):
+        raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    if domain is not None and inlet_length is not None:
+        raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
+    problem = make_problem(contact, inlet_length)
+    return solve_differential(problem, effort, domain_ends(problem, domain), start, raise_on_failure)
+
+
+def solve_differential(
+    problem: Problem,
+    effort: UniformEffort,
+    ends: tuple[float, float],
+    start: EHLResult | None = None,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """`solve_differential_deflection` for a `Problem` on a grid between ``ends`` [units of x]."""
+    levels: list[Solution] = []
+    notes: tuple[str, ...] = ()
+    if start is not None:
+        levels = _ascend(problem, effort, ends, start)
+        if levels[-1].status != CONVERGED:
+            notes = ("the warm start failed; solved again from a cold start",)
+    if not levels or levels[-1].status != CONVERGED:
+        levels = _ascend(problem, effort, ends, None)
+    result = assemble(problem, levels, effort.on_a_grid.tolerance, notes)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def domain_ends(problem: Problem, domain) -> tuple[float, float]:
+    """First and last node in units of X."""
+    b, unit = problem.half_width, problem.length_unit
+    rise = math.sqrt(2.0 * problem.film_guess)
+    if domain is not None:
+        if np.shape(domain) != (2,):
+            raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
+        first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
+        return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
+    first = -2.0 * b - 20.0 * rise if problem.inlet_length is None else -problem.inlet_length / unit
+    return first, rupture_guess(problem) + 0.2 * b + rise
+
+
+def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[int]:
+    """Cells of the nested grids; the coarsest resolves the rise of the pressure if the finest does."""
+    film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
+    enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
+    if effort.nodes is None:
+        cells = [min(2 ** math.ceil(math.log2(enough)), effort.most_nodes - 1)]
+        while 2 * cells[-1] < effort.most_nodes:
+            cells.append(2 * cells[-1])
+        return cells
+    cells = [effort.nodes - 1]
+    while cells[0] // 2 >= min(enough, max(COARSEST, (effort.nodes - 1) // 2)):
+        cells.insert(0, cells[0] // 2)
+    return cells
+
+
+def _ascend(
+    problem: Problem, effort: UniformEffort, ends: tuple[float, float], start: EHLResult | None
+) -> list[Solution]:
+    """Solutions on grids of doubling size: up to the nodes asked for, or until they agree to the tolerance."""
+    cells, grid = _cells(problem, effort, ends), effort.on_a_grid
+    levels: list[Solution] = []
+    for n in cells:
+        mesh = make_mesh(*ends, n + 1, effort.bandwidth, problem.inlet_length is None)
+        if levels:
+            P, H = _transfer(mesh, levels[-1].mesh.X, levels[-1].P, levels[-1].H)
+        else:
+            P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
+        levels.append(newton(mesh, problem, P, H, 1e-3 * grid.tolerance, grid.max_iterations))
+        if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
+            levels.pop()  # too coarse to start on
+            continue
+        enough = effort.nodes is None and len(levels) >= FEWEST and grid_error(levels) <= grid.tolerance
+        if levels[-1].status != CONVERGED or enough:
+            break
+    return levels
+
+
+def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+    """A semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
+    film = problem.film_guess
+    width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
+    place = (mesh.X - rupture_guess(problem)) / width
+    P = np.sqrt(np.maximum(0.0, 1.0 - (place + 1.0) ** 2))
+    P /= load_row(mesh, problem) @ P
+    gap = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)
+    return P, gap - gap.min() + film
+
+
+def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure and film of ``start``, stretched to the expected rupture and film and to the load."""
+    M, L = start.load_number, start.material_number
+    film_unit = start.load / (start.e_prime * M)
+    X = start.x * math.copysign(1.0, start.entrainment_speed) / math.sqrt(start.radius * film_unit)
+    order = np.argsort(X)
+    X, P, H = X[order], start.pressure[order], start.film_thickness[order] / film_unit
+    place = mesh.X * (expected_rupture(M, L) / expected_rupture(problem.M, problem.L))
+    P = np.interp(place, X, P, left=0.0)
+    H = np.interp(place, X, H - 0.5 * X**2) + 0.5 * place**2
+    load = load_row(mesh, problem) @ P
+    if not load > 0.0:  # no pressure on this mesh
+        return _cold(mesh, problem)
+    return P / load, H * (moes_film(problem.M, problem.L) / moes_film(M, L))
+
+
+def _transfer(mesh: Mesh, X: np.ndarray, P: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (linear) and film (cubic) on another mesh."""
+    return np.interp(mesh.X, X, P), cubic(X, H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2

@@ -1,0 +1,83 @@
+"""What was left out of a result, and the numbers it was judged by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import budget
+from ..film.contract import LeftOut
+
+
+@dataclass(frozen=True)
+class Decision:
+    """Levels of film and contact and the grid of one operating point.
+
+    film, contact: names of the levels, film_words: of the film in words; left_out: by the film level, of film and film
+    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
+    [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
+    in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
+    tolerance: asked, on f; heat: what of it was modelled, in words ("": not known); forced: what was not chosen but given.
+    """
+
+    film: str
+    contact: str
+    tolerance: float
+    film_words: str = "none"
+    left_out: LeftOut = LeftOut()
+    sensitivity: float = 1.0
+    film_tolerance: float = 0.0
+    clearance: float | None = None
+    shape: tuple[int, int] | None = None
+    coarsening: tuple[int, int] = (1, 1)
+    grid_error: float | None = None
+    heat: str = ""
+    forced: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """In words, the number beside its budget."""
+        parts = (self.film_text, self._contact(), self._grid(), self.heat, *self.notes)
+        return "; ".join(part for part in parts if part)
+
+    @property
+    def film_text(self) -> str:
+        """The film's part of ``text``."""
+        text = f"film: {self.film_words}"
+        if self.film == "none":
+            return f"{text}, no entrainment"
+        if self.film_tolerance > 0:
+            text += f", tolerance {_percent(self.film_tolerance)}"
+        elif self.left_out.total > 0:
+            parts = [f"{name} correction {_percent(value)}" for name, value in self.left_out.parts.items() if value > 0]
+            limit = budget.FILM_LEVEL * self.tolerance
+            reached = self.left_out.total * self.sensitivity
+            text += f", {' + '.join(parts)}"
+            text += f" ({_percent(reached)} of f) {'<' if reached <= limit else '>'} {_percent(limit)} budget"
+        return text + (" (forced)" if "film_level" in self.forced else "")
+
+    def _contact(self) -> str:
+        text = f"contact: {self.contact}"
+        if self.clearance is not None:
+            text += f", clearance {self.clearance:.2g} sigma"
+        return text + (" (forced)" if "contact_level" in self.forced else "")
+
+    def _grid(self) -> str:
+        if self.shape is None:
+            return ""
+        text = f"grid: {self.shape[0]} x {self.shape[1]}"
+        if self.coarsening != (1, 1):
+            text += f", cells of {self.coarsening[0]} x {self.coarsening[1]}"
+        if self.grid_error is not None:
+            limit = budget.CONTACT_GRID * self.tolerance
+            text += (
+                f", estimated error {_percent(self.grid_error)} of f {'<' if self.grid_error <= limit else '>'} "
+                f"{_percent(limit)} budget"
+            )
+        else:
+            text += ", the map's own"
+        return text + (" (forced)" if "grid" in self.forced else "")
+
+
+def _percent(value: float) -> str:
+    return f"{100 * value:.2g} %"

@@ -1,0 +1,165 @@
+"""The film deflected by its own pressure and that of the contact: both found together at one division of the load.
+
+The film is that of an imposed line pressure (`lubfric.solve_ehl`); the surface is pressed under the film less the
+deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of the
+contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth cylinder,
+and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces cannot follow
+(`departure` says how much that is). A nominally flat contact has no distribution along x of its own: there it is the
+semi-ellipse over the strip of the total load.
+
+Fixed point in centre and half-width: film under the contact's pressure -> contact under that film -> its pressure, with
+Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..ehl.kernel import hat_kernel
+from ..errors import ConvergenceError
+from ..report import ITERATION_LIMIT, Report
+from .operating_point import OperatingPoint, Trial
+
+NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
+MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
+TIGHTEST = 1e-4  # the contact's own tolerance allows no less
+WIDEST = 4.0  # half-width of a semi-ellipse, in those of the strip
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """``line_load`` [N/m] spread like Hertz's pressure over ``half_width`` [m] about ``centre`` [m]."""
+
+    line_load: float
+    centre: float
+    half_width: float
+
+    @property
+    def nodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Positions [m] and pressures [Pa] of the same load, linear in between."""
+        angle = np.linspace(-np.pi / 2, np.pi / 2, NODES)
+        x, p = self.centre + self.half_width * np.sin(angle), np.cos(angle)
+        p[0] = p[-1] = 0.0
+        return x, p * (self.line_load / np.trapezoid(p, x))
+
+
+def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Trial) -> Trial:
+    """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
+
+    ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
+    `ConvergenceError` with a report after 40 steps.
+    """
+    scene = point.scene
+    line_load, half_width = contact_load / scene.bodies.width, scene.bodies.half_width
+    if point.contact.nominally_flat:
+        found = point.with_film(film_load, last, Ellipse(line_load, 0.0, half_width).nodes)
+        return point.with_contact(contact_load, found)
+    used, found = _first(last.film, line_load, half_width), last
+    tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
+    history: list[float] = []
+    steps: list[tuple[Ellipse, np.ndarray]] = []
+    while len(history) < MOST:
+        found = point.with_contact(contact_load, point.with_film(film_load, found, used.nodes))
+        spread = spread_of(scene, found.contact, line_load)
+        apart = deflection(scene, *spread.nodes) - deflection(scene, *used.nodes)
+        history.append(float(np.max(np.abs(apart))) / found.contact.mean_film)
+        if history[-1] <= tolerance:
+            return found
+        steps = [*steps, (spread, apart)][-MEMORY:]
+        used = _mixed(steps)
+    report = Report(
+        "film and contact under each other's pressure",
+        ITERATION_LIMIT,
+        MOST,
+        history[-1],
+        tolerance,
+        {"deflection": history[-1]},
+        tuple(history),
+        MOST,
+    )
+    raise ConvergenceError(report.message, report, (found.film, found.contact))
+
+
+def told(scene, balance):
+    """``balance`` with `mismatch` among the residuals of its report, and `departure` among its notes."""
+    report, line_load = balance.report, balance.contact_load / scene.bodies.width
+    apart = {"deflection": mismatch(scene, balance.film, balance.contact)}
+    notes = report.notes
+    if balance.contact.fields is not None:
+        left_out = 100 * departure(scene, balance.contact, line_load)
+        notes += (
+            f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
+            "mean film more than its semi-ellipse does",
+        )
+    return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
+
+
+def mismatch(scene, film, contact) -> float:
+    """Largest difference across the Hertz strip, but for a constant, between the deflections by the contact's pressure
+    and by the one that the film was solved with, relative to the mean film: by so much h misses its own equation."""
+    if film is None or film.imposed is None or contact.pressure is None:
+        return 0.0
+    imposed = film.imposed
+    found = spread_of(scene, contact, imposed.load)
+    apart = deflection(scene, *found.nodes) - deflection(scene, imposed.x, imposed.pressure)
+    return float(np.max(np.abs(apart))) / contact.mean_film
+
+
+def departure(scene, contact, line_load: float) -> float:
+    """What the semi-ellipse leaves out: the rms difference across the strip between the deflections by the mean over y
+    of the contact's pressure and by its semi-ellipse, relative to the mean film."""
+    if contact.pressure is None:
+        return 0.0
+    pressure, step = contact.pressure.mean(axis=1), contact.x[1] - contact.x[0]
+    x = np.concatenate([[contact.x[0] - step], contact.x, [contact.x[-1] + step]])
+    apart = deflection(scene, x, np.pad(pressure, 1)) - deflection(scene, *spread_of(scene, contact, line_load).nodes)
+    return float(np.sqrt(np.mean(apart**2))) / contact.mean_film
+
+
+def spread_of(scene, contact, line_load: float) -> Ellipse:
+    """The semi-ellipse of ``line_load`` whose deflection across the strip |x| <= b has the same linear and quadratic
+    Chebyshev coefficients as that of a contact's pressure, both to second order in centre/b.
+
+    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² - 1))^n
+    beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip m1 = c/b,
+    m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2 a²).
+    """
+    b, step = scene.bodies.half_width, contact.x[1] - contact.x[0]
+    share = contact.pressure.sum(axis=1)
+    s, share = contact.x / b, share / share.sum()
+    beyond = np.abs(s) > 1
+    near = np.where(beyond, np.sign(s) * (np.abs(s) - np.sqrt(np.maximum(s * s - 1, 0.0))), s)
+    m1 = float(share @ near)
+    m2 = float(share @ np.where(beyond, near**2, 2 * s * s - 1 + (step / b) ** 2 / 6)) - 2 * m1**2
+    if m2 <= -0.5:
+        return Ellipse(line_load, b * m1, b * (2 * (m2 + 1)) ** 0.5)
+    wide = min(-0.5 / min(m2, -1e-9), WIDEST**2)
+    return Ellipse(line_load, b * m1 * wide, b * wide**0.5)
+
+
+def deflection(scene, x, pressure) -> np.ndarray:
+    """By a piecewise linear pressure [Pa] on the nodes ``x`` [m], across the Hertz strip, less its mean [m]."""
+    b = scene.bodies.half_width
+    found = hat_kernel(np.linspace(-1.0, 1.0, STRIP), x / b) @ pressure * (b / scene.bodies.e_prime)
+    return found - found.mean()
+
+
+def _first(film, line_load: float, half_width: float) -> Ellipse:
+    if film is None or film.imposed is None:
+        return Ellipse(line_load, 0.0, half_width)
+    imposed = film.imposed
+    return Ellipse(line_load, 0.5 * float(imposed.x[0] + imposed.x[-1]), 0.5 * float(imposed.x[-1] - imposed.x[0]))
+
+
+def _mixed(steps) -> Ellipse:
+    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the last."""
+    (last, apart), before = steps[-1], steps[:-1]
+    if not before:
+        return last
+    changes = np.array([apart - b for _, b in before]).T
+    weights = np.linalg.lstsq(changes, apart, rcond=1e-6)[0]
+    centre = last.centre - sum(w * (last.centre - f.centre) for w, (f, _) in zip(weights, before))
+    half_width = last.half_width - sum(w * (last.half_width - f.half_width) for w, (f, _) in zip(weights, before))
+    return Ellipse(last.line_load, centre, max(half_width, 0.5 * last.half_width))

@@ -1,0 +1,95 @@
+"""An append-only set of records: one line each, with its checksum, in a file of its own for every writer."""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+import os
+import socket
+import uuid
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from .whole import saying, sync_folder
+
+CHECK = 16  # hexadecimal digits of the SHA-256 in front of a line
+
+
+class Records:
+    """Records by key in ``folder``: any number of processes may add, each to its own file, while others read.
+
+    A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added, each forced to the disk
+    before `add` returns. A line that was cut by a kill or overwritten since fails its checksum and counts as absent;
+    ``damaged`` tells how many the last `read` met.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.damaged = 0
+        self._file = None
+
+    def add(self, key: str, value) -> None:
+        """Add one record; ``value`` in plain JSON types. Raises `OutputError` when it cannot be kept."""
+        text = json.dumps({"key": key, "value": value}, allow_nan=False).encode()
+        line = _checksum(text) + b" " + text + b"\n"
+        with saying(f"a record in {self.folder} was not written"):
+            if self._file is None:
+                self._file = self._new_file()
+            whole = self._file.tell()
+            try:
+                if self._file.write(line) < len(line):
+                    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+                os.fsync(self._file.fileno())
+            except OSError:
+                with suppress(OSError):
+                    self._file.truncate(whole)
+                raise
+
+    def read(self) -> Iterator[tuple[str, dict]]:
+        """Every whole record as (key, value), each key once: the first found."""
+        self.damaged, seen = 0, set()
+        for path in sorted(self.folder.glob("*.jsonl")):
+            with saying(f"{path} was not read"), path.open("rb") as file:
+                for line in file:
+                    record = _parsed(line)
+                    if record is None:
+                        self.damaged += 1
+                    elif record["key"] not in seen:
+                        seen.add(record["key"])
+                        yield record["key"], record["value"]
+
+    def keys(self) -> set[str]:
+        """The keys of all whole records."""
+        return {key for key, _ in self.read()}
+
+    def close(self) -> None:
+        """Close the file of this writer; the next `add` begins another."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def __enter__(self) -> Records:
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+    def _new_file(self):
+        self.folder.mkdir(parents=True, exist_ok=True)
+        name = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}.jsonl"
+        file = (self.folder / name).open("xb", buffering=0)
+        sync_folder(self.folder)
+        return file
+
+
+def _checksum(text: bytes) -> bytes:
+    return hashlib.sha256(text).hexdigest()[:CHECK].encode()
+
+
+def _parsed(line: bytes):
+    text = line[CHECK + 1 : -1]
+    if line[-1:] != b"\n" or line[: CHECK + 1] != _checksum(text) + b" ":
+        return None
+    return json.loads(text)

@@ -1,0 +1,111 @@
+"""What is kept of a chain of points while it is solved: each finished point at once, and the start of the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
+from ..report import Report
+from ..steady import FrictionResult
+from ..store import Records, decode, encode, read_checked, write_checked
+from ..store.codec import from_plain, to_plain
+from ..validity.entry import Validity
+
+POINTS, STATES, FIELDS = "points", "states", "fields"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point without an answer, as it is stored. ``error``: the name of its exception; the rest as in that."""
+
+    error: str
+    message: str
+    report: Report | None = None
+    entries: tuple[Validity, ...] = ()
+    result: FrictionResult | None = None
+
+
+class Journal:
+    """The folder of a store, as one process writes it.
+
+    A point is first put whole into the state of its chain, and then, by one line, into the records. Whatever moment a kill
+    strikes, the state is that of the last record or one point ahead of it, and then holds the record that is missing.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.records = Records(self.folder / POINTS)
+
+    def keep(self, chain: str, key: str, outcome, fields: bool = False) -> None:
+        """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too."""
+        state = encode({"key": key, "outcome": _storable(outcome)})
+        if fields:
+            write_checked(self._path(FIELDS, key), state)
+        write_checked(self._path(STATES, chain), state, sync=False)
+        self.records.add(key, record_of(outcome))
+
+    def state(self, chain: str) -> tuple[str, object]:
+        """(key, outcome) of the last point of a chain; ("", None) where there is none that is whole."""
+        return self._read(self._path(STATES, chain))
+
+    def fields(self, key: str):
+        """The result of point ``key`` with its balance, or None."""
+        return self._read(self._path(FIELDS, key))[1]
+
+    def end(self, chain: str) -> None:
+        """The chain is complete: its state is not needed any more."""
+        self._path(STATES, chain).unlink(missing_ok=True)
+
+    def close(self) -> None:
+        """Close the file of the records."""
+        self.records.close()
+
+    def _path(self, kind: str, name: str) -> Path:
+        return self.folder / kind / f"{name[:32]}.bin"
+
+    def _read(self, path: Path):
+        content = read_checked(path) if path.is_file() else None
+        if content is None:
+            return "", None
+        found = decode(content)
+        return found["key"], _outcome(found["outcome"])
+
+
+def record_of(outcome) -> dict:
+    """The record of a point, in plain JSON types: all numbers of its result but the fields, or its error."""
+    return to_plain(_storable(without_fields(outcome)))
+
+
+def outcome_of(record: dict):
+    """The `FrictionResult` (without fields) or the exception that `record_of` was given."""
+    return _outcome(from_plain(record))
+
+
+def without_fields(outcome):
+    """A result, or the result of a refusal, without its balance; any other outcome as it is."""
+    if isinstance(outcome, FrictionResult):
+        return replace(outcome, balance=None)
+    if isinstance(outcome, ValidityError) and outcome.result is not None:
+        return ValidityError(outcome.message, outcome.entries, replace(outcome.result, balance=None))
+    return outcome
+
+
+def _storable(outcome):
+    """A result as it is, an exception as a `Failure`."""
+    if not isinstance(outcome, Exception):
+        return outcome
+    if isinstance(outcome, ValidityError):
+        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), outcome.result)
+    report = outcome.report if isinstance(outcome, ConvergenceError) else None
+    return Failure(type(outcome).__name__, str(outcome), report)
+
+
+def _outcome(stored):
+    if not isinstance(stored, Failure):
+        return stored
+    if stored.error == "ValidityError":
+        return ValidityError(stored.message, stored.entries, stored.result)
+    if stored.error == "ConvergenceError":
+        return ConvergenceError(stored.message, stored.report)
+    return {"InputError": InputError}.get(stored.error, LubfricError)(stored.message)

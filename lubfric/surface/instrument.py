@@ -1,0 +1,69 @@
+"""Files of instruments, through the optional package SurfaceTopography (about 40 formats)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from .height_map import Surface
+from .units import UNITS
+
+# of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left out
+SUFFIXES = tuple(
+    "." + word
+    for word in (
+        "001 002 003 004 005 al3d apx bcr bcrf cur dat datx ezd frt gwy h5 hfm hgt ibw jpk lext mat mdt mi mnt nc nid nms npz oir"
+        " opd opdx os3d plu plux poir qep sdf spm stp sur tif tiff tmd tom top vk3 vk4 vk6 vk7 xlsx zip zmg zon"
+    ).split()
+)
+HINT = "pip install 'lubfric[formats]'"
+
+
+def read_instrument(path: Path, channel: int, lateral_unit: str | None) -> Surface:
+    """The height map as it stands: unmeasured points NaN, neither levelled nor filled.
+
+    Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
+    """
+    open_topography = _package(path)
+    try:
+        reader = open_topography(str(path))
+        channels = [c.name for c in reader.channels]
+        topography = reader.topography(channel_index=channel)
+        heights, sizes, found = topography.heights(), topography.physical_sizes, topography.unit
+    except Exception as problem:  # the package raises many kinds for files it cannot read
+        raise InputError(
+            f"path = {str(path)!r}, channel {channel}, cannot be read by SurfaceTopography "
+            f"({type(problem).__name__}: {validate.shown(str(problem))}); allowed: a complete file of a format it knows"
+        ) from problem
+    if found not in UNITS:
+        raise InputError(
+            f"path = {str(path)!r}: heights are in {found!r}; allowed: a channel of heights in {', '.join(UNITS)}"
+        )
+    heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+    if heights.ndim != 2 or not np.isfinite(heights).any():
+        raise InputError(f"path = {str(path)!r} holds {heights.shape} heights; allowed: a map with measured points")
+    spacing = tuple(size / n * UNITS[lateral_unit or found] for size, n in zip(sizes, heights.shape))
+    notes = [f"read by SurfaceTopography, heights in {found}, lateral in {lateral_unit or found}"]
+    if len(channels) > 1:
+        notes.append(f"channel {channel} ({channels[channel]}) of {len(channels)}")
+    heights = heights * UNITS[found]
+    return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
+
+
+def _package(path: Path):
+    """SurfaceTopography's reader; imported here only, since that takes seconds and hundreds of MB."""
+    import warnings
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other packages, at their import
+            from SurfaceTopography import open_topography
+    except ImportError as problem:
+        raise InputError(
+            f"path = {str(path)!r} needs the package SurfaceTopography, which is not installed ({problem}); "
+            f"allowed: after {HINT} it is read, or convert it to .x3p"
+        ) from None
+    return open_topography

@@ -1,0 +1,78 @@
+"""The line contact as a value: closed forms that follow from it, and what it refuses."""
+
+import math
+from dataclasses import FrozenInstanceError, replace
+
+import numpy as np
+import pytest
+
+from lubfric import InputError
+from lubfric.analytic import film, hertz, rigid
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant
+
+OIL = Lubricant(0.04, 2.2e-8)
+STEEL = LineContact(1e5, 0.01, 2.2e11, 1.5, OIL)
+
+
+def test_moes_numbers_lead_back_to_load_and_speed():
+    load, speed = film.load_and_speed(
+        STEEL.M, STEEL.L, radius=0.01, e_prime=2.2e11, viscosity=0.04, pressure_viscosity_coefficient=2.2e-8
+    )
+    assert (load, speed) == pytest.approx((1e5, 1.5), rel=1e-12)
+
+
+def test_units_make_the_hertz_contact_dimensionless():
+    """In Moes' units b = sqrt(8 M/pi), p_h = 2 M/(pi b) and the parabola x²/2R is X²/2."""
+    b = math.sqrt(8 * STEEL.M / math.pi)
+    assert STEEL.half_width / STEEL.length_unit == pytest.approx(b, rel=1e-12)
+    assert STEEL.peak_pressure / STEEL.pressure_unit == pytest.approx(2 * STEEL.M / (math.pi * b), rel=1e-12)
+    assert STEEL.length_unit**2 / STEEL.radius == pytest.approx(STEEL.film_unit, rel=1e-12)
+    assert STEEL.mean_pressure == pytest.approx(math.pi / 4 * STEEL.peak_pressure, rel=1e-12)
+
+
+def test_hertz_pressure_carries_the_load():
+    x = np.linspace(-STEEL.half_width, STEEL.half_width, 20001)
+    p = hertz.line_pressure(x, STEEL.load_per_width, STEEL.radius, STEEL.e_prime)
+    assert np.trapezoid(p, x) == pytest.approx(STEEL.load_per_width, rel=1e-5)
+    assert p.max() == pytest.approx(STEEL.peak_pressure, rel=1e-12)
+
+
+def test_light_contact_has_the_rigid_film():
+    """Moes' film tends to the rigid flow film, h* = 6/4.895 h0 (up to the rounding of his 3/M)."""
+    light = LineContact(1.0, 0.01, 2.2e11, 1.5, Lubricant(0.04, viscosity_law="constant"))
+    assert light.L == 0.0
+    flow = light.rigid_film * rigid.rigid_constants().flow_film_ratio
+    assert light.moes_film == pytest.approx(flow, rel=3e-3)
+
+
+def test_backward_motion_has_the_same_regime():
+    back = replace(STEEL, entrainment_speed=-1.5)
+    names = ("M", "L", "length_unit", "film_unit", "pressure_unit", "half_width", "moes_film", "rigid_film")
+    assert [getattr(back, name) for name in names] == [getattr(STEEL, name) for name in names]
+
+
+def test_replaced_contact_forgets_what_was_computed():
+    assert STEEL.M > 0
+    assert replace(STEEL, load_per_width=2e5).M == pytest.approx(2 * STEEL.M, rel=1e-12)
+    with pytest.raises(FrozenInstanceError):
+        STEEL.radius = 1.0
+
+
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("load_per_width", 0.0),
+        ("load_per_width", -1.0),
+        ("load_per_width", "1e5"),
+        ("radius", math.inf),
+        ("e_prime", 0.0),
+        ("e_prime", None),
+        ("entrainment_speed", 0.0),
+        ("entrainment_speed", math.nan),
+        ("lubricant", 0.04),
+    ],
+)
+def test_refuses(name, value):
+    with pytest.raises(InputError, match=name):
+        replace(STEEL, **{name: value})

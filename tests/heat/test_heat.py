@@ -1,0 +1,212 @@
+"""Heat of the film against closed forms, a boundary-value solver, quadrature and bounds."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_bvp
+
+from lubfric.analytic import hertz, nahme
+from lubfric.heat import Surroundings, heated_film, heated_stress, inlet_heat, viscosity_at
+from lubfric.heat.conjunction import isothermal_heat
+from lubfric.heat.flash import flash_matrix
+from lubfric.heat.stress import limiting_stress_at
+from lubfric.lubricant import Lubricant, shear_stress, viscosity
+
+T0 = 343.15
+STEEL = math.sqrt(46 * 7850 * 460)
+OIL = Lubricant(
+    0.0166,
+    2e-8,
+    temperature=T0,
+    temperature_coefficient=0.034,
+    eyring_stress=5e6,
+    limiting_stress_coefficient=0.08,
+)
+MODULUS, RADIUS = 2.27e11, 0.01
+
+
+def exponential(**changed):
+    return Lubricant(
+        **{"viscosity": 0.02, "viscosity_law": "constant", "temperature": T0, "temperature_coefficient": 0.04} | changed
+    )
+
+
+def contact(peak, count=193):
+    """x, pressure and film [SI] of a Hertz line contact with a flat film, and its load per width."""
+    load = 2 * math.pi * RADIUS * peak**2 / MODULUS
+    b = hertz.line_half_width(load, RADIUS, MODULUS)
+    x = np.linspace(-1.1 * b, 1.1 * b, count)
+    return x, hertz.line_pressure(x, load, RADIUS, MODULUS), np.full(x.size, 2e-7), load
+
+
+def around(x, speed, ratio, effusivity=STEEL, contact_heat=0.0):
+    carried = effusivity * (math.sqrt(speed * abs(1 - ratio / 2)) + math.sqrt(speed * (1 + ratio / 2)))
+    return Surroundings(carried, ratio * speed, np.ones(x.size), np.full(x.size, contact_heat))
+
+
+def swept(heat, x, length):
+    """∫ heat(x')/√(x - x') dx' over ``length`` upstream of x, by the midpoint rule in s = √(x - x')."""
+    step = math.sqrt(length) / 200_000
+    s = (np.arange(200_000) + 0.5) * step
+    return 2 * step * np.sum(heat(x - s * s))
+
+
+@given(st.floats(-3, 5), st.floats(-7.5, -4), st.floats(0.01, 0.1))
+def test_newtonian_film_is_nahmes(log_sliding, log_film, beta):
+    lubricant, sliding, film = exponential(temperature_coefficient=beta), 10**log_sliding, 10**log_film
+    stress, _ = heated_stress(lubricant, np.zeros(3), np.full(3, film), -sliding, np.full(3, T0))
+    number = nahme.nahme_number(0.02, sliding, beta, lubricant.conductivity)
+    assert stress == pytest.approx(-0.02 * sliding / film * nahme.stress_ratio(number), rel=1e-10)
+
+
+def test_nahmes_formula_solves_its_own_equation():
+    for number in (0.01, 1.0, 50.0):
+        y = np.linspace(0, 1, 2001)
+        rise = nahme.profile(y, number, 0.04)
+        stress = nahme.stress_ratio(number)  # in units of eta_w dU/h; rate in dU/h
+        rate = stress * np.exp(0.04 * rise)
+        assert np.trapezoid(rate, y) == pytest.approx(1, rel=1e-6)
+        curvature = np.diff(rise, 2) / (y[1] ** 2)
+        assert curvature == pytest.approx(-number / 0.04 * (stress * rate)[1:-1], rel=1e-4)
+    assert nahme.stress_ratio(1e-6) == pytest.approx(1 - 1e-6 / 12, rel=1e-12)
+
+
+@pytest.mark.parametrize("sliding", [0.3, 3.0, 10.0])
+def test_eyring_film_against_a_boundary_value_solver(sliding):
+    """k T'' = -tau gamma(T), gamma = (tau_E/eta_w) exp(beta (T - T_w)) sinh(tau/tau_E), mean gamma = dU/h."""
+    lubricant, film, pressure = exponential(viscosity=0.5, eyring_stress=4e6), 3e-7, 0.0
+    stress, mean = heated_stress(lubricant, pressure, film, sliding, T0)
+    eyring = 4e6 * (T0 + float(mean)) / T0
+    beta, k = 0.04, lubricant.conductivity
+    wall_rate = eyring / 0.5 * math.sinh(float(stress) / eyring)
+
+    def equations(y, t):
+        return np.vstack([t[1], -float(stress) * wall_rate * np.exp(beta * t[0]) * film**2 / k])
+
+    solved = solve_bvp(
+        equations, lambda a, b: np.array([a[0], b[0]]), np.linspace(0, 1, 21), np.zeros((2, 21)), tol=1e-8
+    )
+    assert solved.success
+    y = np.linspace(0, 1, 4001)
+    rate = np.trapezoid(wall_rate * np.exp(beta * solved.sol(y)[0]), y)
+    assert rate == pytest.approx(sliding / film, rel=1e-6)
+
+
+def test_viscosity_over_temperature():
+    p = np.array([0.0, 4e8, 1e9])
+    value, slope = viscosity_at(OIL, p, T0)
+    assert np.exp(value) == pytest.approx(viscosity(OIL, p), rel=1e-12)
+    assert slope[0] == pytest.approx(0.034, rel=1e-12)
+    for t in (310.0, T0, 420.0):
+        ahead, behind = viscosity_at(OIL, p, t + 0.01)[0], viscosity_at(OIL, p, t - 0.01)[0]
+        assert viscosity_at(OIL, p, t)[1] == pytest.approx((behind - ahead) / 0.02, rel=1e-6)
+    assert np.all(np.diff(slope) > 0)  # a thicker oil thins faster
+    barus = Lubricant(0.02, 2e-8, viscosity_law="barus", temperature=T0, temperature_coefficient=0.04)
+    assert viscosity_at(barus, 1e8, T0 + 10)[0] == pytest.approx(math.log(0.02) + 2 - 0.4, rel=1e-12)
+
+
+def test_roelands_temperature_law_follows_an_oil():
+    """S0 from the slope at 70 °C foretells ASTM D341 between 50 and 100 °C to 4 %."""
+    from lubfric import oil
+
+    made = oil.from_grade("ISO VG 68", 95, density=870)
+    lubricant = Lubricant(
+        made.viscosity(T0), 2e-8, temperature=T0, temperature_coefficient=made.temperature_coefficient(T0)
+    )
+    for t in (323.15, 353.15, 373.15):
+        assert np.exp(viscosity_at(lubricant, 0.0, t)[0]) == pytest.approx(made.viscosity(t), rel=0.04)
+
+
+def test_flash_of_uniform_and_linear_heat_is_exact():
+    x = np.concatenate([[0.0], np.cumsum(np.random.default_rng(1).uniform(0.5, 2, 60))]) * 1e-6
+    matrix = flash_matrix(x, 3.0)
+    assert matrix @ np.full(x.size, 5.0) == pytest.approx(5.0 * 2 * np.sqrt(x / np.pi) / 3.0, rel=1e-11)
+    assert matrix @ x == pytest.approx(4 / 3 * x**1.5 / np.sqrt(np.pi) / 3.0, rel=1e-9, abs=1e-20)
+    assert np.all(np.triu(matrix, 1) == 0)
+
+
+def test_flash_of_a_semi_ellipse_by_quadrature():
+    x = np.linspace(-1, 1, 257)
+    rise = flash_matrix(x, 1.0) @ np.sqrt(1 - x**2)
+    for i in (60, 128, 200):
+        exact = swept(lambda at: np.sqrt(np.maximum(1 - at**2, 0)), x[i], 1 + x[i]) / math.sqrt(math.pi)
+        assert rise[i] == pytest.approx(exact, rel=5e-4)
+
+
+def test_both_bodies_share_the_heat_of_one_surface_temperature():
+    """Each body alone, with the share e sqrt(u) of the heat, is as hot as both together."""
+    x, heat = np.linspace(0, 1e-4, 50), np.linspace(1, 2, 50) * 1e8
+    first, second = 1.3e4 * math.sqrt(0.4), 1.0e4 * math.sqrt(2.0)
+    together = flash_matrix(x, first + second) @ heat
+    for own in (first, second):
+        assert flash_matrix(x, own) @ (heat * own / (first + second)) == pytest.approx(together, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [0.02, 0.3, 2.0])
+def test_stress_and_temperature_satisfy_both_equations(ratio):
+    x, p, h, _ = contact(1e9)
+    found = heated_film(OIL, x, p, h, around(x, 2.0, ratio, contact_heat=2e7))
+    heat = found.stress * ratio * 2.0 + 2e7
+    carried = STEEL * (math.sqrt(2 * abs(1 - ratio / 2)) + math.sqrt(2 * (1 + ratio / 2)))
+    for i in (60, 96, 150):
+        rise = swept(lambda at: np.interp(at, x, heat), x[i], x[i] - x[0])
+        assert found.wall[i] - T0 == pytest.approx(rise / math.sqrt(math.pi) / carried, rel=2e-5)
+    assert found.stress == pytest.approx(heated_stress(OIL, p, h, ratio * 2.0, found.wall)[0], rel=1e-12)
+    assert np.all(found.stress <= limiting_stress_at(OIL, p, found.wall + found.film_rise) * (1 + 1e-9))
+
+
+def test_half_the_nodes_change_the_force_little():
+    forces = []
+    for count in (129, 257):
+        x, p, h, _ = contact(1e9, count)
+        forces.append(np.trapezoid(heated_film(OIL, x, p, h, around(x, 2.0, 1.0)).stress, x))
+    x, p, h, _ = contact(1e9, 1025)  # the flash on every fourth node
+    fine = np.trapezoid(heated_film(OIL, x, p, h, around(x, 2.0, 1.0)).stress, x)
+    assert forces[1] == pytest.approx(fine, rel=2e-4)
+    assert forces[0] == pytest.approx(fine, rel=1e-3)
+
+
+@given(st.floats(5e8, 1.5e9), st.floats(0.001, 2.0), st.floats(-2, 1))
+def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_speed):
+    x, p, h, _ = contact(peak, 65)
+    where = around(x, 10**log_speed, ratio)
+    heated, least = heated_film(OIL, x, p, h, where), isothermal_heat(OIL, x, p, h, where)
+    most = shear_stress(OIL, p, ratio * 10**log_speed / h)
+    force = np.trapezoid(heated.stress, x)
+    assert np.trapezoid(least.stress, x) <= force * (1 + 1e-6)
+    assert force <= np.trapezoid(most, x) * (1 + 1e-6)
+
+
+def test_bodies_and_films_that_carry_heat_away_stay_cool():
+    x, p, h, _ = contact(1e9)
+    cool = Lubricant(0.0166, 2e-8, temperature=T0, temperature_coefficient=0.034, eyring_stress=5e6, conductivity=2.0)
+    found = heated_film(cool, x, p, np.full(x.size, 1e-9), around(x, 0.01, 0.5, effusivity=1e9))
+    assert found.stress == pytest.approx(shear_stress(cool, p, 0.005 / 1e-9), rel=1e-4)
+    assert found.flash < 1e-3
+
+
+def test_traction_rises_peaks_and_falls_at_1_gpa():
+    x, p, h, load = contact(1e9)
+    ratios = np.geomspace(1e-3, 2, 12)
+    f = [np.trapezoid(heated_film(OIL, x, p, h, around(x, 2.0, s)).stress, x) / load for s in ratios]
+    top = int(np.argmax(f))
+    assert 3 < top < 11
+    assert np.all(np.diff(f[: top + 1]) > 0) and np.all(np.diff(f[top:]) < 0)
+    cold = [np.trapezoid(shear_stress(OIL, p, s * 2.0 / h), x) / load for s in ratios]
+    assert np.all(np.diff(cold) > 0)
+
+
+def test_inlet_factors():
+    given_ = {"viscosity": 1.0, "temperature_coefficient": 0.13, "conductivity": 0.13, "speed": 1.0}
+    sliding = inlet_heat(**given_, slide_roll_ratio=2.0, pressure_ratio=0.0025)
+    assert sliding.thermal_number == pytest.approx(1.0)
+    assert sliding.factor == pytest.approx(0.47, abs=0.005)
+    assert sliding.other == pytest.approx(0.27, abs=0.005)
+    slow = inlet_heat(**given_ | {"speed": 1e-4}, slide_roll_ratio=2.0, pressure_ratio=0.004)
+    assert slow.factor == pytest.approx(1, abs=1e-4) and slow.other == pytest.approx(1, abs=1e-4)
+    rolling = [inlet_heat(**given_ | {"speed": u}, slide_roll_ratio=0.0, pressure_ratio=0.0) for u in (0.3, 1, 3)]
+    assert all(abs(r.factor / r.other - 1) < 0.35 for r in rolling)
+    assert rolling[0].factor > rolling[1].factor > rolling[2].factor

@@ -1,0 +1,128 @@
+"""Tables of loggers: units in the heading, any encoding and decimal mark; what cannot be read is refused by line."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.history import Harmonic, Ramp, Table
+from lubfric.history.plan import Transient
+from lubfric.history.read import history, read_history
+
+LINES = "time [ms],speed [mm/s]\n0,1000\n500,2000\n1000,0\n"
+EXPECTED = Table(times=(0.0, 0.5, 1.0), values=(1.0, 2.0, 0.0))
+
+
+def write(folder, content, code="utf-8"):
+    path = folder / "run.csv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode(code))
+    return path
+
+
+@pytest.mark.parametrize("code", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        LINES,
+        LINES.replace(",", ";"),
+        LINES.replace(",", "\t"),
+        "# µ-tribometer\ntime (s);speed\n0,0;1,0\n\n0,5;2\n1;0,0\n",
+        "n;speed [m/s];time [µs]\n1;1,0;0\n2;2,0;5e5\n3;0;1e6\n",
+        "time,load [N], speed [ km/h ]\r\n0,9,3.6\r\n0.5,9,7.2\r\n1,9,0\r\n",
+    ],
+)
+def test_every_way_to_write_the_same_table(tmp_path, text, code):
+    found = read_history(write(tmp_path, text, code), "speed", unit="m/s")
+    np.testing.assert_allclose(found.times, EXPECTED.times, rtol=1e-15)
+    np.testing.assert_allclose(found.values, EXPECTED.values, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "name, heading, value, si",
+    [
+        ("bodies.load", "F [kN]", 2, 2000),
+        ("transient.viscosity", "F (mPa·s)", 2, 2e-3),
+        ("lubricant.viscosity", "F [Pa.s]", 2, 2),
+        ("transient.radius", "F [mm]", 2, 2e-3),
+        ("transient.sliding", "F [um/s]", 2, 2e-6),
+    ],
+)
+def test_each_quantity_has_its_units(tmp_path, name, heading, value, si):
+    write(tmp_path, f"time,{heading}\n0,{value}\n1,{value}\n")
+    table = {"kind": "file", "file": "run.csv", "column": "F"}
+    assert history(name, table, tmp_path).at(0.5) == pytest.approx(si)
+    other = "bodies.load" if name != "bodies.load" else "transient.speed"
+    with pytest.raises(lubfric.InputError, match=f"{other}: .* unit .* is not known"):
+        history(other, table, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        ("time [fortnight],speed\n0,1\n1,1\n", "fortnight"),
+        ("time,speed [N]\n0,1\n1,1\n", "'N' is not known"),
+        ("time,speed,speed\n0,1,2\n1,1,2\n", "2 columns 'speed'"),
+        ("time;speed\n0;1.234,5\n1;1\n", "line 2"),
+        ("time,speed\n0,1\n1\n", "line 3"),
+        ("time,speed\n0,1\n1,nan\n", "line 3"),
+        ("time,speed\n0,1\n1,1_0\n", "1_0"),
+        ("time,speed\n", "1 rows"),
+        ("", "0 rows"),
+        (b"time,speed\n\x00\x01\x02", "not text"),
+        (b"\xff\xfeabc", "not text"),
+        (b"time,speed\n0,\x81\n1,2", "not text"),
+        ('time,speed\n0,"1\n1,2"\n', "not a number"),
+    ],
+)
+def test_bad_files_are_refused_by_name_and_line(tmp_path, content, words):
+    path = write(tmp_path, content)
+    with pytest.raises(lubfric.InputError, match=words) as caught:
+        read_history(path, "speed", unit="m/s")
+    assert "run.csv" in str(caught.value)
+
+
+@pytest.mark.parametrize("repeat", ["no", 0, None, 1.0])
+def test_repeat_is_a_truth_value(repeat):
+    with pytest.raises(lubfric.InputError, match="repeat"):
+        history("speed", {"kind": "table", "times": [0, 1], "values": [1, 2], "repeat": repeat})
+
+
+@pytest.mark.parametrize(
+    "table, words",
+    [
+        ({"kind": "file", "file": 3, "column": "speed"}, "file = 3"),
+        ({"kind": "file", "file": "a\0b", "column": "speed"}, "file"),
+        ({"kind": "file", "file": "run.csv"}, "needs column"),
+        ({"kind": "file", "file": ".", "column": "speed"}, "does not exist"),
+        ({"kind": "constant"}, "needs value"),
+        ({"kind": "table", "times": [0, 1]}, "needs values"),
+        ({"kind": "table", "times": [0, True], "values": [1, 2]}, "truth values"),
+        ({"kind": ["ramp"]}, "kind"),
+        ({"kind": "ramp", "value": 3.0}, "unknown key 'value'"),
+        ({"kind": "ramp", "start": "1"}, "start"),
+    ],
+)
+def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
+    write(tmp_path, LINES)
+    with pytest.raises(lubfric.InputError, match=words):
+        history("speed", table, tmp_path)
+
+
+def test_kinds_take_keywords_only_and_have_no_dead_fields():
+    for kind, values in ((Ramp, (1.0, 2.0, 0.5)), (Harmonic, (1.0, 2.0)), (Table, ((0, 1), (1, 2)))):
+        with pytest.raises(TypeError):
+            kind(*values)
+        assert "value" not in kind.__dataclass_fields__
+
+
+def test_a_table_keeps_no_hold_of_the_callers_lists():
+    times, values = [0.0, 1.0], [1.0, 2.0]
+    table = Table(times=times, values=values)
+    times[1], values[1] = 5.0, 7.0
+    assert table.at(1.0) == 2.0 and pickle.loads(pickle.dumps(table)) == table
+
+
+def test_too_many_repetitions_are_refused():
+    with pytest.raises(lubfric.InputError, match="repeated 1e"):
+        Transient(1.0, speed=Table(times=(0.0, 1e-9), values=(0.0, 1.0), repeat=True))

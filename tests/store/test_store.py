@@ -1,0 +1,255 @@
+"""The store: whole files under kills, records of several writers, damage seen, locks, fingerprints, the codec."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import lubfric
+from lubfric.model import prepare
+from lubfric.store import (
+    FolderLock,
+    Records,
+    decode,
+    digest,
+    encode,
+    fingerprint,
+    read_checked,
+    write_checked,
+    write_whole,
+)
+from lubfric.store.codec import from_plain, to_plain
+
+ROOT = Path(__file__).parents[2]
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+)
+
+
+def started(code, *arguments):
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    return subprocess.Popen([sys.executable, "-c", code, *map(str, arguments)], env=environment, stdout=subprocess.PIPE)
+
+
+# whole files
+
+REPLACER = """
+import sys
+from lubfric.store import write_whole
+print("ready", flush=True)
+while True:
+    for letter in (b"a", b"b"):
+        write_whole(sys.argv[1], letter * 300_000)
+"""
+
+
+def test_a_killed_writer_leaves_the_old_file_or_the_new(tmp_path):
+    path, rng = tmp_path / "file", np.random.default_rng(5)
+    for _ in range(4):
+        process = started(REPLACER, path)
+        process.stdout.readline()
+        time.sleep(rng.uniform(0.0, 0.1))
+        process.kill()
+        process.communicate()
+        if path.exists():
+            content = path.read_bytes()
+            assert len(content) == 300_000 and len(set(content)) == 1
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, monkeypatch):
+    path = tmp_path / "file"
+    write_whole(path, b"old")
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(lubfric.OutputError, match=r"file was not written: No space left on device"):
+        write_whole(path, b"new")
+    assert path.read_bytes() == b"old" and [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs the always full device of Linux")
+def test_a_full_disk_is_one_line(tmp_path):
+    records = Records(tmp_path)
+    records.add("a", 1)
+    records._file.close()
+    with open("/dev/full", "wb", buffering=0) as records._file:
+        with pytest.raises(lubfric.OutputError, match="No space left") as caught:
+            records.add("b", 2)
+    assert "\n" not in str(caught.value) and Records(tmp_path).keys() == {"a"}
+
+
+@given(content=st.binary(max_size=200), data=st.data())
+def test_any_damage_of_a_checked_file_is_seen(tmp_path_factory, content, data):
+    path = tmp_path_factory.mktemp("checked") / "file"
+    write_checked(path, content)
+    assert read_checked(path) == content
+    whole = bytearray(path.read_bytes())
+    at = data.draw(st.integers(0, len(whole) - 1))
+    if data.draw(st.booleans()):
+        path.write_bytes(whole[:at])
+    else:
+        whole[at] ^= data.draw(st.integers(1, 255))
+        path.write_bytes(whole)
+    assert read_checked(path) is None
+
+
+# records
+
+ADDER = """
+import sys
+from lubfric.store import Records
+with Records(sys.argv[1]) as records:
+    print("ready", flush=True)
+    for i in range(int(sys.argv[3])):
+        records.add(f"{sys.argv[2]}{i}", {"i": i, "x": 0.1 * i})
+        print(i, flush=True)
+"""
+
+
+def test_several_writers_and_a_kill(tmp_path):
+    ending = [started(ADDER, tmp_path, name, 40) for name in "ab"]
+    killed = started(ADDER, tmp_path, "c", 10**6)
+    killed.stdout.readline()
+    time.sleep(0.1)
+    killed.kill()
+    last = int(killed.communicate()[0].decode().rpartition("\n")[0].rpartition("\n")[2])
+    for process in ending:
+        process.communicate()
+    found = dict(Records(tmp_path).read())
+    for name, count in (("a", 40), ("b", 40), ("c", last + 1)):  # all that was said to be kept is
+        for i in range(count):
+            assert found[f"{name}{i}"] == {"i": i, "x": 0.1 * i}
+    assert len(found) <= 80 + last + 2
+
+
+@given(cut=st.integers(0, 250), byte=st.integers(0, 249))
+def test_a_damaged_line_is_absent_and_the_others_stay(tmp_path_factory, cut, byte):
+    folder = tmp_path_factory.mktemp("records")
+    with Records(folder) as records:
+        for i in range(5):
+            records.add(str(i), i)
+    (path,) = folder.glob("*.jsonl")
+    whole = path.read_bytes()
+    damaged = bytearray(whole)
+    damaged[byte % len(whole)] ^= 0x20
+    for content, lost in ((bytes(damaged), 2), (whole[: min(cut, len(whole))], 5)):
+        path.write_bytes(content)
+        again = Records(folder)
+        found = dict(again.read())
+        assert all(value == int(key) for key, value in found.items())
+        assert len(found) >= 5 - lost and again.damaged <= 2
+
+
+def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
+    with Records(tmp_path) as records:
+        records.add("a", {"x": 1})
+        records.add("a", {"x": 2})
+        with pytest.raises(ValueError):
+            records.add("b", float("nan"))
+    assert dict(Records(tmp_path).read()) == {"a": {"x": 1}}
+
+
+# lock
+
+HOLDER = """
+import sys, time
+from lubfric.store import FolderLock
+with FolderLock(sys.argv[1]):
+    print("ready", flush=True)
+    time.sleep(60)
+"""
+
+
+def test_a_second_writer_is_refused_until_the_first_is_gone(tmp_path):
+    holder = started(HOLDER, tmp_path)
+    holder.stdout.readline()
+    with pytest.raises(lubfric.InputError, match=f"another run .process {holder.pid}.; allowed: another folder"):
+        with FolderLock(tmp_path):
+            pass
+    holder.send_signal(signal.SIGKILL)
+    holder.communicate()
+    with FolderLock(tmp_path):
+        pass
+
+
+# fingerprint
+
+
+def test_the_fingerprint_sees_every_number_and_no_label(tmp_path):
+    model = prepare(SCENE)
+    same = prepare(SCENE.with_(name="other", motion={"speeds": (0.1,)}))
+    assert fingerprint(model) == fingerprint(same)
+    heights = model.surface.heights.copy()
+    heights[3, 5] = np.nextafter(heights[3, 5], 1.0)
+    moved = replace(model.surface, heights=heights)
+    wider = replace(model.surface, spacing=(0.9e-6, 0.90001e-6))
+    seen = [model, prepare(SCENE, surface=moved), prepare(SCENE, surface=wider), SCENE]
+    for section, key in (("bodies", "load"), ("bodies", "hardness"), ("lubricant", "viscosity"), ("surface", "sq")):
+        seen.append(SCENE.with_(**{section: {key: 1.000001 * getattr(getattr(SCENE, section), key)}}))
+    seen += [SCENE.with_(numerics={"closure": "separation"}), SCENE.with_(bodies={"hardness": None})]
+    assert len({fingerprint(part) for part in seen}) == len(seen)
+
+
+def test_a_file_counts_by_its_bytes(tmp_path):
+    def print_of(name, heights):
+        np.save(tmp_path / name, heights)
+        rough = {"file": str(tmp_path / name), "spacing": 1e-6, "correlation_length": None}
+        return fingerprint(SCENE.with_(surface=rough))
+
+    heights = np.random.default_rng(1).normal(size=(32, 32)) * 1e-8
+    one, other = print_of("a.npy", heights), print_of("b.npy", heights)
+    assert one == other and print_of("a.npy", heights * 1.001) != one
+
+
+def test_values_that_look_alike_differ():
+    values = [1, 1.0, "1", True, None, [1], {"1": 1}, (1, 1), [[1], 1], np.ones(1), np.ones((1, 1)), 0.0, -0.0]
+    assert len({digest(value) for value in values}) == len(values)
+    assert digest((1, 2)) == digest([1, 2]) and digest(np.float64(0.1)) == digest(0.1)
+    with pytest.raises(TypeError, match="no fingerprint"):
+        digest(object())
+
+
+# codec
+
+plain = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(),
+    lambda inner: st.lists(inner) | st.lists(inner).map(tuple) | st.dictionaries(st.text(), inner),
+    max_leaves=10,
+)
+
+
+@given(value=plain)
+def test_plain_values_come_back_the_same(value):
+    text = json.dumps(to_plain(value), allow_nan=False)
+    again = from_plain(json.loads(text))
+    assert again == value and repr(again) == repr(value)
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.001, 0.01, 0.3])
+def test_a_neighbour_started_from_a_stored_balance_is_the_same_to_the_last_bit(speed):
+    model = prepare(SCENE)
+    before = lubfric.friction(model, speed, fields=speed == 0.01)
+    again = decode(encode(before))
+    assert repr(again.report) == repr(before.report) and again.decision == before.decision
+    if before.balance.film is not None:
+        here, there = (lubfric.friction(model, 1.2 * speed, start=start) for start in (before, again))
+        assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
+
+
+def test_nothing_but_dataclasses_of_the_package_is_built():
+    for name in ("os.system", "lubfric.store.codec.json", "lubfric.prepare", "builtins.eval"):
+        with pytest.raises((ValueError, AttributeError)):
+            from_plain({"class": name})
+    with pytest.raises(TypeError, match="cannot be stored"):
+        encode(object())

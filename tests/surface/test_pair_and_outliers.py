@@ -1,0 +1,158 @@
+"""Two rough bodies as one map; outliers; a map longer than measured; what cannot be changed or scaled."""
+
+import copy
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+from lubfric import InputError, Surface, generate_surface
+from lubfric.halfspace import half_space
+from lubfric.surface.prepare import fitted_form
+
+
+def rough(seed, shape=(160, 120), spacing=1e-6, sq=1e-7):
+    return generate_surface(shape, spacing, sq=sq, correlation_length=8e-6, acf="gaussian", seed=seed)
+
+
+def open_map(surface):
+    return Surface(surface.heights, surface.spacing)
+
+
+def test_the_sum_of_independent_maps_has_the_root_of_both_squares():
+    squares = [rough(2 * i).combined(rough(2 * i + 1, sq=2e-7)).sq ** 2 for i in range(8)]
+    assert math.sqrt(np.mean(squares)) == pytest.approx(math.sqrt(5) * 1e-7, rel=0.03)
+
+
+def test_a_flat_counterface_changes_nothing_and_order_only_mirrors():
+    a, b = rough(1), rough(2)
+    flat = Surface(np.zeros(a.shape), a.spacing, periodic_axes=(True, True))
+    np.testing.assert_allclose(a.combined(flat).heights, a.heights - a.heights.mean(), atol=1e-22)
+    one, other = a.combined(b), b.combined(a)
+    np.testing.assert_allclose(one.heights, other.heights[:, ::-1], atol=1e-20)
+    assert one.periodic_axes == (True, True) and one.shape == a.shape
+
+
+def test_the_gap_of_two_facing_waves():
+    """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does not."""
+    x, y = np.arange(40)[:, None] * 1e-6, (np.arange(60) - 29.5)[None, :] * 1e-6
+    k = 2 * np.pi / 20e-6
+    cosine, sine = np.cos(k * (x + y)) * 1e-7, np.sin(k * (x + y)) * 1e-7
+    found = Surface(cosine, 1e-6).combined(Surface(sine, 1e-6)).heights
+    expected = np.cos(k * (x + y)) * 1e-7 + np.sin(k * (x - y)) * 1e-7
+    np.testing.assert_allclose(found - found.mean(), expected - expected.mean(), atol=1e-20)
+
+
+def test_maps_of_other_spacing_and_length_meet_on_the_finer_one_and_the_shorter_length():
+    fine, coarse = open_map(rough(1)), open_map(rough(2, (50, 100), 2e-6))
+    both = coarse.combined(fine)
+    assert both.spacing == fine.spacing and both.shape == (100, 120) and both.periodic_axes == (False, False)
+    repeated = rough(3, (64, 120)).combined(fine)  # a periodic map is repeated along the open one
+    assert repeated.shape == (160, 120) and repeated.periodic_axes == (False, False)
+    with pytest.raises(InputError, match="second surface has unmeasured"):
+        fine.combined(Surface(np.where(fine.heights > 0, fine.heights, np.nan), 1e-6, mask=fine.heights > 0))
+
+
+def test_masks_of_both_are_kept():
+    mask = np.ones((160, 120), bool)
+    mask[3, 5] = False
+    with_hole = Surface(rough(1).heights, 1e-6, mask=mask)
+    assert np.argwhere(~open_map(rough(2)).combined(with_hole).mask).tolist() == [[3, 114]]
+
+
+@pytest.mark.parametrize("acf, cells", [("gaussian", 8), ("exponential", 20), ("exponential", 2), ("gaussian", 2)])
+def test_a_gaussian_map_has_no_outliers(acf, cells):
+    surface = generate_surface((300, 300), 1e-6, sq=1e-7, correlation_length=cells * 1e-6, acf=acf, seed=4)
+    assert surface.without_outliers().mask is None
+
+
+def test_spikes_are_found_and_filled_and_resolved_features_stay():
+    clean = open_map(rough(5, (200, 200)))
+    heights = clean.heights.copy()
+    radius = np.hypot(np.arange(200)[:, None] - 100, np.arange(200) - 45)
+    heights += 5e-6 * np.maximum(1 - (radius / 12) ** 2, 0)  # a summit 24 points wide, 50 Sq high
+    heights[150:156, :] -= 3e-6  # a groove
+    resolved = Surface(heights, 1e-6)
+    assert resolved.without_outliers().mask is None
+    heights[20, 30] += 2e-6
+    heights[70:72, 80:82] -= 2e-6
+    found = Surface(heights, 1e-6).without_outliers()
+    assert sorted(map(tuple, np.argwhere(~found.mask))) == [(20, 30), (70, 80), (70, 81), (71, 80), (71, 81)]
+    assert np.isnan(found.heights[20, 30]) and "5 outliers" in found.notes[-1]
+    assert np.abs(found.fill().heights[20, 30] - clean.heights[20, 30]) < 2e-7
+
+
+def test_one_spike_on_a_flat_map_is_an_outlier():
+    heights = np.zeros((30, 30))
+    heights[7, 9] = 1e-6
+    surface = Surface(heights, 1e-6)
+    assert surface.largest_ratio == pytest.approx(math.sqrt(899), rel=1e-6)
+    assert np.argwhere(~surface.without_outliers().mask).tolist() == [[7, 9]]
+    assert "max |z|/Sq 30" in surface.describe()
+
+
+def test_a_short_map_is_continued_by_its_mirror_image():
+    surface = open_map(rough(6)).cropped((40, 32))
+    longer = surface.continued(110e-6)
+    assert longer.shape == (160, 32) and longer.periodic_axes == (True, False)
+    np.testing.assert_array_equal(longer.heights[40:80], surface.heights[::-1])
+    assert longer.sq == pytest.approx(surface.sq, rel=1e-12) and surface.continued(40e-6) is surface
+    with pytest.raises(InputError, match="points"):
+        surface.continued(1e9)
+
+
+def test_a_constant_map_cannot_be_scaled_and_levels_to_zero():
+    """Rounding is no roughness: neither of a constant nor of an exact plane."""
+    x, y = np.meshgrid(np.arange(64), np.arange(48), indexing="ij")
+    for heights in (np.full((64, 48), 0.1 + 0.2), 1e-3 + 0.3e-6 * x - 0.7e-6 * y, np.full((64, 48), 1e-9)):
+        level = Surface(heights, 1e-6).level()
+        assert level.sq == 0.0 and level.largest_ratio == 0.0
+        with pytest.raises(InputError, match="flat"):
+            level.scaled(sq=1e-7)
+    with pytest.raises(InputError, match="flat"):
+        Surface(np.full((64, 48), 0.1), 1e-6).scaled(sq=1e-7)
+
+
+@pytest.mark.parametrize("form", ["plane", "quadratic"])
+def test_the_form_is_that_of_least_squares(form):
+    """Against NumPy's solver, on a map of which a third is missing and that stands far from zero."""
+    rng = np.random.default_rng(2)
+    z = rng.standard_normal((31, 44)) * 1e-7 + 1e-4 * np.linspace(-1, 2, 31)[:, None] + 5e-3
+    mask = rng.random(z.shape) < 0.66
+    x, y = np.meshgrid(*(np.linspace(-0.5, 0.5, n) for n in z.shape), indexing="ij")
+    columns = [np.ones_like(x), x, y] + ([x * x, x * y, y * y] if form == "quadratic" else [])
+    matrix = np.stack([c[mask] for c in columns], axis=1)
+    best = np.linalg.lstsq(matrix, z[mask], rcond=None)[0]
+    expected = sum(b * c for b, c in zip(best, columns))
+    found = fitted_form(np.where(mask, z, np.nan), mask, (1e-6, 1e-6), form)[0]
+    np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
+def test_nothing_is_writable_after_copies_and_pickles():
+    surface = rough(1)
+    hole = Surface(surface.heights, 1e-6, mask=surface.heights > -2e-7)
+    operator = half_space((8, 8), 1e-6, 1e11)
+    for thing in (surface, hole, operator):
+        for twin in (thing, copy.copy(thing), copy.deepcopy(thing), pickle.loads(pickle.dumps(thing))):
+            arrays = [v for v in vars(twin).values() if isinstance(v, np.ndarray)]
+            assert arrays
+            for array in arrays:
+                with pytest.raises(ValueError, match="read-only"):
+                    array[0, 0] = 1
+
+
+def test_masked_arrays_keep_their_mask():
+    z = np.ma.array(np.arange(12.0).reshape(3, 4) * 1e-9, mask=np.arange(12).reshape(3, 4) == 5)
+    surface = Surface(z, 1e-6)
+    assert np.argwhere(~surface.mask).tolist() == [[1, 1]] and np.isnan(surface.heights[1, 1])
+    both = Surface(z, 1e-6, mask=np.arange(12).reshape(3, 4) != 7)
+    assert np.count_nonzero(~both.mask) == 2
+    for mask in (np.ones((3, 4)), [["False"] * 4] * 3, np.ones((4, 3), bool), np.zeros((3, 4), bool)):
+        with pytest.raises(InputError, match="mask"):
+            Surface(z.data, 1e-6, mask=mask)
+    for axes in ("no", (1, 0), (True,), None):
+        with pytest.raises(InputError, match="periodic_axes"):
+            Surface(z.data, 1e-6, periodic_axes=axes)
+    with pytest.raises(InputError, match="1000"):
+        Surface(np.full((2, 2), 1e308), 1e-6)
