@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.contact.residual import length_scale
 
 
 @dataclass(frozen=True)
