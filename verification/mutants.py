@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 
-
 @dataclass(frozen=True)
 class Mutant:
     """A mistake: ``name``, ``what`` it is in a sentence, for each place "module:attribute" its replacement, and the
