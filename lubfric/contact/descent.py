@@ -260,12 +260,12 @@ class Descent:
         slope = dot(self.gap, asked) - self.level * float(asked.sum())
         curvature = dot(asked, answer)
         step = -slope / curvature if curvature > 0 else 1.0
-        step = min(max(step, STEPS[0]), STEPS[1])
+        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         way *= np.float32(step)
         self.known += way
         answer *= np.float32(step)
         self.gap += answer
-        self.pace *= step**LEARNING
+        self.pace *= max(step, STEPS[0]) ** LEARNING
         yielded = None if self.upper is None else trial >= self.upper
         np.maximum(self.known, self.lower, out=self.change)
         trial -= self.lower  # cells that the trial unloads stay so: without branches, of which a mask has many

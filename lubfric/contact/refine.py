@@ -68,9 +68,7 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
             )
             pressure, state = state.pressure, None
             descent.run(goal, problem.max_iterations - iterations)
-            pressure = descent.found(pressure)
-            if load is not None:
-                pressure = rescaled(pressure, load, problem.hardness)
+            pressure = _admissible(descent.found(pressure), pressure, load, problem.hardness)
             iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
             history += descent.history[:-1]
             convolutions += descent.convolutions
@@ -80,6 +78,14 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
         state, exact = look(problem, operator, pressure, level), True
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
+
+
+def _admissible(found, begun, load, hardness) -> np.ndarray:
+    """``found`` with the load; where single precision has lost it, what the search had ``begun`` with."""
+    total = found.sum()
+    if not np.isfinite(total) or load is not None and total <= 0:
+        return begun
+    return found if load is None else rescaled(found, load, hardness)
 
 
 def _rigid(problem) -> bool:
@@ -108,5 +114,6 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
     descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace, _rigid(problem))
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
-    state = State(descent.found(pressure), None, None, state.approach, state.scale, 0.0, descent.history[-1])
+    found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
+    state = State(found, None, None, state.approach, state.scale, 0.0, descent.history[-1])
     return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)
