@@ -96,7 +96,7 @@ def _run(arguments) -> int:
     if arguments.ratios and scene.transient is None:
         from .curves.command import run_traction
 
-        return run_traction(scene, _speeds(arguments.ratios), _folder(arguments.out), say)
+        return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
         from .unsteady.command import run_history
 

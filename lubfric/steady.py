@@ -97,11 +97,11 @@ def friction(
 
 
 def _result(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:
-    scene, balance, found = model.scene, point.balance, point.forces
+    scene, balance, found = point.model.scene, point.balance, point.forces
     contact, film = balance.contact, balance.film
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = judged_validity(model, speed, balance, found)
+    passed = judged_validity(point.model, speed, balance, found)
     oil = scene.lubricant.oil
     known = (estimate_in_words(oil, scene.lubricant.temperature),) if oil else ()
     notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))

@@ -14,6 +14,7 @@ from ..rough.contract import RoughContact
 from ..rough.half_space_grid import coarser_grids
 from .balance import Balance, balanced, dry, separated
 from .decision import Decision
+from .deflection import allowed_error, deflected_by, in_words, own_pressure_error
 from .forces import Forces, forces
 from .operating_point import OperatingPoint, Settings, pressed_under
 from .refine import grid_error, refined
@@ -21,19 +22,48 @@ from .tolerances import Stage, allowed_left_out, judged, least_cells, needed_set
 
 ROUNDS = 8  # of one balance, each with a higher level or tighter tolerances
 LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
+CERTAIN = 3.0  # times the limit: a neighbour's error of its own pressure beyond which this point's is not looked at
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, its forces, and how far it was modelled."""
+    """A balance, its forces, and how far it was modelled; ``model``: with the deflection of the film that was chosen."""
 
+    model: Model
     balance: Balance
     forces: Forces
     decision: Decision
 
 
 def solved(model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
+    """``model`` at ``speed`` [m/s], modelled no further than the tolerance on f needs.
+
+    The film is deflected by its own pressure where that is within its share of the tolerance (`own_pressure_error`), else by the
+    whole load; a neighbour that is far beyond it goes to the latter at once. Levels and grids: `_solved`.
+    """
+    if model.scene.numerics.film_deflection != "auto":
+        return _solved(model, speed, start, given_grid)
+    limit, error = allowed_error(model), 0.0
+    if (
+        start is not None
+        and start.film is not None
+        and start.contact_load > 0
+        and start.film.e_prime < model.scene.bodies.e_prime
+    ):
+        error = own_pressure_error(model.scene, start, forces(model.scene, start))
+    if error <= CERTAIN * limit:
+        option = "hydrodynamic"
+        point = _solved(deflected_by(model, option), speed, start, given_grid)
+        error = own_pressure_error(model.scene, point.balance, point.forces)
+    if error > limit:
+        option = "scaled"
+        point = _solved(deflected_by(model, option), speed, start, given_grid)
+    told = in_words(error, limit, option) if point.balance.film is not None and point.balance.contact_load > 0 else ""
+    return replace(point, decision=replace(point.decision, deflection=told))
+
+
+def _solved(model: Model, speed: float, start: Balance | None, given_grid: bool) -> Solved:
     """``model`` at ``speed`` [m/s], modelled no further than the tolerance on f needs.
 
     First the film of the whole load: where it clears the summits, no contact is solved. Else film and contact on the
@@ -47,13 +77,15 @@ def solved(model: Model, speed: float, start: Balance | None = None, *, given_gr
         state = stage.balance.contact
         clearance = (state.mean_film - state.mean_gap) / max(model.surface.sq, 1e-12)
         if clearance >= 0 or numerics.contact_level == "none":
-            return Solved(stage.balance, stage.forces, replace(_decision(stage), contact="none", clearance=clearance))
+            return Solved(
+                model, stage.balance, stage.forces, replace(_decision(stage), contact="none", clearance=clearance)
+            )
     own = given_grid or numerics.grid == "given" or numerics.model == "full"
     grids = [model.contact] if own else coarser_grids(model.contact, model.surface.sq)
     point = OperatingPoint(model, speed, grids[0], _first_settings(model, speed, start))
     stage, reached, error = _in_contact(point, grids, start)
     decision = _decision_in_contact(stage, error, finest=reached is grids[-1])
-    return Solved(stage.balance, stage.forces, decision)
+    return Solved(model, stage.balance, stage.forces, decision)
 
 
 def _dry(model: Model) -> Solved:
@@ -67,7 +99,7 @@ def _dry(model: Model) -> Solved:
         forced=_forced(numerics),
         shape=None if grid is None else grid.cells,
     )
-    return Solved(balance, forces(model.scene, balance), decision)
+    return Solved(model, balance, forces(model.scene, balance), decision)
 
 
 def _certainly_touching(model: Model, speed: float) -> bool:

@@ -131,9 +131,9 @@ def pressed_under(scene: Scene, film: Film, x: np.ndarray) -> np.ndarray:
     its own share itself.
     """
     thickness = film.film_at(x)
-    if scene.numerics.film_deflection == "hydrodynamic":
-        return thickness
     if scene.numerics.film_deflection == "total":
         return thickness - film.imposed_deflection(x)
+    if scene.numerics.film_deflection != "scaled":
+        return thickness
     parabola = x**2 / (2 * film.radius)
     return parabola + film.e_prime / scene.bodies.e_prime * (thickness - parabola)

@@ -65,9 +65,9 @@ class Run:
 def begin(scene: Scene | Model, plan: Transient) -> Run:
     """Check the scene, make it ready, find its first state."""
     base = scene.scene if isinstance(scene, Model) else scene
-    if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
+    if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic', "
+            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), "
             f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
             f"found {base.numerics.cavitated_shear!r}"
         )

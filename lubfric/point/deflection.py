@@ -1,0 +1,52 @@
+"""Which pressure deflects the film, as a level: its own where that is within the tolerance, else the whole load's.
+
+A film deflected by its own pressure alone is too thick by about what the undeformed cylinder rises over the Hertz strip, b²/(6R) on
+average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f was found to change by at most
+``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 575 random scenes of 60 MPa to 1.2 GPa with rise/gap up to 0.3
+err/(rise/gap) is at most 2.1 s and 1.1. Above, the estimate is only too large.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .. import budget
+from ..model import Model
+from .balance import Balance
+from .forces import Forces
+
+PER_SENSITIVITY, AT_MOST = 2.2, 1.2
+SENSIBLE = 0.3  # above it the estimate is no number to quote
+
+
+def strip_rise(scene, balance: Balance) -> float:
+    """b²/(6R) over the mean gap [-]; 0 without contact."""
+    if balance.contact_load == 0:
+        return 0.0
+    return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
+
+
+def own_pressure_error(scene, balance: Balance, found: Forces) -> float:
+    """Upper estimate of the relative change of f where the whole load deflects the film instead of its own pressure."""
+    return strip_rise(scene, balance) * min(PER_SENSITIVITY * found.sensitivity, AT_MOST)
+
+
+def allowed_error(model: Model) -> float:
+    """Its share of the tolerance on f."""
+    return budget.DEFLECTION * model.scene.numerics.tolerance
+
+
+def deflected_by(model: Model, option: str) -> Model:
+    """``model`` with its film deflected by the pressure that ``option`` names; contact and map are the same."""
+    return replace(model, scene=model.scene.with_(numerics={"film_deflection": option}))
+
+
+def in_words(error: float, limit: float, option: str) -> str:
+    """For `Decision.text`."""
+    if option == "hydrodynamic":
+        return f"deflection: by the film's own pressure, at most {100 * error:.2g} % of f < {100 * limit:.2g} % budget"
+    share = f"{100 * error:.2g} %" if error < SENSIBLE else "far more"
+    return (
+        "deflection: by the whole load (scaled modulus); by the film's own pressure alone f may be off by "
+        f"{share} > {100 * limit:.2g} % budget"
+    )
