@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .deterministic.takes import check_scene
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
@@ -49,6 +50,8 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
+    if scene.numerics.model == "deterministic":
+        check_scene(scene)
     if like is not None:
         return _another(scene, like)
     if surface is None:
