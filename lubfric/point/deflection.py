@@ -1,9 +1,9 @@
 """Which pressure deflects the film, as a level: its own where that is within the tolerance, else the whole load's.
 
 A film deflected by its own pressure alone is too thick by about what the undeformed cylinder rises over the Hertz strip, b²/(6R) on
-average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f was found to change by at most
-``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 575 random scenes of 60 MPa to 1.2 GPa with rise/gap up to 0.3
-err/(rise/gap) is at most 2.1 s and 1.1. Above, the estimate is only too large.
+average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f changes by at most about
+``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 1,233 random scenes of 60 MPa to 1.2 GPa, Sq 10 nm to 1 µm, the
+change was at most 0.97 times that where it is 0.2 to 5 %, and 0.44 % where it is below 0.5 %.
 """
 
 from __future__ import annotations
