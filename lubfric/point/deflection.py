@@ -12,10 +12,11 @@ from dataclasses import replace
 
 from .. import budget
 from ..model import Model
+from .adapt import Solved, solved
 from .balance import Balance
-from .forces import Forces
 
 PER_SENSITIVITY, AT_MOST = 2.2, 1.2
+CERTAIN = 3.0  # times the limit: a neighbour's error beyond which this point's is not looked at
 SENSIBLE = 0.3  # above it the estimate is no number to quote
 
 
@@ -26,14 +27,31 @@ def strip_rise(scene, balance: Balance) -> float:
     return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
 
 
-def own_pressure_error(scene, balance: Balance, found: Forces) -> float:
+def own_pressure_error(scene, balance: Balance) -> float:
     """Upper estimate of the relative change of f where the whole load deflects the film instead of its own pressure."""
-    return strip_rise(scene, balance) * min(PER_SENSITIVITY * found.sensitivity, AT_MOST)
+    return strip_rise(scene, balance) * min(PER_SENSITIVITY * balance.forces.sensitivity, AT_MOST)
 
 
-def allowed_error(model: Model) -> float:
-    """Its share of the tolerance on f."""
-    return budget.DEFLECTION * model.scene.numerics.tolerance
+def solved_as_deflected(
+    model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False
+) -> tuple[Model, Solved]:
+    """``model`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance needs it, and
+    its solution (`solved`). A neighbour ``start`` far beyond what its own pressure allows goes to the whole load at once."""
+    if model.scene.numerics.film_deflection != "auto":
+        return model, solved(model, speed, start, given_grid=given_grid)
+    limit, error, option = budget.DEFLECTION * model.scene.numerics.tolerance, 0.0, "hydrodynamic"
+    if start is not None and start.film is not None and start.film.e_prime < model.scene.bodies.e_prime:
+        error = own_pressure_error(model.scene, start)
+    if error <= CERTAIN * limit:
+        chosen = deflected_by(model, option)
+        found = solved(chosen, speed, start, given_grid=given_grid)
+        error = own_pressure_error(model.scene, found.balance)
+    if error > limit:
+        chosen, option = deflected_by(model, "scaled"), "scaled"
+        found = solved(chosen, speed, start, given_grid=given_grid)
+    shared = found.balance.film is not None and found.balance.contact_load > 0
+    told = in_words(error, limit, option) if shared else ""
+    return chosen, replace(found, decision=replace(found.decision, deflection=told))
 
 
 def deflected_by(model: Model, option: str) -> Model:
