@@ -8,7 +8,7 @@ from . import validate
 from .deterministic.answer import deterministic_result
 from .deterministic.point import deterministic_point
 from .model import Model, at_tolerance
-from .point.adapt import solved
+from .point.deflection import solved_as_deflected
 from .result import FrictionResult, result_of
 from .scene import Scene
 from .validity.entry import refused
@@ -47,8 +47,8 @@ def friction(
         found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
         result = deterministic_result(ready, speed, found, begun)
     else:
-        point = solved(ready, speed, start.balance if start else None, given_grid=fields)
-        result = result_of(ready, speed, point, begun)
+        chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
+        result = result_of(chosen, speed, point, begun)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, ready.scene.numerics.accept, result)
