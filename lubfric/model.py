@@ -57,20 +57,28 @@ def prepare(
     """
     if scene.numerics.model == "deterministic":
         check_scene(scene)
-    if like is not None:
-        return _another(scene, like)
-    levels, given = tuple(film_levels), surface is not None or contact is not None
+    levels = tuple(film_levels) if like is None else like.film_levels
     _check_levels(scene, levels)
+    if like is not None:
+        _check_likeness(scene, like.scene, surface, contact)
+        return _another(scene, like)
+    given = surface is not None or contact is not None
     if not given and takes_line(scene):
         return _on_a_line(scene, levels)
-    if surface is None:
-        surface = contact_map(scene)
-    else:
-        check_grid(scene, surface)
-    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
-        surface = surface.periodic("mirror", axes=(True, False))
-    made = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, made, levels, beforehand(scene, surface), given=given)
+    surface = contact_map(scene, surface)
+    contact = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+
+
+def _another(scene: Scene, like: Model) -> Model:
+    """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other cells."""
+    lines = None
+    if not like.given and (like.lines is not None or takes_line(scene)):
+        lines = like.lines.again(scene) if like.lines is not None and takes_line(scene) else None
+        if lines is None:
+            return prepare(scene, film_levels=like.film_levels)
+    contact = like.contact.again(scene, like.scene)
+    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
 
 
 def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Model:
@@ -95,15 +103,13 @@ def scene_of(scene: Scene | Model) -> Scene:
 def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
     """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    asked = scene_of(scene).with_(numerics=changed)
-    if not isinstance(scene, Model):
-        return prepare(asked)
-    return prepare(asked, like=scene) if asked != scene.scene else scene
+    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Model) else None
+    return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 
-def _another(scene: Scene, like: Model) -> Model:
-    """The model of another scene on the map and contact of ``like``."""
-    old = like.scene
+def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
+    if surface is not None or contact is not None:
+        raise InputError("like = a model brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("contact", scene.contact, old.contact),
@@ -112,28 +118,9 @@ def _another(scene: Scene, like: Model) -> Model:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
-    _check_levels(scene, like.film_levels)
-    if not like.given and (like.lines is not None or takes_line(scene)):
-        return _another_line(scene, like)
-    if not like.contact.nominally_flat:
-        check_grid(scene, like.surface)
-    contact = like.contact.again(scene, old)
-    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface))
 
 
-def _another_line(scene: Scene, like: Model) -> Model:
-    """The same lines, or others where the scene asks for another sampling or its strip for other cells."""
-    if like.lines is None or not takes_line(scene):
-        return prepare(scene, film_levels=like.film_levels)
-    lines = like.lines.again(scene)
-    if lines is None:
-        return _on_a_line(scene, like.film_levels)
-    check_grid(scene, like.surface)
-    contact = like.contact.again(scene, like.scene)
-    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
-
-
-def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:
+def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
     names = [level.name for level in levels]
     if not names:
         raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")

@@ -13,9 +13,9 @@ import numpy as np
 
 from . import __version__
 from .model import Model
+from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
 from .scene import scene_as_dict
-from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
@@ -111,8 +111,9 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
         "spacing": np.array(model.surface.spacing),
         "contact_x": model.contact.x,
     }
-    for i, point in enumerate(points):
-        film, contact = point.balance.film, point.balance.contact.fields
+    balances = [point.balance for point in points if point.balance is not None]
+    for i, balance in enumerate(balances):
+        film, contact = balance.film, balance.contact.fields
         if film is not None:
             arrays |= {
                 f"film_x_{i}": film.x,
@@ -127,7 +128,7 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
     """``arrays`` as a compressed ``.npz`` file."""
     file = io.BytesIO()
-    np.savez_compressed(file, **arrays)
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return file.getvalue()
 
 
@@ -144,9 +145,9 @@ def _statistics(surface) -> dict:
 
 def _point(curve: StribeckResult, index: int) -> dict:
     told = {"validity": [asdict(entry) for entry in curve.entries(index)]}
-    if curve.points[index] is None:
-        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     point = curve.points[index]
+    if point is None:
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     known = {
         "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
         "errors": asdict(point.errors),

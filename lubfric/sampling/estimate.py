@@ -38,7 +38,7 @@ def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, are
     ``area`` of the contact area, relative."""
     balance = point.balance
     volume = 2 * abs(volume_residual) * balance.contact.mean_film if balance.contact_load > 0 else 0.0
-    return Numerical(film_error(point), volume + grid_gap, point.forces.quadrature, area)
+    return Numerical(film_error(point), volume + grid_gap, point.balance.forces.quadrature, area)
 
 
 def film_error(point: Solved) -> float:
@@ -139,7 +139,7 @@ def uncertainty_of(
 
 def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a `LineFound`."""
-    found = line.point.forces
+    found = line.point.balance.forces
     rest = mean_of(line.grid, "rest", 0.0)
     area = mean_of(line.grid, "area_error", 0.0) / math.sqrt(max(len(line.grid), 1))
     numerical = numerical_errors(line.point, line.first.contact.volume_residual, rest, area)

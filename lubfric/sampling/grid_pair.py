@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..film.contract import Film
-from ..point.operating_point import pressed_under
+from ..point.operating_point import OperatingPoint
 from ..rough.contract import ContactState
 from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 from .pieces import thinned
@@ -55,12 +55,19 @@ def _ladder(factors) -> list[tuple[int, int]]:
 
 
 def grid_step(
-    lines, index: int, length: float, film: Film, contact_load: float, gap_slope: float, enough: float
+    lines,
+    index: int,
+    length: float,
+    point: OperatingPoint,
+    film: Film,
+    contact_load: float,
+    gap_slope: float,
+    enough: float,
 ) -> GridStep:
     """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no further than
     until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
 
-    ``film`` and ``contact_load`` [N] are the line's; gap_slope dG/dP [m²/N]. The change is averaged over
+    ``point``, ``film`` and ``contact_load`` [N] are the line's; gap_slope dG/dP [m²/N]. The change is averaged over
     blocks along y, each with its influence on the mean gap (`influence`).
     """
     scene, surface, steps = lines.scene, lines.pair(index, length), _ladder(lines.cells.factors)
@@ -69,7 +76,8 @@ def grid_step(
         if rest <= enough and surface.heights.size / math.prod(factors) > MOST_CELLS:
             break
         contact = thinned(scene, surface, lines.cells, factors)
-        state = contact.close(film.film_at(contact.x), contact_load, None, pressed_under(scene, film, contact.x))
+        thickness, under = point.imposed_on(contact, film)
+        state = contact.close(thickness, contact_load, None, under)
         rows.append(_by_row(contact, state, gap_slope, lines.cells.factors[1] // factors[1]))
         if len(rows) > 1:
             changes.append(float(np.mean(rows[-1].gap) - np.mean(rows[-2].gap)))

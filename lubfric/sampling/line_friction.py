@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 
 from ..model import Model
 from ..point.adapt import Solved, solved
-from ..point.balance import Balance, balanced, divided
-from ..point.forces import forces
-from ..point.operating_point import OperatingPoint, Settings
+from ..point.balance import Balance, balanced, divided, separated
+from ..point.deflection import solved_as_deflected
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
-from .at_split import ANY, at, quantities, redivided
+from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, mean_error, mean_of
 from .influence import BlockError, add_errors
 from .line_record import Pooled
@@ -71,11 +70,12 @@ class LineFound:
         return LineStart(self.first, self.used, self.grid)
 
 
-def line_friction(model: Model, speed: float, start: LineStart | None = None) -> LineFound:
+def line_friction(model: Model, speed: float, start: LineStart | None = None) -> tuple[Model, LineFound]:
     """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
-    ``numerics.sampling_tolerance``. ``start``: what was found of the same model at a neighbouring speed."""
+    ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found of the same
+    model at a neighbouring speed."""
     before = start.grid if start else ()
-    first = solved(model, speed, start.first if start else None, given_grid=True)
+    model, first = solved_as_deflected(model, speed, start.first if start else None, given_grid=True)
     sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
     while (length := sample.wanted()) > 0:
         length, contact, state = _next_line(sample, length, len(used), start)
@@ -87,7 +87,7 @@ def line_friction(model: Model, speed: float, start: LineStart | None = None) ->
             found = _on_line(sample, contact, state)
         sample = sample.with_line(contact, found, before)
         used = (*used, Used(length, contact, replace(found.balance.contact, fields=None)))
-    return replace(_found(sample), used=used)
+    return model, replace(_found(sample), used=used)
 
 
 def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
@@ -113,21 +113,18 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     anchor, scene = sample.anchor, sample.model.scene
     there = anchor.point.balance
     here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
-    settings = Settings(
-        there.level,
-        ANY,
-        LINE_VOLUME,
-        touching=here.contact_load > LIGHT * scene.bodies.load,
-        film_cells=there.film.cells,
-    )
+    point = at(sample.model, sample.speed, contact, there)
+    point = replace(point, settings=replace(point.settings, volume_tolerance=LINE_VOLUME))
+    if here.contact_load < LIGHT * scene.bodies.load:
+        alone = separated(point, here.film)
+        if alone.contact.volume_residual <= 0:
+            return Solved(alone, anchor.point.decision, contact)
     slope = -0.5 / (anchor.response.split * there.contact.mean_film)
-    start = replace(here, contact=state, slope=slope)
-    found = balanced(OperatingPoint(sample.model, sample.speed, contact, settings), start)
+    found = balanced(point, replace(here, contact=state, slope=slope))
     found.report.raise_if_failed(found)
     contact.check(found.contact)
-    if found.contact_load > 0:
-        found = replace(found, contact_load=found.moved(-found.contact.volume_residual / slope).contact_load)
-    return Solved(found, sample.first.forces, anchor.point.decision, contact)
+    corrected = found.moved(-found.contact.volume_residual / slope).contact_load
+    return Solved(replace(found, contact_load=corrected), anchor.point.decision, contact)
 
 
 def _found(sample: Sample) -> LineFound:
@@ -167,5 +164,4 @@ def _divided(sample: Sample, together: Pooled) -> Solved:
         real_contact_area_fraction=together.area_fraction * area,
         plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
     )
-    final = replace(final, contact=state)
-    return Solved(final, forces(scene, final), anchor.point.decision, anchor.contact)
+    return Solved(replace(final, contact=state), anchor.point.decision, anchor.contact)

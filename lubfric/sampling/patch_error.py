@@ -64,7 +64,8 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
 
 
 def _told(model, point: Solved, response, gap_error, there, why):
-    scene, found, balance = model.scene, point.forces, point.balance
+    scene, balance = model.scene, point.balance
+    found = balance.forces
     numerical = _numerical(point, response)
     relative, together = coefficient_error(numerical, found, response), pooled([there])
     known: dict[str, float] = {}
@@ -93,12 +94,12 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
     """Grid errors of f as errors of the gap, by the same response that carries them back."""
     balance, decision = point.balance, point.decision
     if response is None:
-        return Numerical(film_error(point), 0.0, point.forces.quadrature, 0.0)
+        return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
     volume = 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
     per_gap = response.relative("coefficient", 1.0)
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
     area = 0.0 if decision.grid_error is None else math.nan
-    return Numerical(film_error(point), volume + grid, point.forces.quadrature, area)
+    return Numerical(film_error(point), volume + grid, point.balance.forces.quadrature, area)
 
 
 def _from_slope(point: Solved) -> Response:
@@ -110,7 +111,7 @@ def _from_slope(point: Solved) -> Response:
     split = -0.5 / (slope * film)
     share = balance.contact_load / total
     rates = {
-        "coefficient": point.forces.sensitivity / abs(split * film),
+        "coefficient": point.balance.forces.sensitivity / abs(split * film),
         "contact_load": share - 1,
         "boundary_force": share - 1,
         "film_load": share,

@@ -9,7 +9,6 @@ from .. import budget
 from ..model import Model
 from ..point.adapt import Solved
 from ..point.balance import Balance, divided
-from ..point.operating_point import pressed_under
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, grid_step, mean_error
@@ -67,7 +66,7 @@ class Sample:
         """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and the length
         of all."""
         model, first = self.model, self.first
-        found = missed_share(model, first.balance.film, first.forces, model.lines.lengths[1])
+        found = missed_share(model, first.balance.film, first.balance.forces, model.lines.lengths[1])
         found = found if math.isfinite(found) else 0.0
         return found * length_of(model.contact) / sum(r.length for r in self.records)
 
@@ -110,14 +109,17 @@ class Sample:
 
 def _anchor(model, speed: float, contact, point: Solved, before) -> Anchor:
     response = response_of(model, speed, contact, point.balance)
-    return Anchor(contact, point, response, _grid(model, point.balance, response, before))
+    return Anchor(contact, point, response, _grid(model, speed, point, response, before))
 
 
 def response_of(model, speed: float, contact, balance: Balance) -> Response:
     """`Response` of a balance on ``contact``."""
     scene, film = model.scene, balance.film
-    thickness = contact.x**2 / (2 * scene.bodies.radius) if film is None else film.film_at(contact.x)
-    under = None if film is None else pressed_under(scene, film, contact.x)
+    if film is None:
+        thickness = under = contact.x**2 / (2 * scene.bodies.radius)
+    else:
+        point = at(model, speed, contact, balance)
+        thickness, under = point.imposed_on(contact, film)
 
     def close(load):
         return contact.close(thickness, load, balance.contact, under)
@@ -125,7 +127,6 @@ def response_of(model, speed: float, contact, balance: Balance) -> Response:
     slopes = slopes_of(balance.contact, balance.contact_load, scene.bodies.width, close)
     if film is None:
         return Response(slopes)
-    point = at(model, speed, contact, balance)
 
     def at_split(split):
         return quantities(point, redivided(point, balance, divided(scene.bodies.load, split)[1]))
@@ -133,10 +134,11 @@ def response_of(model, speed: float, contact, balance: Balance) -> Response:
     return respond(scene.bodies.width, balance, slopes, at_split)
 
 
-def _grid(model, balance: Balance, response: Response, before) -> tuple[GridStep, ...]:
+def _grid(model, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
     """Pieces on finer cells, until what they scatter by is a small part of the sampling tolerance; those of a
     neighbouring speed where the contact carries as much."""
-    lines, numerics, load = model.lines, model.scene.numerics, balance.contact_load
+    lines, numerics, balance = model.lines, model.scene.numerics, found.balance
+    load = balance.contact_load
     if lines.cells.factors == (1, 1) or balance.film is None:
         return ()
     if before and abs(load / before[0].contact_load - 1) < SAME_LOAD:
@@ -146,8 +148,8 @@ def _grid(model, balance: Balance, response: Response, before) -> tuple[GridStep
         budget.CONTACT_GRID * numerics.tolerance / per_gap,
         PAIR_SHARE * numerics.sampling_tolerance / per_gap,
     )
-    steps: list[GridStep] = []
+    steps, point = [], at(model, speed, found.contact, balance)
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
         length = PAIR * lines.lengths[1]
-        steps.append(grid_step(lines, len(steps), length, balance.film, load, response.slopes.gap, enough))
+        steps.append(grid_step(lines, len(steps), length, point, balance.film, load, response.slopes.gap, enough))
     return tuple(steps)

@@ -22,14 +22,14 @@ class Uncertainty:
     carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed (1: enough).
     """
 
-    numerical: float
-    sampling: float
-    interval: tuple[float, float]
-    line_scatter: float
-    participation: float
-    length: float
-    freedom: float
-    tolerance: float
+    numerical: float = math.nan
+    sampling: float = math.nan
+    interval: tuple[float, float] = (math.nan, math.nan)
+    line_scatter: float = math.nan
+    participation: float = math.nan
+    length: float = math.nan
+    freedom: float = 0.0
+    tolerance: float = math.nan
     area_needed: float = 1.0
     notes: tuple[str, ...] = ()
 
@@ -112,11 +112,11 @@ def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
     return FieldErrors(**found, reasons={name: why for name in FIELDS if name not in found})
 
 
-def not_sampled(coefficient: float, numerical: float | None, scene, length: float, why: str) -> Uncertainty:
+def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:
     """Where nothing is known of the surface beyond the ``length`` [m] that was solved, and ``why``."""
     error = math.nan if numerical is None else numerical
     asked = scene.numerics.sampling_tolerance
-    return Uncertainty(error, math.nan, (math.nan, math.nan), math.nan, math.nan, length, 0.0, asked, notes=(why,))
+    return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))
 
 
 def interval(value: float, numerical: float, sampling: float, freedom: float) -> tuple[float, float]:
