@@ -33,6 +33,13 @@ _HOME = {
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",
     "Transient": "history.plan",
+    "study": "studies",
+    "plan_study": "studies",
+    "open_study": "studies",
+    "sample": "studies",
+    "Between": "studies",
+    "StudyPlan": "studies",
+    "StudyResult": "studies",
     "stribeck": "sweep",
     "StribeckResult": "sweep",
 }

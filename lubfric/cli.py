@@ -4,26 +4,34 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 import time
 from pathlib import Path
 
+from .console import INTERRUPTED, Interrupted, interruptible, say
 from .errors import ConvergenceError, LubfricError
 
 OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
 
 
 def main(argv=None) -> int:
-    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input."""
+    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot
+    be written, 130 interrupted, 143 terminated."""
     arguments = _parser().parse_args(argv)
     try:
-        return arguments.command(arguments)
+        with interruptible():
+            return arguments.command(arguments)
     except ConvergenceError as error:
-        print(f"lubfric: {error}", file=sys.stderr)
+        say(f"lubfric: {error}")
         return 1
     except LubfricError as error:
-        print(f"lubfric: {error}", file=sys.stderr)
+        say(f"lubfric: {error}")
         return 2
+    except Interrupted as error:
+        say(f"lubfric: {error}")
+        return error.code
+    except KeyboardInterrupt:
+        say("lubfric: interrupted")
+        return INTERRUPTED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -47,6 +55,14 @@ def _parser() -> argparse.ArgumentParser:
     info.add_argument("scene")
     info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     info.set_defaults(command=_info)
+    study = commands.add_parser("study", help="vary anything in a scene: many points, kept as they end")
+    study.add_argument("study", help="TOML file that says what is varied")
+    study.add_argument("--out", type=Path, default=Path("study"), help="folder of the study (default: study)")
+    study.add_argument("--workers", type=int, default=1, help="processes that share the points (default: 1)")
+    study.add_argument("--explain", action="store_true", help="say points, predicted time and disk, and solve nothing")
+    study.add_argument("--netcdf", action="store_true", help="also write study.nc (needs the 'study' extra)")
+    study.add_argument("--parquet", action="store_true", help="also write study.parquet (needs the 'study' extra)")
+    study.set_defaults(command=_study)
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.set_defaults(command=_plot)
@@ -78,15 +94,15 @@ def _run(arguments) -> int:
     if scene.transient is not None:
         from .unsteady.command import run_history
 
-        return run_history(scene, arguments.out, arguments.animation, _say)
+        return run_history(scene, arguments.out, arguments.animation, say)
     speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
     speeds, chosen = _with_chosen(speeds, chosen)
     out = _folder(arguments.out)
     begun = time.perf_counter()
-    _say(f"{scene.name}: preparing the height map and the contact")
+    say(f"{scene.name}: preparing the height map and the contact")
     model = prepare(scene)
-    _say(model.surface.describe())
+    say(model.surface.describe())
     curve = stribeck(model, speeds, fields=chosen, on_point=_progress, raise_on_failure=False)
     write_csv(out / "stribeck.csv", curve)
     write_json(out / "result.json", model, curve, time.perf_counter() - begun)
@@ -101,14 +117,20 @@ def _run(arguments) -> int:
         plot_contact(out / "contact.png", model, points[0])
         written += ["fields.npz", "contact.png"]
     for note in sorted({n for p in curve.points if p is not None for n in p.report.notes if n.startswith("caution")}):
-        _say(note)
-    _say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
+        say(note)
+    say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
         raise ConvergenceError(
             f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
             curve.report,
         )
     return 0
+
+
+def _study(arguments) -> int:
+    from .studies.command import run_study
+
+    return run_study(arguments)
 
 
 def _info(arguments) -> int:
@@ -179,13 +201,9 @@ def _folder(path: Path) -> Path:
 
 def _progress(done, total, speed, outcome) -> None:
     if isinstance(outcome, Exception):
-        _say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
+        say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
     else:
-        _say(
+        say(
             f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
             f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
         )
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .errors import InputError
+from .oil.oil import Oil
+from .oil.temperature import checked_temperature
 from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -45,6 +47,7 @@ class Lubricant:
     temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at ambient
         pressure [1/K]; None: the heat of the film is not known
     conductivity : thermal, of the film [W/(m K)]
+    oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 
     Raises
     ------
@@ -61,6 +64,7 @@ class Lubricant:
     temperature: float | None = None
     temperature_coefficient: float | None = None
     conductivity: float = 0.13
+    oil: Oil | None = None
 
     def __post_init__(self):
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
@@ -84,7 +88,7 @@ class Lubricant:
             positive("limiting_stress_coefficient", self.limiting_stress_coefficient, "")
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
         if self.temperature is not None:
-            number("temperature", self.temperature, "K", minimum=200, maximum=600)
+            checked_temperature(self.temperature, "lubricant.temperature")
         if self.temperature_coefficient is not None:
             nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
         number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)

@@ -10,18 +10,13 @@ from .analytic import hertz
 from .errors import InputError
 from .history.plan import Transient
 from .lubricant import Lubricant
+from .plausible import told_slips
+from .short_forms import resolve, short_keys
 from .surface.prepare import FORMS
 from .surface.table import DECIMALS
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
-SHORT_FORMS = {  # of scene files, and the fields that stand for them
-    "surface_speeds": "entrainment_speed = (u1 + u2)/2 and slide_roll_ratio = 2 (u2 - u1)/(u1 + u2)",
-    "speed_range": "speeds",
-    "sliding_speed": "slide_roll_ratio, or sliding of the transient",
-    "young_modulus": "e_prime, see lubfric.analytic.hertz.composite_modulus",
-    "poisson_ratio": "e_prime, see lubfric.analytic.hertz.composite_modulus",
-}
 LARGEST = 2**26  # cells of a contact grid
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
@@ -41,6 +36,7 @@ class Bodies:
     radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
     e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
     contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
+    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away (steel).
     """
 
     radius: float
@@ -49,6 +45,8 @@ class Bodies:
     e_prime: float
     boundary_friction_coefficient: float
     hardness: float | None = None
+    conductivity: tuple[float, float] = (46.0, 46.0)
+    volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
 
     def __post_init__(self):
         validate.positive("bodies.radius", self.radius, "m", maximum=1e3)
@@ -63,6 +61,17 @@ class Bodies:
                     f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
                     f"{self.hardness * 2 * self.half_width * self.width:g} N"
                 )
+
+        for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
+            both = getattr(self, name)
+            if not isinstance(both, (tuple, list)) or len(both) != 2:
+                raise InputError(f"bodies.{name} = {both!r} must be a pair, one value a body [{unit}]")
+            object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
+
+    @property
+    def effusivity(self) -> tuple[float, float]:
+        """sqrt(k rho c) of both bodies [J/(m^2 K s^0.5)]."""
+        return tuple(math.sqrt(k * c) for k, c in zip(self.conductivity, self.volumetric_heat))
 
     @property
     def half_width(self) -> float:
@@ -268,7 +277,10 @@ class Scene:
     transient: Transient | None = None
 
     def with_(self, **sections) -> Scene:
-        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``."""
+        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``.
+
+        The short forms of scene files serve as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
+        """
         changed = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
@@ -288,13 +300,14 @@ def _changed(section: str, old, values):
         by_field = "a dict of its fields, or " if kind is not str and old is not None else ""
         shown = repr(values) if len(repr(values)) <= 60 else f"a {type(values).__name__}"
         raise InputError(f"{section} = {shown}; allowed: {by_field}a {kind.__name__}")
+    allowed = (*old.__dataclass_fields__, *short_keys(section))
     for key in values:
-        if key not in old.__dataclass_fields__:
-            hint = (
-                f": give {SHORT_FORMS[key]}" if key in SHORT_FORMS else validate.nearest(key, old.__dataclass_fields__)
+        if key not in allowed:
+            raise InputError(
+                f"{section} has no field {key!r}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
             )
-            raise InputError(f"{section} has no field {key!r}{hint}; allowed: {', '.join(old.__dataclass_fields__)}")
-    return replace(old, **values)
+    with told_slips(section, values):
+        return replace(old, **resolve(section, values, old))
 
 
 def scene_as_dict(scene: Scene) -> dict:

@@ -7,15 +7,14 @@ from dataclasses import MISSING, fields
 from importlib import resources
 from pathlib import Path
 
-import numpy as np
-
 from . import validate
-from .analytic.hertz import composite_modulus
 from .errors import InputError
 from .history.plan import Transient
 from .history.read import history
 from .lubricant import Lubricant
+from .plausible import told_slips
 from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
+from .short_forms import resolve, short_keys
 
 SECTIONS = {
     "bodies": Bodies,
@@ -26,9 +25,14 @@ SECTIONS = {
     "numerics": Numerics,
     "transient": Transient,
 }
-EXTRA_KEYS = {
-    "bodies": ("young_modulus", "poisson_ratio"),
-    "motion": ("surface_speeds", "speed_range", "sliding_speed"),
+INSTEAD = {  # of a missing key
+    (
+        "lubricant",
+        "viscosity",
+    ): " in Pa s, or an oil: grade and viscosity_index, or nu40 and nu100, with its temperature",
+    ("bodies", "e_prime"): " in Pa, or material, or young_modulus and poisson_ratio",
+    ("bodies", "radius"): " in m, or radii of both bodies",
+    ("bodies", "load"): " in N, or hertz_pressure in Pa",
 }
 OPTIONAL = ("contact", "numerics", "transient")
 GENERATED = ("sq", "correlation_length", "acf", "decay_level", "seed", "oversize")
@@ -150,52 +154,15 @@ def _known(where: str, table: dict, allowed) -> None:
 def _build(section: str, table: dict):
     kind = SECTIONS[section]
     names = [f.name for f in fields(kind)]
-    _known(f"[{section}]", table, (*names, *EXTRA_KEYS.get(section, ())))
-    if section == "bodies":
-        _modulus(table)
-    if section == "motion":
-        _speeds(table)
+    histories = ("sliding_speed",) if section == "motion" else ()
+    _known(f"[{section}]", table, (*names, *short_keys(section), *histories))
+    with told_slips(section, dict(table)):
+        return _made(section, kind, resolve(section, table))
+
+
+def _made(section: str, kind, table: dict):
+    """The section ``kind`` of plain fields."""
     for f in fields(kind):
         if f.default is MISSING and f.default_factory is MISSING and f.name not in table:
-            raise InputError(f"[{section}] needs {f.name!r}")
+            raise InputError(f"[{section}] needs {f.name!r}{INSTEAD.get((section, f.name), '')}")
     return kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in table.items()})
-
-
-def _modulus(table: dict) -> None:
-    """``young_modulus`` and ``poisson_ratio`` of both bodies instead of ``e_prime``."""
-    given = [k for k in ("young_modulus", "poisson_ratio") if k in table]
-    if not given:
-        return
-    if len(given) == 1 or "e_prime" in table:
-        raise InputError("[bodies] needs either e_prime, or both young_modulus and poisson_ratio (a pair each)")
-    e, nu = table.pop("young_modulus"), table.pop("poisson_ratio")
-    if not (isinstance(e, list) and isinstance(nu, list) and len(e) == len(nu) == 2):
-        raise InputError("bodies.young_modulus [Pa] and bodies.poisson_ratio [-] must be pairs, one value a body")
-    table["e_prime"] = composite_modulus(e[0], nu[0], e[1], nu[1])
-
-
-def _speeds(table: dict) -> None:
-    """``surface_speeds = [u1, u2]`` and ``speed_range = [low, high, count]`` as short forms."""
-    if "surface_speeds" in table:
-        if "entrainment_speed" in table or "slide_roll_ratio" in table:
-            raise InputError("[motion] takes surface_speeds, or entrainment_speed and slide_roll_ratio, not both")
-        pair = table.pop("surface_speeds")
-        if not isinstance(pair, list) or len(pair) != 2:
-            raise InputError(f"motion.surface_speeds = {pair!r} must be a pair [u1, u2] in m/s")
-        u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in pair)
-        if u1 + u2 == 0:
-            raise InputError("motion.surface_speeds sum to 0 m/s: give entrainment_speed = 0 and a slide_roll_ratio")
-        table["entrainment_speed"] = (u1 + u2) / 2
-        table["slide_roll_ratio"] = 2 * (u2 - u1) / (u1 + u2)
-    if not isinstance(table.get("speeds", []), list):
-        raise InputError(f"motion.speeds = {table['speeds']!r}; allowed: a list of numbers in m/s")
-    if "speed_range" in table:
-        if "speeds" in table:
-            raise InputError("[motion] takes speeds or speed_range, not both")
-        value = table.pop("speed_range")
-        if not isinstance(value, list) or len(value) != 3:
-            raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
-        low = validate.positive("motion.speed_range lowest", value[0], "m/s")
-        high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
-        count = validate.integer("motion.speed_range count", value[2], minimum=1)
-        table["speeds"] = [float(u) for u in np.geomspace(low, high, count)]

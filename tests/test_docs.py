@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from lubfric.scene_file import EXTRA_KEYS, SECTIONS
+from lubfric.scene_file import SECTIONS
+from lubfric.short_forms import short_keys
 
 ROOT = Path(__file__).parent.parent
 
@@ -14,7 +15,7 @@ ROOT = Path(__file__).parent.parent
 def test_every_scene_key_is_documented(section):
     text = (ROOT / "docs" / "scene.md").read_text()
     part = text.split(f"## [{section}]")[1].split("\n## ")[0]
-    for key in [f.name for f in fields(SECTIONS[section])] + list(EXTRA_KEYS.get(section, ())):
+    for key in [f.name for f in fields(SECTIONS[section])] + list(short_keys(section)):
         assert f"`{key}`" in part, f"[{section}] {key} is missing in docs/scene.md"
 
 

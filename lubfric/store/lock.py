@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from pathlib import Path
 
 from ..errors import InputError
@@ -16,6 +17,7 @@ except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
     fcntl = None
 
 NAME = ".lock"
+_HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
 
 
 class FolderLock:
@@ -47,9 +49,11 @@ class FolderLock:
         file.write(str(os.getpid()))
         file.flush()
         self._file = file
+        _HELD.add(self)
         return self
 
     def __exit__(self, *_) -> None:
+        _HELD.discard(self)
         self._file.close()
         self._file = None
 
@@ -60,3 +64,12 @@ def _take(file) -> None:
     else:
         file.seek(2**20)  # beyond what is written, so that others can read who holds it
         msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+
+
+def _drop_in_child() -> None:
+    for lock in list(_HELD):
+        lock.__exit__()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_drop_in_child)

@@ -15,11 +15,11 @@ HEAD = len(MARK) + 65
 PART = ".part"  # end of the name of a file that is being written
 
 
-def write_whole(path, content: bytes) -> None:
+def write_whole(path, content: bytes, *, sync: bool = True) -> None:
     """Replace ``path`` by ``content``: a reader, or whoever finds the folder after a kill, sees the old file or the new.
 
     A temporary file in the same folder is written, forced to the disk and renamed. Missing folders are made.
-    Raises `OutputError`, the old file untouched, when the disk is full or the folder is not writable.
+    ``sync=False`` leaves the forcing to the system, for what a loss of power may take. Raises `OutputError`, the old file untouched, when the disk is full or the folder is not writable.
     """
     path = Path(path)
     with saying(f"{path} was not written"):
@@ -28,19 +28,21 @@ def write_whole(path, content: bytes) -> None:
         try:
             with new.open("xb") as file:
                 file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
+                if sync:
+                    file.flush()
+                    os.fsync(file.fileno())
             os.replace(new, path)
         except BaseException:
             with suppress(OSError):
                 new.unlink()
             raise
-        sync_folder(path.parent)
+        if sync:
+            sync_folder(path.parent)
 
 
-def write_checked(path, content: bytes) -> None:
+def write_checked(path, content: bytes, *, sync: bool = True) -> None:
     """`write_whole`, with a checksum in front that `read_checked` asks for."""
-    write_whole(path, MARK + hashlib.sha256(content).hexdigest().encode() + b"\n" + content)
+    write_whole(path, MARK + hashlib.sha256(content).hexdigest().encode() + b"\n" + content, sync=sync)
 
 
 def read_checked(path) -> bytes | None:

@@ -1,0 +1,102 @@
+"""Likely slips: values far from what machines have, and the unit they may have been meant in.
+
+A value outside the usual range is no error: it gets a sentence that names the unit under which it would be usual. The ranges
+are wide: what line contacts of machines and test rigs have, with a margin of a few times on both sides.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from .errors import InputError
+
+MICRO, NANO, GIGA = 1e-6, 1e-9, 1e9
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Range of a quantity in SI, its unit, and units that are mistaken for it ("unit" or "unit|advice") with their factors."""
+
+    low: float
+    high: float
+    unit: str
+    others: tuple[tuple[str, float], ...] = ()
+
+    def holds(self, value: float) -> bool:
+        """True inside the range."""
+        return self.low <= abs(value) <= self.high
+
+
+USUAL = {
+    "bodies.radius": Usual(2e-4, 1.0, "m", (("mm", 1e-3), ("um", MICRO))),
+    "bodies.radii": Usual(2e-4, 3.0, "m", (("mm", 1e-3),)),
+    "bodies.width": Usual(1e-4, 1.0, "m", (("mm", 1e-3),)),
+    "bodies.load": Usual(1e-2, 1e6, "N", (("kN", 1e3), ("MN", 1e6))),
+    "bodies.e_prime": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
+    "bodies.young_modulus": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
+    "bodies.hertz_pressure": Usual(1e6, 5e9, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
+    "bodies.hardness": Usual(2e7, 5e10, "Pa", (("GPa", GIGA), ("HV|give hardness_hv", 10.58e6), ("MPa", 1e6))),
+    "bodies.boundary_friction_coefficient": Usual(0.0, 0.5, "-", (("%", 1e-2),)),
+    "lubricant.viscosity": Usual(3e-4, 5.0, "Pa s", (("mPa s|for mm²/s give grade, or nu40 and nu100", 1e-3),)),
+    "lubricant.nu40": Usual(1e-6, 5e-3, "m²/s", (("mm²/s", MICRO),)),
+    "lubricant.nu100": Usual(5e-7, 1e-3, "m²/s", (("mm²/s", MICRO),)),
+    "lubricant.pressure_viscosity_coefficient": Usual(1e-9, 8e-8, "1/Pa", (("1/GPa", NANO),)),
+    "lubricant.eyring_stress": Usual(3e5, 5e7, "Pa", (("MPa", 1e6),)),
+    "lubricant.limiting_stress_coefficient": Usual(0.01, 0.25, "-", (("%", 1e-2),)),
+    "lubricant.limiting_stress_offset": Usual(0.0, 5e7, "Pa", ()),
+    "lubricant.temperature": Usual(220, 500, "K", ()),
+    "lubricant.density": Usual(700, 1300, "kg/m³", (("g/cm³", 1e3),)),
+    "motion.entrainment_speed": Usual(0.0, 100.0, "m/s", (("mm/s", 1e-3),)),
+    "motion.slide_roll_ratio": Usual(0.0, 2.0, "-", (("%|give slip_percent", 1e-2),)),
+    "surface.sq": Usual(5e-10, 2e-5, "m", (("um", MICRO), ("nm", NANO))),
+    "surface.correlation_length": Usual(1e-8, 2e-3, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
+    "surface.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
+    "contact.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
+}
+NOUGHT = ("bodies.boundary_friction_coefficient", "motion.entrainment_speed", "motion.slide_roll_ratio", "surface.sq")
+
+
+def slip(name: str, value) -> str | None:
+    """What ``value`` of the key ``name`` (section.key) may have been meant as, or None: usual, or nothing fits."""
+    usual = USUAL.get(name)
+    numbers = value if isinstance(value, (list, tuple)) else (value,)
+    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool)]
+    strange = [v for v in numbers if usual and v == v and abs(v) != float("inf") and not usual.holds(v)]
+    if not strange or (strange[0] == 0 and name in NOUGHT):
+        return None
+    v = strange[0]
+    for unit, factor in usual.others:
+        if usual.holds(v * factor):
+            name, _, advice = unit.partition("|")
+            return f"{name} meant? {v:g} {name} = {v * factor:g} {usual.unit}{advice and '; ' + advice}"
+    return ""
+
+
+def doubts(scene) -> tuple[str, ...]:
+    """A sentence for each value of a scene outside its usual range, with the likely slip."""
+    found = []
+    for name, usual in USUAL.items():
+        section, key = name.split(".")
+        value = getattr(getattr(scene, section), key, None)
+        meant = None if value is None else slip(name, value)
+        if meant is None or (name.endswith("pressure_viscosity_coefficient") and value == 0):
+            continue
+        shown = f"{value:g}" if isinstance(value, (int, float)) else str(value)
+        usually = f"usually {usual.low:g} to {usual.high:g}"
+        found.append(f"{name} = {shown} {usual.unit} is unusual ({usually}){'; ' + meant if meant else ''}")
+    return tuple(found)
+
+
+@contextmanager
+def told_slips(section: str, values: dict):
+    """An `InputError` about one of ``values`` leaves with the likely slip, where one fits, at the end of its message."""
+    try:
+        yield
+    except InputError as error:
+        text = str(error)
+        for key, value in values.items():
+            meant = slip(f"{section}.{key}", value)
+            if meant and meant not in text and any(f"{key}{sign}" in text for sign in (" = ", "[", " has ", " x ")):
+                raise InputError(f"{text}; {meant}") from None
+        raise

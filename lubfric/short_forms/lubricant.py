@@ -1,0 +1,100 @@
+"""[lubricant]: an oil at a temperature instead of its viscosity and pressure-viscosity coefficient."""
+
+from __future__ import annotations
+
+from ..errors import InputError
+from ..oil import Oil, from_grade, from_table, from_viscosities, named_oil, viscosity_at_100
+from ..oil.temperature import CELSIUS, checked_temperature
+from .pairs import only_one, pair, together
+
+SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
+PROPERTIES = ("base", "density", "density_slope", "alpha_estimate")  # of the oil, beside alpha and conductivity
+KEYS = (*SOURCES[:-1], "temperature_celsius", *PROPERTIES)
+AT_40 = 40 + CELSIUS
+
+
+def resolve(given: dict, old) -> dict:
+    """From an oil (``grade`` with ``viscosity_index``; ``nu40`` and ``nu100`` [m²/s]; ``viscosity_table``, pairs of K and m²/s;
+    ``oil``, a name of `lubfric.oil.oil_names` or an `Oil`) at ``temperature`` [K] or ``temperature_celsius``: viscosity, pressure-viscosity
+    coefficient (as given, else estimated) and temperature coefficient."""
+    only_one("lubricant", given, "temperature", "temperature_celsius")
+    if "temperature_celsius" in given:
+        given["temperature"] = _kelvin(given.pop("temperature_celsius"))
+    before = getattr(old, "oil", None)
+    if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
+        if before is None:
+            return given
+        if "viscosity" in given:
+            return {"oil": None} | given
+        if not {"temperature", "pressure_viscosity_coefficient"} & set(given):
+            return given
+    if "viscosity" in given:
+        raise InputError(
+            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; allowed: one of them"
+        )
+    oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
+    changed = {key: given.pop(key) for key in PROPERTIES if key in given}
+    if "alpha_estimate" in changed:
+        changed["estimate"] = changed.pop("alpha_estimate")
+    if "pressure_viscosity_coefficient" in given:
+        changed["alpha"] = given.pop("pressure_viscosity_coefficient")
+    if "conductivity" in given:
+        changed["conductivity"] = given.pop("conductivity")
+    temperature = given.pop("temperature", getattr(old, "temperature", None))
+    if temperature is None:
+        raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
+    return given | fields_of(oil.with_(**changed), temperature)
+
+
+def fields_of(oil: Oil, temperature: float) -> dict:
+    """Fields of a `Lubricant` of ``oil`` at ``temperature`` [K]."""
+    temperature = checked_temperature(temperature, "lubricant.temperature")
+    return {
+        "viscosity": oil.viscosity(temperature),
+        "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient(temperature).value,
+        "temperature": temperature,
+        "temperature_coefficient": oil.temperature_coefficient(temperature),
+        "conductivity": oil.thermal_conductivity,
+        "oil": oil,
+    }
+
+
+def _kelvin(celsius) -> float:
+    if isinstance(celsius, (int, float)) and celsius > 250:
+        raise InputError(
+            f"lubricant.temperature_celsius = {celsius:g} °C; allowed: up to 250 °C (K were meant? temperature)"
+        )
+    if not isinstance(celsius, (int, float)) or isinstance(celsius, bool):
+        raise InputError(f"lubricant.temperature_celsius = {celsius!r} is not a number; allowed: -70 to 250 °C")
+    return celsius + CELSIUS
+
+
+def _oil(source: dict, before: Oil | None) -> Oil:
+    """The oil that ``source`` names, with the properties of the one ``before``; some of it may be left as it was."""
+    only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
+    kept = _kept(before)
+    if "oil" in source:
+        return source["oil"] if isinstance(source["oil"], Oil) else named_oil(source["oil"])
+    if "viscosity_table" in source:
+        rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in source["viscosity_table"]]
+        return from_table(*zip(*rows), **kept)
+    if together("lubricant", source, "nu40", "nu100"):
+        return from_viscosities(source["nu40"], source["nu100"], **kept)
+    if "grade" in source:
+        index = source.get("viscosity_index", before.index if before else None)
+        if index is None:
+            raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
+        return from_grade(source["grade"], index, **kept)
+    if before is None:
+        key = next(iter(source), "base, density or another property")
+        raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
+    if "viscosity_index" in source:
+        nu40 = before.kinematic_viscosity(AT_40)
+        return from_viscosities(nu40, viscosity_at_100(nu40, source["viscosity_index"]), **kept)
+    return before
+
+
+def _kept(oil: Oil | None) -> dict:
+    if oil is None:
+        return {}
+    return {key: getattr(oil, key) for key in ("base", "density", "density_slope", "alpha", "estimate", "conductivity")}

@@ -1,0 +1,41 @@
+"""[motion]: speeds of the two surfaces, slip in percent, a range of speeds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from .pairs import only_one, pair
+
+KEYS = ("surface_speeds", "slip_percent", "speed_range")
+
+
+def resolve(given: dict, old) -> dict:
+    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio in
+    percent; ``speed_range = [lowest, highest, count]``, geometric."""
+    only_one("motion", given, "surface_speeds", "entrainment_speed")
+    only_one("motion", given, "surface_speeds", "slide_roll_ratio", "slip_percent")
+    only_one("motion", given, "speeds", "speed_range")
+    if "surface_speeds" in given:
+        numbers = pair("motion.surface_speeds", given.pop("surface_speeds"), "m/s")
+        u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in numbers)
+        if u1 + u2 == 0:
+            raise InputError("motion.surface_speeds sum to 0 m/s: give entrainment_speed = 0 and a slide_roll_ratio")
+        given |= {"entrainment_speed": (u1 + u2) / 2, "slide_roll_ratio": 2 * (u2 - u1) / (u1 + u2)}
+    if "slip_percent" in given:
+        given["slide_roll_ratio"] = validate.number("motion.slip_percent", given.pop("slip_percent"), "%") / 100
+    if not isinstance(given.get("speeds", ()), (list, tuple, np.ndarray)):
+        raise InputError(f"motion.speeds = {given['speeds']!r}; allowed: a list of numbers in m/s")
+    if "speed_range" in given:
+        given["speeds"] = _speeds(given.pop("speed_range"))
+    return given
+
+
+def _speeds(value) -> tuple[float, ...]:
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
+    low = validate.positive("motion.speed_range lowest", value[0], "m/s")
+    high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
+    count = validate.integer("motion.speed_range count", value[2], minimum=1)
+    return tuple(float(u) for u in np.geomspace(low, high, count))

@@ -1,0 +1,95 @@
+"""Speeds solved one after the other, each started from its neighbour: the smallest piece of work that is handed out."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from ..errors import LubfricError
+from ..mixed import FrictionResult, Model, friction
+from ..store import digest
+from .journal import Journal
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Entrainment ``speeds`` [m/s] in the order in which they are solved, and the ``key`` of each point.
+
+    A key is a hash of all that its point depends on: the input and, as every start depends on the point before it, the
+    whole chain up to there. ``fields``: whether film and contact of the point are kept.
+    """
+
+    speeds: tuple[float, ...]
+    keys: tuple[str, ...]
+    fields: tuple[bool, ...]
+
+    @property
+    def name(self) -> str:
+        """Of its state in a journal."""
+        return self.keys[-1]
+
+
+def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
+    """The chain of ``speeds`` for an input of that ``fingerprint`` (`lubfric.store.fingerprint`)."""
+    speeds = tuple(float(u) for u in speeds)
+    kept = (False,) * len(speeds) if fields is None else tuple(bool(f) for f in fields)
+    keys, last = [], fingerprint
+    for speed, keep in zip(speeds, kept):
+        last = digest([last, speed, keep])
+        keys.append(last)
+    return Chain(speeds, tuple(keys), kept)
+
+
+def run_chain(
+    model: Model, chain: Chain, journal: Journal | None = None, done: int = 0
+) -> Iterator[tuple[int, object]]:
+    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in ``journal`` first.
+
+    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program and
+    goes through. The results are the same to the last bit wherever an earlier run was cut.
+    """
+    start, parent = None, os.getppid()
+    if journal is not None and done:
+        start, caught_up = _start(model, chain, journal, done)
+        yield from caught_up
+        done += len(caught_up)
+    for index in range(done, len(chain.speeds)):
+        outcome = _solved(model, chain, index, start)
+        start = outcome if continues(outcome) else None
+        if os.getppid() != parent:  # who asked for it is dead, and may have been started again
+            return
+        if journal is not None:
+            journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
+        yield (
+            index,
+            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
+        )
+    if journal is not None:
+        journal.end(chain.name)
+
+
+def continues(outcome) -> bool:
+    """A neighbour can start from it."""
+    return isinstance(outcome, FrictionResult) and outcome.balance is not None and outcome.balance.film is not None
+
+
+def _solved(model, chain, index, start):
+    try:
+        return friction(model, chain.speeds[index], start=start, fields=chain.fields[index])
+    except LubfricError as error:
+        return error
+
+
+def _start(model, chain, journal, done) -> tuple[FrictionResult | None, list]:
+    """The start of the next point, and the point whose record a kill had left out, if there was one."""
+    key, outcome = journal.state(chain.name)
+    caught_up = []
+    if done < len(chain.keys) and key == chain.keys[done]:
+        journal.keep(chain.name, key, outcome, chain.fields[done])
+        caught_up.append((done, outcome))
+    elif key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
+        outcome = None
+        for index in range(done):
+            outcome = _solved(model, chain, index, outcome if continues(outcome) else None)
+    return (outcome if continues(outcome) else None), caught_up

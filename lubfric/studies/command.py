@@ -1,0 +1,76 @@
+"""``lubfric study``: a study file carried out into a folder."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from .. import validate
+from ..console import keeping, put, say
+from ..errors import ConvergenceError
+from ..report import ITERATION_LIMIT, Report
+from .file import load_study
+from .pool import pool
+from .result import StudyResult, open_study
+from .run import study
+from .tables import to_netcdf
+
+SAY_EVERY = 1.0  # s between two lines of progress
+
+
+def run_study(arguments) -> int:
+    """Plan, solve and write study.csv (and study.nc, study.parquet); returns the exit code."""
+    import sys
+
+    workers = validate.integer("--workers", arguments.workers, minimum=1)
+    validate.number("--workers", workers, "processes", maximum=1024)
+    plan = load_study(arguments.study)
+    if arguments.explain:
+        put(sys.stdout, plan.explain() + "\n")
+        return 0
+    say(plan.explain())
+    begun = time.perf_counter()
+    with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
+        result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
+    written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
+    say(f"wrote {', '.join(written)} to {arguments.out} in {time.perf_counter() - begun:.1f} s")
+    if result.failed:
+        first = next(status for status in result.status.flat if status != "converged")
+        report = Report("study", ITERATION_LIMIT, result.status.size - result.failed, float("inf"), 0.0)
+        raise ConvergenceError(f"{result.failed} of {result.status.size} points failed; first: {first}", report, result)
+    return 0
+
+
+def write_tables(result: StudyResult, folder: Path, netcdf: bool, parquet: bool) -> list[str]:
+    """study.csv, and what else is asked for; their names."""
+    result.to_csv(folder / "study.csv")
+    written = ["study.csv"]
+    if netcdf:
+        to_netcdf(result, folder / "study.nc")
+        written.append("study.nc")
+    if parquet:
+        result.to_parquet(folder / "study.parquet")
+        written.append("study.parquet")
+    return written
+
+
+def _kept(folder) -> str:
+    if not (Path(folder) / "study.json").is_file():
+        return "interrupted before the first point"
+    found = open_study(folder)
+    done = found.status.size - found.missing
+    return (
+        f"interrupted; {done} of {found.status.size} points are kept in {folder}: the same command goes on from there"
+    )
+
+
+def _progress(begun: float):
+    last = [begun]
+
+    def on_progress(done: int, total: int) -> None:
+        now = time.perf_counter()
+        if done == total or now - last[0] > SAY_EVERY:
+            last[0] = now
+            say(f"[{done}/{total}] {now - begun:.0f} s")
+
+    return on_progress

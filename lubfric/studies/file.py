@@ -1,0 +1,128 @@
+"""Studies as TOML: strict reading."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..scene_file import load_scene
+from .plan import StudyPlan, plan_study
+from .vary import Between, sample
+
+KEYS = ("scene", "speeds", "speed_range", "vary", "together", "sample")
+SAMPLE_KEYS = ("count", "sampler", "seed")
+
+
+def load_study(path) -> StudyPlan:
+    """The plan in a study file: ``scene`` (a file relative to it, or a built-in one), ``speeds`` or ``speed_range`` in m/s,
+    [vary] keys with lists of values, [[together]] keys whose lists go together, [sample] keys with {low, high, scale}
+    and count, sampler, seed.
+
+    Raises `InputError` for anything else, naming the nearest valid key.
+    """
+    path = Path(path)
+    table = _table(path)
+    for key in table:
+        if key not in KEYS:
+            raise InputError(
+                f"unknown key {key!r} in {path.name}{validate.nearest(key, KEYS)}; allowed: {', '.join(KEYS)}"
+            )
+    name = table.get("scene")
+    if not isinstance(name, str):
+        raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
+    beside = path.parent / name
+    scene = load_scene(beside if beside.is_file() else name)
+    vary = _flat(table.get("vary", {}), "vary", path.parent)
+    together = table.get("together", [])
+    for group in together if isinstance(together, list) else [together]:
+        lists = _flat(group, "together", path.parent)
+        if len({len(values) for values in lists.values()}) != 1:
+            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {_lengths(lists)}")
+        vary[tuple(lists)] = list(zip(*lists.values()))
+    if "sample" in table:
+        vary |= _sampled(table["sample"], path)
+    return plan_study(scene, vary, _speeds(table))
+
+
+def _table(path: Path) -> dict:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"study {str(path)!r} cannot be read: {getattr(error, 'strerror', error)}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"study {path} is not valid TOML: {error}") from None
+
+
+def _flat(table, where: str, folder: Path) -> dict[str, list]:
+    """{"section.key": list}, from ``"section.key" = [...]`` or ``section.key = [...]``; files relative to ``folder``."""
+    if not isinstance(table, dict):
+        raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
+    found = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            found |= {f"{key}.{inner}": v for inner, v in value.items()}
+        else:
+            found[key] = value
+    for key, values in found.items():
+        if not isinstance(values, list):
+            raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
+    if "surface.file" in found:
+        found["surface.file"] = [_beside(folder, name) for name in found["surface.file"]]
+    for part in found.get("surface", []):
+        if isinstance(part, dict) and "file" in part:
+            part["file"] = _beside(folder, part["file"])
+    return found
+
+
+def _beside(folder: Path, name) -> str:
+    path = (folder / str(name)).resolve()
+    if not path.is_file():
+        raise InputError(f"surface.file = {name!r}: no such file in {folder}")
+    return str(path)
+
+
+def _lengths(lists: dict) -> str:
+    return ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
+
+
+def _sampled(table, path: Path) -> dict:
+    if not isinstance(table, dict):
+        raise InputError("[sample] must be a table")
+    options = {key: table[key] for key in SAMPLE_KEYS if key in table}
+    if "count" not in options:
+        raise InputError(f"[sample] of {path.name} needs count, the number of points")
+    ranges = {}
+    for key, value in table.items():
+        if key in SAMPLE_KEYS:
+            continue
+        inner = value if isinstance(value, dict) and "low" not in value else {"": value}
+        for field, given in inner.items():
+            if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
+                raise InputError(
+                    f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}"
+                )
+            ranges[f"{key}.{field}" if field else key] = Between(**given)
+    if len(ranges) == 1:
+        ((key, only),) = ranges.items()
+        return {key: [value for (value,) in sample([only], **options)]}
+    return {tuple(ranges): sample(ranges.values(), **options)}
+
+
+def _speeds(table: dict):
+    if "speed_range" not in table:
+        return table.get("speeds")
+    if "speeds" in table:
+        raise InputError("a study takes speeds or speed_range, not both")
+    value = table["speed_range"]
+    if not isinstance(value, list) or len(value) != 3:
+        raise InputError(f"speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
+    low = validate.positive("speed_range lowest", value[0], "m/s")
+    high = validate.number("speed_range highest", value[1], "m/s", above=low)
+    count = validate.integer("speed_range count", value[2], minimum=1)
+    if count > 10**6:
+        raise InputError(f"speed_range count = {count}; allowed: up to 1000000")
+    return np.geomspace(low, high, count)

@@ -1,0 +1,135 @@
+"""Every point of a study laid out before the first is solved: curves, chains, and batches that share a height map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..mixed import scene_of
+from ..scene import Scene
+from ..store import fingerprint
+from .chain import Chain, make_chain
+from .vary import Axis, axes_of
+
+CHAIN = 25  # points at most that are solved one after the other
+BATCH = 50  # points at least, where curves that share a map are solved by one process
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The speeds of one combination of values. ``index``: its position along each axis."""
+
+    index: tuple[int, ...]
+    scene: Scene
+    chains: tuple[Chain, ...]
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Curves that one process solves on one height map. ``leader``: the scene whose model the others are made like."""
+
+    leader: Scene
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True)
+class StudyPlan:
+    """All of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it out.
+
+    The chains depend on the values and speeds alone, never on how many processes share the work, so that every executor
+    gives the same bits.
+    """
+
+    scene: Scene
+    axes: tuple[Axis, ...]
+    speeds: tuple[float, ...]
+    batches: tuple[Batch, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the results: the axes, then the speeds."""
+        return (*(len(axis.values) for axis in self.axes), len(self.speeds))
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return int(np.prod(self.shape))
+
+    def keys(self) -> np.ndarray:
+        """Key of each point, an array of ``shape``."""
+        found = np.empty(self.shape, dtype=object)
+        at = {speed: i for i, speed in enumerate(self.speeds)}
+        for batch in self.batches:
+            for curve in batch.curves:
+                for chain in curve.chains:
+                    for speed, key in zip(chain.speeds, chain.keys):
+                        found[(*curve.index, at[speed])] = key
+        return found
+
+    def explain(self) -> str:
+        """Points, what they share, predicted cost and disk, in words."""
+        from .explain import explain
+
+        return explain(self)
+
+
+def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
+    """The `StudyPlan` of `lubfric.study`, with its arguments; nothing is solved."""
+    if scene_of(scene) is not scene:
+        raise InputError("a study varies a scene; allowed: what lubfric.load_scene returned, not a model of it")
+    axes = axes_of(scene, {} if vary is None else vary)
+    if speeds is None:
+        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if np.unique(speeds).size < speeds.size:
+        raise InputError("speeds hold a value twice; allowed: each once, in m/s")
+    scenes = {}
+    for index in product(*(range(len(axis.values)) for axis in axes)):
+        varied = scene
+        for axis, i in zip(axes, index):
+            varied = axis.apply(varied, i)
+        scenes[index] = replace(varied, transient=None)
+    speeds = tuple(float(u) for u in speeds)
+    return StudyPlan(scene, axes, speeds, tuple(_batches(scenes, speeds)))
+
+
+def _batches(scenes: dict, speeds: tuple[float, ...]):
+    """Curves of the same map together, in pieces that fix who is solved beside whom."""
+    groups, maps = {}, {}
+    for index, scene in scenes.items():
+        groups.setdefault(_shared(scene), []).append((index, scene))
+    for group in groups.values():
+        leader = max((scene for _, scene in group), key=lambda scene: scene.bodies.mean_hertz_pressure)
+        size = len(group) if by_curve(leader) else max(1, -(-BATCH // len(speeds)))
+        curves = [_curve(index, scene, leader, speeds, maps) for index, scene in group]
+        for first in range(0, len(curves), size):
+            piece = tuple(curves[first : first + size])
+            yield Batch(leader if by_curve(leader) else piece[0].scene, piece)
+
+
+def _curve(index, scene, leader, speeds, maps) -> Curve:
+    order = sorted(speeds, key=lambda u: -abs(u))
+    pieces = np.array_split(np.array(order), -(-len(order) // CHAIN))
+    rough = maps.setdefault(repr(scene.surface), None) or fingerprint(scene.surface)
+    maps[repr(scene.surface)] = rough
+    parts = [scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, scene.contact, scene.numerics, rough]
+    if by_curve(leader):  # the contact curve reaches to the heaviest load of the group
+        parts.append(leader.bodies)
+    whole = fingerprint(*parts)
+    return Curve(index, scene, tuple(make_chain(whole, piece) for piece in pieces))
+
+
+def by_curve(scene: Scene) -> bool:
+    """Its contact is read from one periodic contact curve."""
+    return scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
+
+
+def _shared(scene: Scene) -> str:
+    """Scenes of which this is equal can use each other's map and operator or curve."""
+    bodies, numerics = scene.bodies, scene.numerics
+    cut = bodies.half_width if scene.surface.file is not None and scene.contact.shape is None else 0.0
+    return repr((scene.surface, scene.contact, bodies.e_prime, bodies.hardness, numerics, cut))

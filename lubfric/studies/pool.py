@@ -1,0 +1,44 @@
+"""The processes of a command: they end with it, whatever ends it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+
+WATCH = 0.2  # s between two looks at whether the command still lives
+
+
+@contextmanager
+def pool(workers: int):
+    """An executor of ``workers`` processes, or None for one: this process itself."""
+    if workers == 1:
+        yield None
+        return
+    executor = ProcessPoolExecutor(workers, initializer=_follow, initargs=(os.getpid(),))
+    try:
+        yield executor
+    except BaseException:
+        executor.shutdown(wait=False, cancel_futures=True)
+        for process in multiprocessing.active_children():
+            process.terminate()
+        raise
+    executor.shutdown()
+
+
+def _follow(parent: int) -> None:
+    """In a worker: leave Ctrl-C to the command, and end when it is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+    def watch():
+        while os.getppid() == parent:
+            time.sleep(WATCH)
+        os._exit(1)
+
+    if os.getppid() == parent:  # not where workers are started by a server of their own
+        threading.Thread(target=watch, daemon=True).start()

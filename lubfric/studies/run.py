@@ -1,0 +1,140 @@
+"""`study`: a plan carried out on any executor, kept point by point."""
+
+from __future__ import annotations
+
+import json
+import os
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+
+from ..errors import InputError, LubfricError
+from ..mixed import prepare
+from ..scene import Scene
+from ..store import FolderLock, write_whole
+from ..store.whole import clear_parts
+from .chain import Chain, run_chain
+from .journal import Journal, record_of
+from .plan import Batch, StudyPlan, plan_study
+from .result import PLAN, StudyResult, plan_as_dict
+from .row import row_of
+from .spread import spread
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A batch as it is handed out. ``folder`` of the store, or None; ``done``: finished points by name of the chain."""
+
+    batch: Batch
+    folder: str | None
+    done: dict[str, int] = field(default_factory=dict)
+
+    def left(self, chain: Chain) -> bool:
+        """Whether points of ``chain`` remain to be solved."""
+        return self.done.get(chain.name, 0) < len(chain.keys)
+
+
+def study(
+    scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
+) -> StudyResult:
+    """Friction of ``scene`` at every combination of the values in ``vary`` and every entrainment speed.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points, cost and disk
+    vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for keys
+        that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...}, {...}]} for
+        whole sections, such as several height maps
+    speeds : entrainment speeds [m/s]; None: those of the scene
+    executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
+        ``mpi4py.futures.MPIPoolExecutor``); chains of warm starts are fixed by the plan: all give the same bits
+    store : folder that receives every finished point at once; the same study goes on from there, computing nothing
+        twice. On a cluster all processes must see it
+    on_progress : called as on_progress(done, total) when points have ended
+
+    A point that fails is a row with its error as its status; the others are solved. Raises `InputError` before any work,
+    and at the end faults of the program as they are. Returns a `StudyResult`.
+    """
+    plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
+    if plan is scene and (vary is not None or speeds is not None):
+        raise InputError("vary and speeds belong to the plan; allowed: a scene with them, or a plan alone")
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+    with ExitStack() as stack:
+        if store is not None:
+            stack.enter_context(FolderLock(store))
+            clear_parts(store)
+            write_whole(os.path.join(store, PLAN), json.dumps(plan_as_dict(plan), indent=1).encode())
+        return _carried_out(plan, executor, store, on_progress)
+
+
+def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
+    folder = None if store is None else os.path.abspath(store)
+    known = {} if store is None else _rows(folder)
+    pieces = [_piece(batch, folder, known) for batch in plan.batches]
+    pieces = [piece for piece in pieces if any(piece.left(chain) for chain in _chains(piece.batch))]
+    done = sum(key in known for key in plan.keys().flat)
+
+    def again(piece: Piece) -> Piece:
+        if folder is None:
+            return piece
+        known.update(_rows(folder))  # what the lost worker had finished
+        return _piece(piece.batch, folder, known)
+
+    if on_progress:
+        on_progress(done, plan.points)
+    for rows in spread(executor, run_piece, pieces, again):
+        known.update(rows)
+        if on_progress:
+            on_progress(sum(key in known for key in plan.keys().flat), plan.points)
+    return StudyResult.of_rows(plan_as_dict(plan), known)
+
+
+def _rows(folder) -> dict[str, dict]:
+    return {key: row_of(record) for key, record in Journal(folder).records.read()}
+
+
+def _piece(batch: Batch, folder, known) -> Piece:
+    done = {}
+    for chain in _chains(batch):
+        count = 0
+        while count < len(chain.keys) and chain.keys[count] in known:
+            count += 1
+        done[chain.name] = count
+    return Piece(batch, folder, done)
+
+
+def _chains(batch: Batch):
+    return [chain for curve in batch.curves for chain in curve.chains]
+
+
+def run_piece(piece: Piece) -> dict[str, dict]:
+    """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
+    journal = None if piece.folder is None else Journal(piece.folder)
+    rows, leader = {}, None
+    try:
+        for curve in piece.batch.curves:
+            chains = [chain for chain in curve.chains if piece.left(chain)]
+            if not chains:
+                continue
+            try:
+                leader = leader or prepare(piece.batch.leader)
+                model = leader if curve.scene == piece.batch.leader else prepare(curve.scene, like=leader)
+            except LubfricError as error:
+                for chain in chains:
+                    rows |= _all_failed(chain, error, journal, piece.done.get(chain.name, 0))
+                continue
+            for chain in chains:
+                for index, outcome in run_chain(model, chain, journal, piece.done.get(chain.name, 0)):
+                    rows[chain.keys[index]] = row_of(record_of(outcome))
+    finally:
+        if journal is not None:
+            journal.close()
+    return rows
+
+
+def _all_failed(chain: Chain, error: LubfricError, journal, done: int) -> dict[str, dict]:
+    record = record_of(error)
+    for key in chain.keys[done:]:
+        if journal is not None:
+            journal.records.add(key, record)
+    return dict.fromkeys(chain.keys[done:], row_of(record))

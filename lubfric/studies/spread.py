@@ -1,0 +1,49 @@
+"""Pieces of work on any executor: what a lost worker leaves undone is done again, faults of the program go through."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, as_completed
+
+
+def spread(executor, work: Callable, pieces: list, again: Callable | None = None) -> Iterator:
+    """Yield ``work(piece)`` for every piece, as they end.
+
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable and catch
+    what a piece may rightly raise. An exception out of it is a fault and is raised as it is, the pieces not yet begun
+    cancelled. When a *worker* is lost (killed, or its machine gone), its pieces and those of a pool that broke with it
+    are done here; ``again(piece)`` then gives what is left of a piece (None: all of it).
+    """
+    if executor is None:
+        for piece in pieces:
+            yield work(piece)
+        return
+    waiting = {executor.submit(_attempt, work, piece): piece for piece in pieces}
+    lost, broken = [], False
+    try:
+        for future in as_completed(list(waiting)):
+            piece = waiting.pop(future)
+            try:
+                done, value = future.result()
+            except Exception as error:  # `_attempt` raises nothing: this is the executor's own
+                broken = broken or isinstance(error, BrokenExecutor)
+                lost.append(piece)
+                continue
+            if not done:
+                raise value
+            yield value
+    finally:
+        for future in waiting:
+            future.cancel()
+    if broken:
+        executor.shutdown(wait=True)  # its other workers are gone before their pieces are looked at
+    for piece in lost:
+        yield work(piece if again is None else again(piece))
+
+
+def _attempt(work, piece):
+    """(True, the value) or (False, the exception): tells faults of the work from those of the executor."""
+    try:
+        return True, work(piece)
+    except Exception as error:
+        return False, error

@@ -1,0 +1,92 @@
+"""A study as the tables that other tools open; each tool is imported only when its table is asked for."""
+
+from __future__ import annotations
+
+import csv
+import io
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..store import write_whole
+from ..store.whole import PART, saying
+from .quantities import KEYS, QUANTITIES, described
+from .result import StudyResult
+from .row import SPEED
+
+
+def to_xarray(result: StudyResult):
+    """See `StudyResult.to_xarray`."""
+    xarray = _tool("xarray")
+    data = {name: (result.dims, values, _attributes(name, result)) for name, values in result.columns.items()}
+    data["status"] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
+    coords = {key: (dim, values, described(key, KEYS)) for key, (dim, values) in result.coords.items()}
+    attributes = {"title": f"friction of {result.plan['name']}", "source": f"lubfric {result.plan['lubfric']}"}
+    return xarray.Dataset(data, coords, attributes)
+
+
+def to_frame(result: StudyResult):
+    """See `StudyResult.to_frame`."""
+    return _tool("pandas").DataFrame(columns_of(result))
+
+
+def to_parquet(result: StudyResult, path) -> None:
+    """See `StudyResult.to_parquet`."""
+    frame = to_frame(result)
+    _tool("pyarrow")
+    buffer = io.BytesIO()
+    frame.to_parquet(buffer)
+    write_whole(path, buffer.getvalue())
+
+
+def to_netcdf(result: StudyResult, path) -> None:
+    """The Dataset of `to_xarray` as a NetCDF file, which appears whole."""
+    path = Path(path)
+    data = to_xarray(result)
+    _tool("netCDF4")
+    part = path.with_name(f".{path.name}{PART}")
+    with saying(f"{path} was not written"):
+        data.to_netcdf(part, engine="netcdf4")
+        part.replace(path)
+
+
+def to_csv(result: StudyResult, path) -> None:
+    """See `StudyResult.to_csv`."""
+    columns = columns_of(result)
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow([_heading(name) for name in columns])
+    writer.writerows(zip(*(values.tolist() for values in columns.values())))
+    write_whole(path, text.getvalue().encode())
+
+
+def columns_of(result: StudyResult) -> dict[str, np.ndarray]:
+    """One value a point in every column: the varied keys, the speed, the numbers, the status."""
+    shape, columns = result.status.shape, {}
+    for key, (dim, values) in result.coords.items():
+        along = [1] * len(shape)
+        along[result.dims.index(dim)] = values.size
+        columns[key] = np.broadcast_to(values.reshape(along), shape).ravel()
+    numbers = {name: values.ravel() for name, values in result.columns.items()}
+    return columns | numbers | {"status": result.status.astype(str).ravel()}
+
+
+def _attributes(name: str, result: StudyResult) -> dict[str, str]:
+    if name.startswith("uncertainty_"):
+        part = name.removeprefix("uncertainty_")
+        return {"units": "1", "long_name": f"uncertainty of the friction coefficient: {part}"}
+    return described(name, QUANTITIES)
+
+
+def _heading(name: str) -> str:
+    unit = (KEYS | QUANTITIES).get(name, ("", ""))[0]
+    return f"{name} [{unit}]" if unit or name == SPEED else name
+
+
+def _tool(name: str):
+    try:
+        return import_module(name)
+    except ImportError:
+        raise InputError(f"this table needs {name}; allowed after: pip install 'lubfric[study]'") from None

@@ -1,0 +1,143 @@
+"""What a study varies: lists of values, lists that go together, ranges that are sampled."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..scene import Scene
+
+SAMPLERS = ("sobol", "random")
+SCALES = ("linear", "log")
+CASE = "case"  # name of the dimension of keys that go together
+
+
+@dataclass(frozen=True)
+class Between:
+    """A range [low, high] of a key, sampled uniformly in its value (scale "linear") or its logarithm ("log")."""
+
+    low: float
+    high: float
+    scale: str = "linear"
+
+    def __post_init__(self):
+        validate.choice("scale", self.scale, SCALES)
+        low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
+        validate.number("high", self.high, "(of the key)", above=low)
+
+    def at(self, share: np.ndarray) -> np.ndarray:
+        """Values at ``share`` in [0, 1) of the range."""
+        if self.scale == "linear":
+            return self.low + share * (self.high - self.low)
+        return np.exp(math.log(self.low) + share * math.log(self.high / self.low))
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One dimension of a study: ``values[i]`` holds the i-th value of each of ``keys``, which change together."""
+
+    name: str
+    keys: tuple[str, ...]
+    values: tuple[tuple, ...]
+
+    def apply(self, scene: Scene, index: int) -> Scene:
+        """``scene`` with the values of position ``index``."""
+        sections = {}
+        for key, value in zip(self.keys, self.values[index]):
+            section, _, field = key.partition(".")
+            part = value if field == "" else {field: value}
+            sections[section] = sections.get(section, {}) | part
+        return scene.with_(**sections)
+
+
+def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
+    """The dimensions of ``vary`` (see `lubfric.study`), each value put into the scene once to see that it fits."""
+    if not isinstance(vary, dict):
+        raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
+    axes, seen, cases = [], set(), 0
+    for key, values in vary.items():
+        keys = key if isinstance(key, tuple) else (key,)
+        for name in keys:
+            _check_key(scene, name, seen)
+        cases += len(keys) > 1
+        name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
+        axis = _listed(name, keys, values)
+        for index in range(len(axis.values)):
+            axis.apply(scene, index)
+        axes.append(axis)
+    return tuple(axes)
+
+
+def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
+    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies together:
+
+    ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
+
+    sampler "sobol": a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`; ``count`` a power of two), which fills the box
+    evenly, or "random": independent points. Equal ``seed``, equal points.
+    """
+    from scipy.stats import qmc
+
+    ranges = list(ranges)
+    if not ranges or not all(isinstance(part, Between) for part in ranges):
+        raise InputError(f"ranges = {ranges!r}; allowed: a list of lubfric.Between(low, high)")
+    validate.choice("sampler", sampler, SAMPLERS)
+    count = validate.integer("count", count, minimum=1)
+    seed = validate.integer("seed", seed, minimum=0)
+    if sampler == "sobol":
+        if count & (count - 1):
+            above = 2 ** count.bit_length()
+            raise InputError(f"count = {count} of a Sobol sequence; allowed: powers of two, {above // 2} or {above}")
+        shares = qmc.Sobol(len(ranges), seed=seed).random(count)
+    else:
+        shares = np.random.default_rng(seed).random((count, len(ranges)))
+    columns = [part.at(share) for part, share in zip(ranges, shares.T)]
+    return [tuple(float(v) for v in row) for row in zip(*columns)]
+
+
+def _check_key(scene: Scene, key, seen: set) -> None:
+    section, _, field = str(key).partition(".")
+    sections = [name for name in scene.__dataclass_fields__ if name not in ("name", "transient")]
+    if section not in sections:
+        raise InputError(
+            f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
+        )
+    fields = getattr(scene, section).__dataclass_fields__
+    if field and field not in fields:
+        raise InputError(
+            f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
+        )
+    if key in ("motion", "motion.speeds", "motion.entrainment_speed"):
+        raise InputError(f"vary: {key!r} is not varied as a key; allowed: speeds = [...] in m/s")
+    if key in seen:
+        raise InputError(f"vary: {key!r} is given twice; allowed: once")
+    seen.add(key)
+
+
+def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
+    try:
+        rows = [value for value in values] if not isinstance(values, (str, dict)) else None
+    except TypeError:
+        rows = None
+    if not rows:
+        shown = values if not isinstance(values, Between) else "a range: see lubfric.sample"
+        raise InputError(f"vary: {', '.join(keys)} = {shown!r}; allowed: a list of values")
+    if len(keys) == 1:
+        rows = [(value,) for value in rows]
+    for row in rows:
+        if not isinstance(row, (tuple, list)) or len(row) != len(keys):
+            raise InputError(
+                f"vary: {', '.join(keys)} go together; allowed: a list of {len(keys)} values each, not {row!r}"
+            )
+    return Axis(name, keys, tuple(tuple(_plain(value) for value in row) for row in rows))
+
+
+def _plain(value):
+    """A number of NumPy as a Python one, a list as a tuple."""
+    if isinstance(value, np.generic):
+        return value.item()
+    return tuple(_plain(part) for part in value) if isinstance(value, (list, np.ndarray)) else value

@@ -1,0 +1,44 @@
+"""Likely slips: every usual range holds the built-in scenes, and a value in a mistaken unit is told with the right one."""
+
+import pytest
+
+import lubfric
+from lubfric.plausible import USUAL, doubts, slip
+
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
+
+
+@pytest.mark.parametrize("name", ["paper", "flat"])
+def test_built_in_scenes_are_usual(name):
+    assert doubts(lubfric.load_scene(name)) == ()
+
+
+@pytest.mark.parametrize("name", [n for n, u in USUAL.items() if u.others])
+def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
+    usual = USUAL[name]
+    middle = (max(usual.low, usual.high / 1e6) * usual.high) ** 0.5
+    assert slip(name, middle) is None
+    for unit, factor in usual.others:
+        if not usual.holds(middle / factor):
+            meant = slip(name, middle / factor)
+            assert meant and usual.unit in meant
+    assert slip(name, [middle, middle]) is None
+
+
+def test_a_value_that_no_unit_explains_is_still_told():
+    told = doubts(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
+    assert told and "bodies.radius = 900 m" in told[0]
+
+
+def test_the_error_about_a_value_names_the_unit():
+    paper = lubfric.load_scene("paper")
+    for section, keys, words in (
+        ("bodies", {"e_prime": 226}, "226 GPa"),
+        ("bodies", {"hertz_pressure": 1.2}, "1.2 GPa"),
+        ("bodies", {"young_modulus": [210, 210], "poisson_ratio": [0.3, 0.3]}, "210 GPa"),
+        ("lubricant", {"pressure_viscosity_coefficient": 22}, "22 1/GPa"),
+        ("lubricant", OIL | {"temperature": 70}, "343.15 K"),
+        ("bodies", {"hardness": 700}, "hardness_hv"),
+    ):
+        with pytest.raises(lubfric.InputError, match=words):
+            paper.with_(**{section: keys})

@@ -1,0 +1,151 @@
+"""Short forms of a scene: the same in a file and in `with_`, against closed forms and against the plain fields."""
+
+import math
+
+import pytest
+
+import lubfric
+from lubfric import oil
+from lubfric.analytic import hertz
+from lubfric.short_forms.bodies import reduced_radius
+
+PAPER = lubfric.load_scene("paper")
+INF = math.inf
+OIL_KEYS = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
+
+
+def scene(tmp_path, lubricant="viscosity = 0.02\npressure_viscosity_coefficient = 2e-8", **bodies):
+    table = {"radius": "0.01", "width": "0.01", "load": "1000.0", "e_prime": "2.2e11"} | bodies
+    path = tmp_path / "scene.toml"
+    body = "\n".join(f"{k} = {v}" for k, v in table.items() if v is not None)
+    path.write_text(
+        f"[bodies]\nboundary_friction_coefficient = 0.1\n{body}\n[lubricant]\n{lubricant}\n"
+        "[motion]\nentrainment_speed = 1.0\nslip_percent = 5\n[surface]\nsq = 1e-7\ncorrelation_length = 1e-5\n"
+        "[contact]\nshape = [256, 64]\nspacing = 2e-6\n"
+    )
+    return lubfric.load_scene(path)
+
+
+def test_oil_in_a_file_and_in_with(tmp_path):
+    made = oil.from_grade("ISO VG 68", 95, density=870)
+    text = "\n".join(f"{k} = {v!r}" for k, v in OIL_KEYS.items()).replace("'", '"')
+    for found in (scene(tmp_path, text).lubricant, PAPER.with_(lubricant=OIL_KEYS).lubricant):
+        assert found.viscosity == pytest.approx(made.viscosity(343.15))
+        assert found.pressure_viscosity_coefficient == pytest.approx(made.pressure_viscosity_coefficient(343.15).value)
+        assert found.temperature_coefficient == pytest.approx(made.temperature_coefficient(343.15))
+        assert found.temperature == 343.15 and found.oil == made and found.heats
+    assert scene(tmp_path, text).motion.slide_roll_ratio == 0.05
+
+
+def test_every_key_of_an_oil_reaches_the_viscosity_or_its_coefficients():
+    base = PAPER.with_(lubricant=OIL_KEYS)
+
+    def changed(**keys):
+        return base.with_(lubricant=keys).lubricant
+
+    made = oil.from_grade("ISO VG 68", 95, density=870)
+    assert changed(temperature=320.0).viscosity == pytest.approx(made.viscosity(320.0))
+    assert changed(temperature_celsius=46.85).viscosity == pytest.approx(made.viscosity(320.0))
+    assert changed(grade="VG 100").viscosity == pytest.approx(oil.from_grade(100, 95, density=870).viscosity(343.15))
+    assert changed(viscosity_index=140).viscosity == pytest.approx(
+        oil.from_grade(68, 140, density=870).viscosity(343.15)
+    )
+    assert changed(nu40=68e-6, nu100=9e-6).viscosity == pytest.approx(
+        oil.from_viscosities(68e-6, 9e-6, density=870).viscosity(343.15)
+    )
+    table = [[313.15, 68e-6], [333.15, 30e-6], [353.15, 15e-6]]
+    assert changed(viscosity_table=table).viscosity == pytest.approx(
+        oil.from_table(*zip(*table), density=870).viscosity(343.15)
+    )
+    assert changed(oil="pao-220").viscosity == pytest.approx(oil.named_oil("pao-220").viscosity(343.15))
+    assert changed(density=900).viscosity == pytest.approx(made.with_(density=900).viscosity(343.15))
+    assert changed(density_slope=0.0).viscosity == pytest.approx(made.kinematic_viscosity(343.15) * 870)
+    nu = made.kinematic_viscosity(343.15)
+    assert changed(alpha_estimate="gold").pressure_viscosity_coefficient == oil.gold(nu, "mineral").value
+    assert changed(base="ester").pressure_viscosity_coefficient == oil.gold(nu, "ester").value
+    assert changed(pressure_viscosity_coefficient=2.5e-8).pressure_viscosity_coefficient == 2.5e-8
+    kept = base.with_(lubricant={"pressure_viscosity_coefficient": 2.5e-8}).with_(lubricant={"temperature": 320.0})
+    assert kept.lubricant.pressure_viscosity_coefficient == 2.5e-8  # given: it stays
+    assert changed(conductivity=0.2).conductivity == 0.2
+    assert changed(eyring_stress=5e6).viscosity == base.lubricant.viscosity
+    assert changed(viscosity=0.05).viscosity == 0.05 and changed(viscosity=0.05).oil is None
+
+
+@pytest.mark.parametrize(
+    "pair, radius", [((0.01, INF), 0.01), ((0.02, 0.02), 0.01), ((0.01, -0.02), 0.02), ((0.006, -0.05), 0.3 / 44)]
+)
+def test_two_radii(tmp_path, pair, radius):
+    assert reduced_radius(*pair) == pytest.approx(radius)
+    assert PAPER.with_(bodies={"radii": pair}).bodies.radius == pytest.approx(radius)
+    text = "[" + ", ".join(str(r) for r in pair) + "]"
+    assert scene(tmp_path, radius=None, radii=text).bodies.radius == pytest.approx(radius)
+
+
+def test_materials_and_moduli(tmp_path):
+    steel = 207e9 / (1 - 0.3**2)
+    assert scene(tmp_path, e_prime=None, material='"steel"').bodies.e_prime == pytest.approx(steel)
+    assert PAPER.with_(bodies={"material": "steel"}).bodies.e_prime == pytest.approx(steel)
+    mixed = PAPER.with_(bodies={"material": ["steel", "silicon nitride"]}).bodies
+    assert 2 / mixed.e_prime == pytest.approx((1 - 0.09) / 207e9 + (1 - 0.26**2) / 310e9)
+    assert mixed.effusivity[0] == pytest.approx(math.sqrt(46 * 7850 * 460))
+    pairs = PAPER.with_(bodies={"young_modulus": [2e11, 1e11], "poisson_ratio": [0.3, 0.2]}).bodies
+    assert pairs.e_prime == pytest.approx(hertz.composite_modulus(2e11, 0.3, 1e11, 0.2))
+
+
+def test_hertz_pressure_gives_the_load(tmp_path):
+    for bodies in (
+        scene(tmp_path, load=None, hertz_pressure="1e9").bodies,
+        PAPER.with_(bodies={"hertz_pressure": 1e9}).bodies,
+        PAPER.with_(bodies={"hertz_pressure": 1e9, "radius": 0.03, "material": "steel", "hardness": None}).bodies,
+    ):
+        peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
+        assert peak == pytest.approx(1e9)
+
+
+def test_vickers_hardness_is_load_over_projected_area():
+    """A pyramid of 136 degrees between faces: HV = F/facets, hardness = F/projection = F/(facets sin 68 degrees)."""
+    found = PAPER.with_(bodies={"hardness_hv": 700}).bodies.hardness
+    assert found == pytest.approx(700 * 9.80665e6 / math.sin(math.radians(68)), rel=1e-4)
+
+
+def test_speeds_and_slip_in_with():
+    motion = PAPER.with_(motion={"surface_speeds": [0.9, 1.1]}).motion
+    assert motion.entrainment_speed == 1.0 and motion.slide_roll_ratio == pytest.approx(0.2)
+    assert PAPER.with_(motion={"slip_percent": -3}).motion.slide_roll_ratio == -0.03
+    assert PAPER.with_(motion={"speed_range": [0.01, 1, 3]}).motion.speeds == pytest.approx((0.01, 0.1, 1))
+
+
+@pytest.mark.parametrize(
+    "section, keys, words",
+    [
+        ("lubricant", {"grade": "ISO VG 68"}, "viscosity_index"),
+        ("lubricant", {"grade": "ISO VG 68", "viscosity_index": 95}, "temperature"),
+        ("lubricant", OIL_KEYS | {"temperature": 340.0}, "one of temperature, temperature_celsius"),
+        ("lubricant", OIL_KEYS | {"viscosity": 0.1}, "one of them"),
+        ("lubricant", OIL_KEYS | {"nu40": 1e-4, "nu100": 1e-5}, "one of grade, nu40\\+nu100"),
+        ("lubricant", {"nu40": 68e-6, "temperature": 340.0}, "needs nu100"),
+        ("lubricant", OIL_KEYS | {"temperature_celsius": 343.15}, "K were meant"),
+        ("lubricant", {"base": "pao"}, "needs an oil"),
+        ("bodies", {"radii": [0.01, -0.005]}, "negative for a hollow"),
+        ("bodies", {"radii": 0.01}, "pair"),
+        ("bodies", {"material": "stel"}, "steel"),
+        ("bodies", {"material": "steel", "e_prime": 2e11}, "one of e_prime, material"),
+        ("bodies", {"load": 10.0, "hertz_pressure": 1e9}, "one of load, hertz_pressure"),
+        ("bodies", {"hardness": 1e9, "hardness_hv": 700}, "one of hardness, hardness_hv"),
+        ("motion", {"slip_percent": 5, "slide_roll_ratio": 0.05}, "slip_percent"),
+    ],
+)
+def test_contradictions_are_told(section, keys, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        PAPER.with_(**{section: keys})
+
+
+@pytest.mark.parametrize(
+    "missing, words",
+    [("e_prime", "material"), ("radius", "radii"), ("load", "hertz_pressure")],
+)
+def test_a_missing_key_names_its_short_form(tmp_path, missing, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        scene(tmp_path, **{missing: None})
+    with pytest.raises(lubfric.InputError, match="grade and viscosity_index"):
+        scene(tmp_path, lubricant="eyring_stress = 5e6")

@@ -1,0 +1,400 @@
+"""Studies: the plan, the same bits on any executor and after any kill, lost workers, failures, tables."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.studies import run as run_module
+from lubfric.studies.chain import make_chain, run_chain
+from lubfric.studies.journal import Journal, outcome_of, record_of
+from lubfric.studies.run import run_piece
+
+ROOT = Path(__file__).parents[2]
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+)
+SPEEDS = (0.003, 0.03, 0.3)
+VARY = {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}
+
+
+def same(one, other):
+    """Equal to the last bit but for the time taken."""
+    assert one.dims == other.dims and one.columns.keys() == other.columns.keys()
+    np.testing.assert_array_equal(one.status, other.status)
+    for name in one.columns.keys() - {"seconds"}:
+        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+@pytest.fixture(scope="module")
+def serial():
+    return lubfric.study(SCENE, VARY, SPEEDS)
+
+
+# what is computed
+
+
+def test_every_point_is_what_friction_gives(serial):
+    """Cold, alone, on its own model: within the tolerance on f of both."""
+    assert serial.dims == ("bodies.load", "surface.seed", "speed") and serial.status.shape == (2, 2, 3)
+    assert serial.failed == serial.missing == 0
+    for i, load in enumerate(VARY["bodies.load"]):
+        for j, seed in enumerate(VARY["surface.seed"]):
+            scene = SCENE.with_(bodies={"load": load}, surface={"seed": seed})
+            alone = [lubfric.friction(scene, speed).coefficient for speed in SPEEDS]
+            np.testing.assert_allclose(serial["coefficient"][i, j], alone, rtol=SCENE.numerics.tolerance)
+
+
+def test_the_flat_contact_shares_its_curve():
+    flat = SCENE.with_(contact={"geometry": "flat", "spacing": 2e-6})
+    plan = lubfric.plan_study(flat, {"bodies.load": [2.0, 5.5]}, SPEEDS)
+    assert len(plan.batches) == 1 and plan.batches[0].leader.bodies.load == 5.5
+    found = lubfric.study(plan)
+    for i, load in enumerate((2.0, 5.5)):
+        alone = lubfric.stribeck(flat.with_(bodies={"load": load}), SPEEDS)
+        np.testing.assert_allclose(found["coefficient"][i], alone.coefficient, rtol=flat.numerics.tolerance)
+
+
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_any_executor_gives_the_same_bits(serial, pool, tmp_path):
+    with pool(2) as executor:
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=executor), serial)
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path), serial)
+    same(lubfric.open_study(tmp_path), serial)
+
+
+def test_a_longer_study_takes_over_what_is_known(serial, tmp_path, monkeypatch):
+    lubfric.study(SCENE, {"bodies.load": [5.5], "surface.seed": [1, 2]}, SPEEDS, store=tmp_path)
+    solved = []
+    monkeypatch.setattr(run_module, "run_chain", lambda *args: solved.append(args) or run_chain(*args))
+    same(lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path), serial)
+    assert len(solved) == 2 and {model.scene.bodies.load for model, *_ in solved} == {3.0}
+
+
+# kept through everything
+
+SCRIPT = """
+import sys
+import lubfric
+from lubfric.studies import chain
+real = chain.friction
+def counted(model, speed, **options):
+    found = real(model, speed, **options)
+    print("solved", flush=True)
+    return found
+chain.friction = counted
+scene = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
+lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
+print("done", flush=True)
+"""
+
+
+def killed_until_done(folder, rng, kills):
+    """(points solved in all runs together, kills)."""
+    solved, count = 0, 0
+    while True:
+        environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+        process = subprocess.Popen([sys.executable, "-c", SCRIPT, str(folder)], env=environment, stdout=subprocess.PIPE)
+        if count < kills:
+            first = process.stdout.readline()
+            time.sleep(rng.exponential(0.02))
+            process.send_signal(signal.SIGKILL)
+            count += 1
+            text = first + process.communicate()[0]
+        else:
+            text = process.communicate()[0]
+            assert process.returncode == 0
+        solved += text.decode().count("solved")
+        if b"done" in text:
+            return solved, count
+
+
+@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
+def test_killed_studies_lose_and_repeat_nothing(serial, tmp_path, kills):
+    """A kill may cost the point that is being solved, never one that was finished."""
+    rng, left = np.random.default_rng(kills), kills
+    for run in range(1000):
+        folder = tmp_path / str(run)
+        solved, used = killed_until_done(folder, rng, min(left, 10))
+        left -= used
+        found = lubfric.open_study(folder)
+        same(found, serial)
+        assert solved <= found.status.size + used
+        lines = [line for path in (folder / "points").iterdir() for line in path.read_bytes().splitlines()]
+        assert len({line.split(b'"')[3] for line in lines if line.count(b'"') > 3}) == found.status.size
+        if left <= 0:
+            break
+
+
+@pytest.mark.parametrize("moment", ["before the state", "after the state", "after the record"])
+@pytest.mark.parametrize("at", [0, 1, 3])
+def test_a_cut_at_every_moment_of_a_point(tmp_path, monkeypatch, moment, at):
+    model = lubfric.prepare(SCENE)
+    chain = make_chain("x", (0.3, 0.1, 0.03, 0.003), (False, True, False, False))
+    whole = [record_of(outcome) for _, outcome in run_chain(model, chain)]
+
+    class Killed(BaseException):
+        pass
+
+    journal, real_keep, kept = Journal(tmp_path), Journal.keep, []
+
+    def keep(self, name, key, outcome, fields=False):
+        if len(kept) == at and moment == "before the state":
+            raise Killed
+        kept.append(key)
+        if len(kept) == at + 1 and moment == "after the state":
+            self.records.add = lambda *_: (_ for _ in ()).throw(Killed)
+        real_keep(self, name, key, outcome, fields)
+        if len(kept) == at + 1:
+            raise Killed
+
+    monkeypatch.setattr(Journal, "keep", keep)
+    with pytest.raises(Killed):
+        list(run_chain(model, chain, journal))
+    monkeypatch.setattr(Journal, "keep", real_keep)
+    journal.close()
+    again = Journal(tmp_path)
+    done = len(again.records.keys())
+    assert done == at + (moment == "after the record")
+    assert [i for i, _ in run_chain(model, chain, again, done)] == list(range(done, 4))
+    again.close()
+    found = dict(again.records.read())
+    for key, record in zip(chain.keys, whole):
+        assert {**found[key], "seconds": 0} == {**record, "seconds": 0}
+    assert again.fields(chain.keys[1]).balance is not None and not any((tmp_path / "states").iterdir())
+
+
+def test_a_lost_or_damaged_state_is_solved_again_to_the_same_bits(serial, tmp_path):
+    lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
+    for path in (tmp_path / "points").iterdir():
+        lines = path.read_bytes().splitlines(keepends=True)
+        path.write_bytes(b"".join(lines[:-1]) + lines[-1][:50])
+    found = lubfric.open_study(tmp_path)
+    assert found.missing == len(list((tmp_path / "points").iterdir())) and "not computed" in found.status
+    same(lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path), serial)
+
+
+def test_two_writers_are_refused(tmp_path):
+    with lubfric.store.FolderLock(tmp_path):
+        with pytest.raises(lubfric.InputError, match="another run"):
+            lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
+
+
+def suicidal(piece):
+    if piece.batch.curves[0].index == (1, 0) and os.getpid() != PARENT:
+        if piece.folder is not None:  # after its first point
+            journal = Journal(piece.folder)
+            next(iter(run_chain(lubfric.prepare(piece.batch.leader), piece.batch.curves[0].chains[0], journal)))
+        os.kill(os.getpid(), signal.SIGKILL)
+    return run_piece(piece)
+
+
+PARENT = os.getpid()
+
+
+@pytest.mark.parametrize("stored", [False, True])
+def test_a_killed_worker_loses_nothing(serial, tmp_path, monkeypatch, stored):
+    monkeypatch.setattr(run_module, "run_piece", suicidal)
+    monkeypatch.setattr("lubfric.studies.plan.BATCH", 1)
+    with ProcessPoolExecutor(2) as executor:
+        found = lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path if stored else None)
+    same(found, serial)
+    if stored:
+        keys = [line[17:] for p in (tmp_path / "points").iterdir() for line in p.read_bytes().splitlines()]
+        assert len(keys) == found.status.size
+
+
+# failures
+
+
+def test_a_failing_point_is_a_row_with_its_status(serial, monkeypatch, tmp_path):
+    from lubfric.studies import chain
+
+    real = chain.friction
+
+    def failing(model, speed, **options):
+        if speed == 0.03 and model.scene.surface.seed == 2:
+            raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, float("inf"), 0.1))
+        return real(model, speed, **options)
+
+    monkeypatch.setattr(chain, "friction", failing)
+    found = lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
+    assert found.failed == 2 and set(found.status[:, 1, 1]) == {"ConvergenceError: injected"}
+    assert np.isnan(found["coefficient"][:, 1, 1]).all() and np.isfinite(found["coefficient"]).sum() == 10
+    np.testing.assert_array_equal(found["coefficient"][:, 0], serial["coefficient"][:, 0])
+    records = Journal(tmp_path).records.read()
+    errors = [outcome_of(record) for _, record in records if "error" in record]
+    assert errors[0].report.status == "diverged" and errors[0].report.residual == float("inf")
+
+
+def test_a_scene_that_cannot_be_made_ready_is_a_row_too():
+    found = lubfric.study(SCENE, {"contact.spacing": [1.1e-6, 1e-4]}, SPEEDS)
+    assert (found.status[0] == "converged").all() and "InputError: correlation_length" in found.status[1, 0]
+
+
+def faulty(*_, **__):
+    raise ZeroDivisionError("a fault of the program")
+
+
+@pytest.mark.parametrize("pool", [None, ThreadPoolExecutor])
+def test_a_fault_of_the_program_is_raised_as_it_is(monkeypatch, pool, tmp_path):
+    monkeypatch.setattr("lubfric.studies.chain.friction", faulty)
+    executor = pool(2) if pool else None
+    with pytest.raises(ZeroDivisionError, match="a fault of the program"):
+        lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path)
+
+
+def test_an_interrupt_keeps_what_is_done(tmp_path, monkeypatch):
+    monkeypatch.setattr("lubfric.studies.plan.BATCH", 1)
+
+    def on_progress(done, total):
+        if done == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        lubfric.study(SCENE, {"lubricant.viscosity": [0.2, 0.3]}, SPEEDS, store=tmp_path, on_progress=on_progress)
+    found = lubfric.open_study(tmp_path)
+    assert (found.status[0] == "converged").all() and found.missing == 3
+
+
+# what can be varied
+
+
+def test_keys_that_go_together_and_samples():
+    points = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")], 8, seed=3)
+    plan = lubfric.plan_study(
+        SCENE, {("bodies.load", "lubricant.viscosity"): points, "contact.region": ["hertz", "box"]}, [0.1]
+    )
+    assert plan.shape == (8, 2, 1) and [axis.name for axis in plan.axes] == ["case", "contact.region"]
+    curve = next(c for b in plan.batches for c in b.curves if c.index == (5, 1))
+    assert (curve.scene.bodies.load, curve.scene.lubricant.viscosity) == points[
+        5
+    ] and curve.scene.contact.region == "box"
+
+
+def test_samples_fill_their_ranges():
+    ranges = [lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")]
+    sobol = np.array(lubfric.sample(ranges, 64, seed=3))
+    shares = np.stack([(sobol[:, 0] - 1) / 9, np.log(sobol[:, 1] / 0.01) / np.log(100)], axis=1)
+    for column in shares.T:  # one point in each of the 64 equal parts of every range
+        assert sorted((column * 64).astype(int)) == list(range(64))
+    assert (
+        lubfric.sample(ranges, 64, seed=3) == lubfric.sample(ranges, 64, seed=3) != lubfric.sample(ranges, 64, seed=4)
+    )
+    spread = np.array(lubfric.sample(ranges, 4000, "random", seed=1))
+    assert np.log10(spread[:, 1]).mean() == pytest.approx(-1.0, abs=0.05)
+    assert spread[:, 0].mean() == pytest.approx(5.5, abs=0.2)
+
+
+def test_several_maps(tmp_path):
+    maps = []
+    for seed in (1, 2):
+        surface = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=4e-6, seed=seed)
+        np.save(tmp_path / f"{seed}.npy", surface.heights)
+        maps.append({"file": str(tmp_path / f"{seed}.npy"), "spacing": 1e-6, "correlation_length": None, "sq": None})
+    scene = SCENE.with_(contact={"shape": None, "spacing": None})
+    found = lubfric.study(scene, {"surface": maps}, [0.01])
+    for i, part in enumerate(maps):
+        alone = lubfric.friction(scene.with_(surface=part), 0.01).coefficient
+        assert found["coefficient"][i, 0] == pytest.approx(alone, rel=0.01)
+    assert found.coords["surface"][1][1].startswith('{"file"')
+
+
+@pytest.mark.parametrize(
+    "vary, speeds, words",
+    [
+        ({"bodies.laod": [1]}, None, "did you mean 'load'"),
+        ({"bodys.load": [1]}, None, "did you mean 'bodies'"),
+        ({"bodies.load": 5.0}, None, "a list of values"),
+        ({"bodies.load": []}, None, "a list of values"),
+        ({"bodies.load": lubfric.Between(1, 2)}, None, "lubfric.sample"),
+        ({"bodies.load": [-1.0]}, None, "bodies.load = -1 N"),
+        ({("bodies.load", "bodies.radius"): [(1.0,)]}, None, "go together"),
+        ({"bodies.load": [1.0], ("bodies.load", "bodies.width"): [(1, 2)]}, None, "given twice"),
+        ({"motion.speeds": [(1.0,)]}, None, "speeds = "),
+        ({"transient.duration": [1.0]}, None, "no key of a scene"),
+        ([1], None, "a dict"),
+        ({}, [0.1, 0.1], "twice"),
+        ({}, ["a"], "speeds"),
+    ],
+)
+def test_what_cannot_be_varied_is_said_before_any_work(vary, speeds, words, tmp_path):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.study(SCENE, vary, speeds, store=tmp_path / "store")
+    assert not (tmp_path / "store").exists()
+
+
+@pytest.mark.parametrize("arguments", [([], 4), ([1], 4), ([lubfric.Between(0, 1)], 3), ([lubfric.Between(0, 1)], 0)])
+def test_bad_samples(arguments):
+    with pytest.raises(lubfric.InputError):
+        lubfric.sample(*arguments)
+    with pytest.raises(lubfric.InputError):
+        lubfric.Between(0.0, 1.0, "log")
+
+
+def test_explain_counts_before_anything_is_solved(monkeypatch):
+    monkeypatch.setattr("lubfric.studies.run.prepare", None)
+    plan = lubfric.plan_study(SCENE, VARY | {"lubricant.viscosity": [0.1] * 5}, np.geomspace(1e-3, 1, 60))
+    text = plan.explain()
+    for words in ("1200 points", "2 x bodies.load from 3 to 5.5", "60 speeds", "2 height maps", "60 warm-started"):
+        assert words in text, text
+    assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
+
+
+# tables
+
+
+def test_tables_hold_the_same_numbers(serial, tmp_path):
+    pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    data, frame = serial.to_xarray(), serial.to_frame()
+    picked = data.coefficient.sel({"bodies.load": 5.5, "surface.seed": 2}).sel(speed=0.03)
+    row = frame[(frame["bodies.load"] == 5.5) & (frame["surface.seed"] == 2) & (frame["speed"] == 0.03)]
+    assert float(picked) == row["coefficient"].item() == serial["coefficient"][1, 1, 1]
+    assert data.contact_load.attrs == {"units": "N", "long_name": "load carried by the rough contact"}
+    assert data["bodies.load"].attrs["units"] == "N" and set(data.status.values.flat) == {"converged"}
+    serial.to_csv(tmp_path / "study.csv")
+    heading, *rows = (tmp_path / "study.csv").read_text().splitlines()
+    assert heading.startswith("bodies.load [N],surface.seed,speed [m/s],coefficient [-]") and len(rows) == 12
+    assert float(rows[10].split(",")[3]) == serial["coefficient"][1, 1, 1]
+
+
+def test_netcdf_and_parquet_round_trips(serial, tmp_path):
+    xarray, pandas = pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    pytest.importorskip("netCDF4"), pytest.importorskip("pyarrow")
+    serial.to_xarray().to_netcdf(tmp_path / "study.nc")
+    with xarray.open_dataset(tmp_path / "study.nc") as again:
+        np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
+    serial.to_parquet(tmp_path / "study.parquet")
+    assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
+
+
+def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(lubfric.InputError, match=r"needs xarray; allowed after: pip install 'lubfric\[study\]'"):
+        serial.to_xarray()
+
+
+def test_the_store_is_plain_json(serial, tmp_path):
+    lubfric.study(SCENE, {}, [0.01], store=tmp_path)
+    plan = json.loads((tmp_path / "study.json").read_text())
+    (path,) = (tmp_path / "points").iterdir()
+    (line,) = path.read_text().splitlines()
+    record = json.loads(line.split(" ", 1)[1])
+    assert record["key"] == plan["keys"][0] and 0 < record["value"]["coefficient"] < 0.1
+
+
+def test_folders_that_are_no_store(tmp_path):
+    with pytest.raises(lubfric.InputError, match="holds no study.json"):
+        lubfric.open_study(tmp_path)
+    (tmp_path / "study.json").write_text('{"keys": ')
+    with pytest.raises(lubfric.InputError, match="damaged"):
+        lubfric.open_study(tmp_path)

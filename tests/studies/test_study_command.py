@@ -1,0 +1,139 @@
+"""``lubfric study``: files written, study files read strictly, exit codes, broken streams, interrupts."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.cli import main
+from lubfric.studies.file import load_study
+
+ROOT = Path(__file__).parents[2]
+SCENE = """
+[bodies]
+radius = 2e-3
+width = 6e-3
+load = 5.5
+e_prime = 231e9
+boundary_friction_coefficient = 0.09
+[lubricant]
+viscosity = 0.36
+pressure_viscosity_coefficient = 25e-9
+[motion]
+entrainment_speed = 0.001
+[surface]
+sq = 1e-7
+correlation_length = 4e-6
+[contact]
+shape = [48, 48]
+spacing = 1.1e-6
+"""
+STUDY = """
+scene = "small.toml"
+speed_range = [0.003, 0.3, 3]
+[vary]
+bodies.load = [3.0, 5.5]
+[[together]]
+"surface.seed" = [1, 2]
+surface.sq = [1e-7, 1.2e-7]
+"""
+
+
+def written(folder, study=STUDY):
+    (folder / "small.toml").write_text(SCENE)
+    (folder / "study.toml").write_text(study)
+    return str(folder / "study.toml")
+
+
+def command(*arguments, **options):
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    return subprocess.Popen([sys.executable, "-m", "lubfric", *map(str, arguments)], env=environment, **options)
+
+
+def test_a_study_file_is_carried_out(tmp_path, capsys):
+    assert main(["study", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().err
+    assert "12 points" in said and "[12/12]" in said and "wrote study.csv" in said
+    result = lubfric.open_study(tmp_path / "out")
+    scene = lubfric.load_scene(tmp_path / "small.toml")
+    pairs = [(1, 1e-7), (2, 1.2e-7)]
+    again = lubfric.study(
+        scene, {"bodies.load": [3.0, 5.5], ("surface.seed", "surface.sq"): pairs}, np.geomspace(0.003, 0.3, 3)
+    )
+    np.testing.assert_array_equal(result["coefficient"], again["coefficient"])
+    rows = (tmp_path / "out" / "study.csv").read_text().splitlines()
+    assert len(rows) == 13 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")
+    assert not [p for p in (tmp_path / "out").rglob("*") if p.suffix in (".part", ".bin")]
+
+
+def test_explain_solves_nothing(tmp_path, capsys):
+    assert main(["study", written(tmp_path), "--out", str(tmp_path / "out"), "--explain"]) == 0
+    assert "12 points" in capsys.readouterr().out and not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (("speed_range", "speed_rnage"), "did you mean 'speed_range'"),
+        (("small.toml", "smal.toml"), "smal.toml"),
+        (("[3.0, 5.5]", "3.0"), "a list of values"),
+        (("[1, 2]", "[1, 2, 3]"), "lists of one length"),
+        (("bodies.load", "bodies.laod"), "did you mean 'load'"),
+        (("[0.003, 0.3, 3]", "[0.3, 0.003, 3]"), "speed_range highest"),
+        (("[0.003, 0.3, 3]", "[0.003, 0.3, 1000000000000]"), "speed_range count"),
+        (("[[together]]", "[sample]\ncount = 3\nbodies.width = { low = 1, high = 2 }\n[[together]]"), "powers of two"),
+        (("[[together]]", "[sample]\ncount = 4\nbodies.width = 1\n[[together]]"), "low = "),
+        (("[[together]]", "[sample]\nbodies.width = { low = 1, high = 2 }\n[[together]]"), "needs count"),
+    ],
+)
+def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
+    assert main(["study", written(tmp_path, STUDY.replace(*change)), "--out", str(tmp_path / "out")]) == 2
+    error = capsys.readouterr().err
+    assert words in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
+
+
+def test_samples_and_maps_of_a_study_file(tmp_path):
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).normal(size=(48, 48)) * 1e-8)
+    text = STUDY.split("[vary]")[0] + (
+        '[vary]\nsurface = [{ file = "a.npy", spacing = 1.1e-6 }, { seed = 3 }]\n'
+        "[sample]\ncount = 4\nseed = 2\nlubricant.viscosity = { low = 0.1, high = 1.0, scale = 'log' }\n"
+    )
+    written(tmp_path, text)
+    with pytest.raises(lubfric.InputError, match="correlation_length applies to a generated surface"):
+        load_study(tmp_path / "study.toml")
+    (tmp_path / "study.toml").write_text(text.replace('{ file = "a.npy", spacing = 1.1e-6 }, ', "{ seed = 1 }, "))
+    plan = load_study(tmp_path / "study.toml")
+    assert plan.shape == (2, 4, 3) and plan.axes[1].keys == ("lubricant.viscosity",)
+
+
+def test_broken_streams_do_not_stop_a_study(tmp_path):
+    process = command("study", written(tmp_path), "--out", tmp_path / "out", stderr=subprocess.PIPE)
+    process.stderr.close()
+    assert process.wait() == 0 and (tmp_path / "out" / "study.csv").is_file()
+
+
+@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
+    many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.01 * i for i in range(100)]))
+    path, out = written(tmp_path, many), tmp_path / "out"
+    process = command("study", path, "--out", out, "--workers", 2, stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not any(path.stat().st_size for path in out.glob("points/*.jsonl")):
+        time.sleep(0.05)
+    process.send_signal(sent)
+    said = process.communicate()[1].splitlines()
+    assert process.returncode == code and "are kept in" in said[-1] and "goes on from there" in said[-1], said
+    assert not any("Traceback" in line for line in said)
+    found = lubfric.open_study(out)
+    assert 0 < found.missing < found.status.size
+
+
+@pytest.mark.parametrize("arguments", [["--workers", "0"], ["--workers", str(2**70)], ["--out", "/dev/null/x"]])
+def test_bad_options_are_one_line(tmp_path, capsys, arguments):
+    assert main(["study", written(tmp_path), "--out", str(tmp_path / "out"), *arguments]) == 2
+    assert capsys.readouterr().err.splitlines()[-1].startswith("lubfric: ")
