@@ -128,7 +128,7 @@ def separation_for_load(
     if span == 0:
         raise InputError("heights are all equal: no asperities; allowed: a rough surface in m")
 
-    def excess(approach):
+    def excess(approach, _=None):
         flat = np.broadcast_to(top - approach, heights.shape)
         result = _loaded(find, flat, float(top - approach), spacing, e_prime, hardness, definition)
         return result.mean_pressure / target - 1, result

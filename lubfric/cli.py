@@ -84,7 +84,7 @@ def _oils(arguments) -> int:
 
 
 def _run(arguments) -> int:
-    from .mixed import prepare
+    from .model import prepare
     from .output import read_csv, write_csv, write_fields, write_json
     from .plot import plot_contact, plot_stribeck
     from .scene_file import load_scene
@@ -116,8 +116,8 @@ def _run(arguments) -> int:
         write_fields(out / "fields.npz", model, points)
         plot_contact(out / "contact.png", model, points[0])
         written += ["fields.npz", "contact.png"]
-    for note in sorted({n for p in curve.points if p is not None for n in p.report.notes if n.startswith("caution")}):
-        say(note)
+    for text in sorted({caution.text for p in curve.points if p is not None for caution in p.cautions}):
+        say(text)
     say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
         raise ConvergenceError(

@@ -7,8 +7,8 @@ import math
 from .analytic import film as film_formulas
 from .analytic import hertz
 from .errors import InputError
-from .levels.forecast import forecast
-from .rough_map import contact_map
+from .point.outlook import outlook
+from .rough.height_map import contact_map
 from .scene import Scene
 from .surface import correlation_length, rms_slope
 
@@ -61,7 +61,7 @@ def describe_scene(scene: Scene) -> str:
         f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
     ]
     lines += [
-        f"  U = {speed:<10.4g} {forecast(scene, surface, speed)}"
+        f"  U = {speed:<10.4g} {outlook(scene, surface, speed)}"
         for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})
     ]
     return "\n".join(lines)

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from . import __version__
-from .mixed import FrictionResult, Model
+from .model import Model
 from .scene import scene_as_dict
+from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
@@ -80,10 +81,10 @@ def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None
         "speed": np.array([p.speed for p in points]),
         "heights": model.surface.heights,
         "spacing": np.array(model.surface.spacing),
-        "contact_x": model.patch.x,
+        "contact_x": model.contact.x,
     }
     for i, point in enumerate(points):
-        film, contact = point.balance.film, point.balance.closure.contact
+        film, contact = point.balance.film, point.balance.contact.fields
         if film is not None:
             arrays |= {
                 f"film_x_{i}": film.x,

@@ -63,9 +63,9 @@ def plot_contact(path: Path, model, point) -> None:
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
-    x = model.patch.x
+    x = model.contact.x
     heights = model.surface.heights - model.surface.heights.mean()
-    contact = point.balance.closure.contact
+    contact = point.balance.contact.fields
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     _pressure_map(figure, left, model, contact, row)
     left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
@@ -89,7 +89,7 @@ def _pressure_map(figure, axes, model, contact, row) -> None:
         )
         axes.set_axis_off()
         return
-    x, (_, dy), half_width = model.patch.x, model.surface.spacing, model.scene.bodies.half_width
+    x, (_, dy), half_width = model.contact.x, model.surface.spacing, model.scene.bodies.half_width
     image = axes.imshow(
         contact.pressure.T / 1e9,
         origin="lower",
@@ -106,7 +106,7 @@ def _pressure_map(figure, axes, model, contact, row) -> None:
 
 
 def _section(axes, x, surface, balance, row) -> None:
-    smooth, contact = balance.film.film_at(x), balance.closure.contact
+    smooth, contact = balance.film.film_at(x), balance.contact.fields
     micro = x * 1e6
     axes.plot(micro, smooth * 1e9, color=BLUE, label="film thickness h")
     axes.plot(micro, surface * 1e9, color=GREY, lw=0.8, ls="--", label="surface z, undeformed")

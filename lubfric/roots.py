@@ -2,90 +2,122 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from .report import CONVERGED, ITERATION_LIMIT
 
 
 @dataclass(frozen=True)
 class Root:
-    """x, f(x), the payload that came with it, every |f| on the way, and how it ended."""
+    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last two
+    points (None where they tell nothing)."""
 
     x: float
     value: float
-    payload: object
+    payload: Any
     history: tuple[float, ...]
     status: str
+    slope: float | None = None
 
 
 def increasing_root(
-    f,
+    f: Callable[[float, Any], tuple[float, Any]],
     guess: float,
     *,
     step: float,
     bounds: tuple[float, float],
     tolerance: float,
     slope: float | None = None,
+    first: Any = None,
     max_evaluations: int = 60,
 ) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
-    ``f(x)`` returns (value, payload); stops when |value| <= tolerance. The bracket grows by
-    doubled steps inside ``bounds``; a function of one sign there ends with "iteration_limit". Where ``slope`` is
-    roughly known, the first step is Newton's, at most ``step``.
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when |value| <=
+    tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
+    "iteration_limit". Where ``slope`` is roughly known, the first step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
-    history, best = [], None
+    search = _Search(f, tolerance, max_evaluations, first)
+    bracket = _bracket(search, min(max(guess, bounds[0]), bounds[1]), step, bounds, slope)
+    if bracket is not None:
+        _close_in(search, *bracket)
+    return search.root()
 
-    def evaluate(x):
-        nonlocal best
-        value, payload = f(x)
-        history.append(abs(value))
-        if best is None or abs(value) < abs(best[1]):
-            best = (x, value, payload)
-        return value
 
-    def done():
-        return abs(best[1]) <= tolerance or len(history) >= max_evaluations
+class _Search:
+    """One search: f with what it has given so far."""
 
-    x = min(max(guess, bounds[0]), bounds[1])
+    def __init__(self, f, tolerance: float, max_evaluations: int, first):
+        self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
+        self.points: list[tuple[float, float]] = []
+        self.best: tuple[float, float, Any] | None = None
+
+    def at(self, x: float) -> tuple[float, float]:
+        """(x, f(x))."""
+        value, self.last = self.f(x, self.last)
+        self.points.append((x, value))
+        if self.best is None or abs(value) < abs(self.best[1]):
+            self.best = (x, value, self.last)
+        return x, value
+
+    @property
+    def done(self) -> bool:
+        """The best is good enough, or enough has been tried."""
+        return abs(self.best[1]) <= self.tolerance or len(self.points) >= self.max_evaluations
+
+    def root(self) -> Root:
+        """What was found."""
+        status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
+        return Root(*self.best, tuple(abs(value) for _, value in self.points), status, self._slope())
+
+    def _slope(self) -> float | None:
+        if len(self.points) < 2:
+            return None
+        (a, fa), (b, fb) = self.points[-2:]
+        return (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
+
+
+def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
+    """Points (upper, lower) of both signs; None where the search ended before they were found."""
     lower = upper = None
-    while not done_bracketing(lower, upper):
-        value = evaluate(x)
-        if done():
-            return _root(best, history, tolerance)
-        if value < 0:
-            lower = (x, value)
+    while True:
+        point = search.at(x)
+        if search.done:
+            return None
+        if point[1] < 0:
+            lower = point
         else:
-            upper = (x, value)
-        if slope and len(history) == 1:
-            step = min(step, abs(value) / slope)
-        if not done_bracketing(lower, upper):
-            edge = bounds[1] if upper is None else bounds[0]
-            if x == edge:
-                return _root(best, history, tolerance)
-            x = min(x + step, edge) if upper is None else max(x - step, edge)
-            step *= 2
+            upper = point
+        if lower is not None and upper is not None:
+            return upper, lower
+        if slope and len(search.points) == 1:
+            step = min(step, abs(point[1]) / slope)
+        edge = bounds[1] if upper is None else bounds[0]
+        if x == edge:
+            return None
+        x = min(x + step, edge) if upper is None else max(x - step, edge)
+        step *= 2
 
-    a, b = upper, lower
+
+def _close_in(search: _Search, a, b) -> None:
+    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to rounding
+    and f still jumps in it."""
     fraction, c = _secant(a, b), None
     while True:
         x = a[0] + fraction * (b[0] - a[0])
-        if x in (a[0], b[0]):  # the bracket is down to rounding, and f still jumps in it
-            return _root(best, history, tolerance)
-        point = (x, evaluate(x))
-        if done():
-            return _root(best, history, tolerance)
+        if x in (a[0], b[0]):
+            return
+        point = search.at(x)
+        if search.done:
+            return
         if (point[1] > 0) == (a[1] > 0):
             c, a = a, point
         else:
             c, b, a = b, a, point
         fraction = _next_fraction(a, b, c)
-
-
-def done_bracketing(lower, upper) -> bool:
-    """Both signs have been seen."""
-    return lower is not None and upper is not None
 
 
 def _secant(a, b) -> float:
@@ -102,8 +134,3 @@ def _next_fraction(a, b, c) -> float:
         c[1] - b[1]
     )
     return min(max(t, 1e-3), 1 - 1e-3)
-
-
-def _root(best, history, tolerance) -> Root:
-    status = CONVERGED if abs(best[1]) <= tolerance else ITERATION_LIMIT
-    return Root(*best, tuple(history), status)

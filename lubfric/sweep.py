@@ -8,11 +8,13 @@ import numpy as np
 
 from . import validate
 from .errors import ConvergenceError, InputError
-from .mixed import FrictionResult, Model, at_tolerance, friction, scene_of
+from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
+from .steady import FrictionResult, friction
 
-QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in ("report", "balance", "decision"))
+NOT_NUMBERS = ("report", "balance", "decision", "cautions")
+QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
 @dataclass(frozen=True)

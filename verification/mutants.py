@@ -176,7 +176,7 @@ MUTANTS = (
     Mutant(
         "missing_y_mean",
         "volume balance on one row instead of the mean along y",
-        {"lubfric.patch.cylinder:CylinderPatch._closure": first_row_only},
+        {"lubfric.rough.half_space:HalfSpaceContact._state": first_row_only},
     ),
     Mutant(
         "viscosity_exponent",
@@ -191,8 +191,8 @@ MUTANTS = (
             "lubfric.contact.solve:contact_residuals": no_penetration,
         },
     ),
-    Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.patch.cylinder:solve_contact": half_load}),
-    Mutant("shear_side", "shear taken on the lower surface", {"lubfric.levels.balance_at:shear_force": lower_side}),
+    Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.rough.half_space:solve_contact": half_load}),
+    Mutant("shear_side", "shear taken on the lower surface", {"lubfric.film.contract:shear_force": lower_side}),
     Mutant(
         "lost_images",
         "semi-periodic operator without its waves along y, the sum over images",
@@ -201,11 +201,11 @@ MUTANTS = (
     Mutant(
         "stale_warm_start",
         "contact of the neighbouring load returned for this one",
-        {"lubfric.patch.cylinder:solve_contact": stale},
+        {"lubfric.rough.half_space:solve_contact": stale},
     ),
     Mutant(
         "half_cell",
         "film and strip half a cell off the roughness",
-        {"lubfric.mixed:centred_axis": corner_axis},
+        {"lubfric.rough.half_space:centred_axis": corner_axis},
     ),
 )

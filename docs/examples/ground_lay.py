@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 HERE = Path(__file__).parent
 SPEEDS = np.geomspace(1e-4, 1.0, 17)
@@ -29,7 +29,7 @@ def solve(surface_file, places=5):
         for first in np.linspace(0, full.shape[0] - nx, places).astype(int):
             piece = full.cropped((nx, ny), (first, 0)).periodic("mirror", axes=(False, True))
             heights = piece.heights - piece.heights.mean()
-            place = replace(model, surface=piece, patch=replace(model.patch, heights=heights))
+            place = replace(model, surface=piece, contact=replace(model.contact, heights=heights))
             rows.append(lubfric.stribeck(place, SPEEDS).coefficient)
         curves[direction] = np.array(rows)
     return curves

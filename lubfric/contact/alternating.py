@@ -118,7 +118,7 @@ def _by_root(contact: Imposed, pressure) -> Outcome:
     inner, first = _Inner(contact, pressure), _first_offset(contact, pressure)
     lowest = float(contact.problem.gap0.min())  # first touch: below it there is no pressure
 
-    def surplus(offset):
+    def surplus(offset, _):
         return inner.solve(offset), (inner.pressure, offset)
 
     step = max(0.05 * abs(first - lowest), 1e-3 * contact.mean_film)

@@ -57,7 +57,7 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
     finest = 0.2 * problem.tolerance
     pressure, spent, iterations = start, 0.0, 0
 
-    def surplus(log_pressure):
+    def surplus(log_pressure, _):
         nonlocal pressure, spent, iterations
         tolerance = max(finest, LOOSEST)
         while True:

@@ -51,6 +51,11 @@ class EHLResult:
     state: State = field(repr=False)
     imposed: LinePressure | None = field(default=None, repr=False)
 
+    @property
+    def cells(self) -> int:
+        """Of the finest grid, before rupture."""
+        return self.state.pressure.size
+
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.
 

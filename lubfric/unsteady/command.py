@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import __version__
 from ..errors import ConvergenceError
-from ..mixed import prepare
+from ..model import prepare
 from ..output import _plain, read_csv
 from ..scene import Scene, scene_as_dict
 from .checkpoint import STATE

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..ehl.transient.bdf import Level, March
-from ..patch.closure import Closure
+from ..rough.contract import ContactState
 from .row import UNITS, moment
 from .setup import Run
 from .sharing import Contact
@@ -46,7 +46,7 @@ def keep(run: Run, now: Progress, store, time, solution, advanced) -> None:
 def state_of(run: Run, now: Progress) -> dict:
     """All that `resume` needs, as plain numbers and arrays."""
     contact, closure = now.march.payload, now.march.payload.closure
-    pressure = getattr(closure.contact, "pressure", closure.contact)
+    pressure = closure.pressure
     return {
         "outputs": len(now.rows),
         "row_size": len(UNITS),
@@ -79,14 +79,14 @@ def resume(run: Run, store) -> Progress | None:
     steps, rejected, worst, step = state["steps"]
     load, softness, gap, film, real, plastic = (float(v) for v in state["contact"])
     pressure = state["contact_pressure"]
-    closure = Closure(
+    closure = ContactState(
         gap,
         film,
         run.sharing.patch.x,
         state["contact_fraction"],
         real,
         plastic,
-        pressure if pressure.size else None,
+        pressure=pressure if pressure.size else None,
     )
     levels = tuple(
         Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])

@@ -11,7 +11,7 @@ from ..ehl.transient.bdf import March, advance, restarted
 from ..ehl.transient.solve import SHORTEST, stops_and_jumps
 from ..errors import InputError
 from ..history.plan import Transient
-from ..mixed import Model
+from ..model import Model
 from ..report import CONVERGED, STAGNATED
 from ..scene import Scene
 from .checkpoint import Checkpoint

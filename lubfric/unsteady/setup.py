@@ -15,7 +15,7 @@ from ..ehl.transient.squeeze import Memory
 from ..errors import InputError
 from ..history import Constant, History
 from ..history.plan import Transient
-from ..mixed import Model, prepare
+from ..model import Model, prepare
 from ..scene import Scene
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
@@ -85,7 +85,7 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     tolerance = base.numerics.film_tolerance
     for finer in FINER:
         setting = _setting(model, plan, load, finer)
-        sharing = make_sharing(setting, model.patch, base.bodies.width, _volume_tolerance(base))
+        sharing = make_sharing(setting, model.contact, base.bodies.width, _volume_tolerance(base))
         start, grid_error = first_state(model, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
@@ -116,7 +116,7 @@ def _setting(model: Model, plan: Transient, load: History, finer: float) -> Sett
             "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
             "an entrainment speed before t = 0"
         )
-    reach = float(np.max(np.abs(model.patch.x))) if rough else 0.0
+    reach = float(np.max(np.abs(model.contact.x))) if rough else 0.0
     return make_setting(
         contact,
         scene.numerics.film_tolerance,

@@ -12,8 +12,8 @@ from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import Setting
 from ..ehl.transient.squeeze import Memory, Spring
 from ..errors import ConvergenceError
-from ..patch.closure import Closure
 from ..report import CONVERGED, ITERATION_LIMIT
+from ..rough.contract import ContactState, RoughContact
 
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
 LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
@@ -25,7 +25,7 @@ class Contact:
     """The contact's part of a step: load [N], closure, and softness -d(gap)/d(ln load) [m]."""
 
     load: float
-    closure: Closure
+    closure: ContactState
     softness: float
 
 
@@ -35,7 +35,7 @@ class Sharing:
     patch's points, and the row of it that gives the mean film over A. ``unit``: N per unit of film load."""
 
     setting: Setting
-    patch: object
+    patch: RoughContact
     to_patch: np.ndarray
     mean_row: np.ndarray
     unit: float
@@ -57,7 +57,7 @@ def make_sharing(setting: Setting, patch, width: float, tolerance: float) -> Sha
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
-    weight = getattr(patch, "region_weight", np.ones(x.size))
+    weight = patch.weight
     return Sharing(
         setting,
         patch,
@@ -113,7 +113,7 @@ def share_step(sharing: Sharing, time: float, memory: Memory, z: np.ndarray, pas
     return replace(solution, status=ITERATION_LIMIT)
 
 
-def _softness(old: float, seen, load: float, found: Closure) -> float:
+def _softness(old: float, seen, load: float, found: ContactState) -> float:
     """Secant of the gap over the logarithm of the load, where it says something."""
     if seen is None or abs(math.log(load / seen[0])) < 1e-6:
         return old
@@ -121,11 +121,11 @@ def _softness(old: float, seen, load: float, found: Closure) -> float:
     return min(max(slope, 0.3 * old), 3.0 * old) if slope > 0.0 else old
 
 
-def _close(sharing: Sharing, film: np.ndarray, load: float, start: Closure) -> Closure | None:
+def _close(sharing: Sharing, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
     """The contact at ``load`` [N] under ``film`` [m]; None where it cannot be solved."""
     if film.min() <= 0.0 and load == 0.0:
         return None
     try:
-        return sharing.patch.close(film, load, start.contact)
+        return sharing.patch.close(film, load, start)
     except ConvergenceError:
         return None

@@ -12,8 +12,9 @@ from ..ehl.transient.setting import discretisation, parabola, steady_start
 from ..ehl.transient.squeeze import Memory
 from ..errors import ConvergenceError, InputError
 from ..history.plan import Transient
-from ..mixed import Model, friction
+from ..model import Model
 from ..report import CONVERGED
+from ..steady import friction
 from .sharing import Contact, Sharing, share_step
 
 
@@ -95,7 +96,7 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     error = discretisation(setting, film)
     if point.contact_load == 0.0:
         return replace(film, payload=_untouched(sharing, film.terms.H)), error
-    contact = Contact(point.contact_load, point.balance.closure, 0.3 * point.mean_gap)
+    contact = Contact(point.contact_load, point.balance.contact, 0.3 * point.mean_gap)
     found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")

@@ -14,9 +14,9 @@ from lubfric.analytic import hertz
 from lubfric.ehl import grid, kernel, problem, reynolds, solve, start
 from lubfric.ehl.imposed import LinePressure, find_seats, line_deflection
 from lubfric.ehl.kernel import hat_kernel
-from lubfric.levels import total_deflection
-from lubfric.levels.total_deflection import mismatch, spread_of
 from lubfric.lubricant import Lubricant
+from lubfric.point import total_pressure
+from lubfric.point.total_pressure import mismatch, spread_of
 
 E, R = 231e9, 10e-3
 OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}
@@ -256,7 +256,7 @@ def test_semi_ellipse_of_a_contact():
     x = np.linspace(-6, 6, 2400) * b
     for width, centre in ((0.5, 0.3), (0.9, 0.0), (1.0, 0.0), (1.02, 0.01), (1.4, 0.05), (2.0, -0.1)):
         pressure = np.sqrt(np.maximum(1 - ((x / b - centre) / width) ** 2, 0.0))[:, None]
-        closure = SimpleNamespace(x=x, contact=SimpleNamespace(pressure=pressure))
+        closure = SimpleNamespace(x=x, pressure=pressure)
         found = spread_of(PAPER, closure, 1.0)
         assert found.half_width == pytest.approx(width * b, rel=3e-3 if abs(centre) < 0.2 and width < 1.9 else 2e-2)
         assert found.centre == pytest.approx(centre * b, rel=2e-2, abs=1e-6 * b)
@@ -266,10 +266,10 @@ def test_semi_ellipse_of_a_contact():
 def test_the_film_is_deflected_by_what_the_contact_presses_and_the_contact_by_itself_once():
     scene = deflected(PAPER, "total")
     point = lubfric.friction(scene, 1e-2, fields=True)
-    film, closure, b = point.balance.film, point.balance.closure, scene.bodies
+    film, closure, b = point.balance.film, point.balance.contact, scene.bodies
     assert film.imposed.load == pytest.approx(point.contact_load / b.width, rel=1e-9)
     assert point.report.residuals["deflection"] < 1e-3 and mismatch(scene, film, closure) < 1e-3
-    patch = lubfric.prepare(scene).patch
+    patch = lubfric.prepare(scene).contact
     shape = film.film_at(patch.x) - film.imposed_deflection(patch.x)
     own = hat_kernel(patch.x / film.half_width, film.x / film.half_width) @ film.pressure * film.half_width / b.e_prime
     assert np.ptp(shape - patch.x**2 / (2 * b.radius) - own) < 0.02 * point.mean_gap
@@ -314,7 +314,7 @@ def test_a_flat_contact_takes_the_semi_ellipse_of_the_strip():
 
 
 def test_fixed_point_that_does_not_close_is_an_error(monkeypatch):
-    monkeypatch.setattr(total_deflection, "MOST", 1)
+    monkeypatch.setattr(total_pressure, "MOST", 1)
     with pytest.raises(ConvergenceError, match="under each other's pressure") as caught:
         lubfric.friction(deflected(PAPER, "total"), 0.03)
     assert caught.value.report.residuals["deflection"] > caught.value.report.tolerance

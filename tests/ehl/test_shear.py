@@ -5,9 +5,9 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
+from lubfric.film.shear import _upstream, shear_force
 from lubfric.lubricant import Lubricant
-from lubfric.patch.closure import Closure
-from lubfric.shear import _upstream, shear_force
+from lubfric.rough.contract import ContactState
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
 OIL = Lubricant(ETA, 1e-13, "barus")
@@ -34,8 +34,6 @@ def force(result, slide_roll_ratio=2.0, contact_fraction=evenly(0.0), lubricant=
     return shear_force(
         result,
         lubricant,
-        entrainment_speed=result.entrainment_speed,
-        radius=R,
         width=B,
         slide_roll_ratio=slide_roll_ratio,
         contact_fraction=contact_fraction,
@@ -105,7 +103,7 @@ def test_upstream_integrals_against_quadrature(floor):
 def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
     """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that column."""
     x = np.linspace(-1.5, 1.5, 4)
-    closure = Closure(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
+    closure = ContactState(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
     nodes = np.array([-3.0, -1.7, -0.4, -0.2, 0.7, 5.0])
     share = closure.touching(nodes)
     assert share @ np.diff(nodes) == pytest.approx(closure.contact_fraction.sum())

@@ -8,8 +8,8 @@ import pytest
 
 import lubfric
 from lubfric.contact import solve_contact
-from lubfric.patch.asperities import asperity_curve
-from lubfric.patch.contact_curve import contact_curve
+from lubfric.rough.asperity_curve import asperity_curve
+from lubfric.rough.contact_curve import contact_curve
 from verification.__main__ import main
 from verification.figures import FIGURES, cylinder, flat_model, spheres
 
@@ -54,7 +54,7 @@ def small():
         contact={"shape": (96, 96), "spacing": 8e-6},
         numerics={"tolerance": 1e-3},
     )
-    heights = lubfric.mixed.prepare(scene).surface.heights
+    heights = lubfric.prepare(scene).surface.heights
     return scene, heights - heights.mean()
 
 

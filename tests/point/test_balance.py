@@ -1,75 +1,77 @@
 """Load sharing against models whose balance is known in closed form."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toys import EvenFilmLevel, Spring
 
-from lubfric.balance import share_load
-from lubfric.patch.closure import Closure
-from lubfric.patch.cylinder import strip_weight
-from lubfric.report import CONVERGED, ITERATION_LIMIT, Report
+import lubfric
+from lubfric.point.balance import balanced, divided
+from lubfric.point.operating_point import OperatingPoint, Settings, Trial
+from lubfric.report import ITERATION_LIMIT, Report
+from lubfric.rough.strip import strip_weight
 
-OK = Report("exact", CONVERGED, 0, 0.0, 1e-6)
+SCENE = lubfric.load_scene("paper").with_(bodies={"load": 1.0, "width": 1.0, "hardness": None})
+ROUGH = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
+
+
+def point(speed, stiffness=1.0, *, tolerance=1e-6, guess=0.0, level=None, closure="load"):
+    """film = speed/F_H [m], gap = 3 - (F_C/stiffness)^(2/3) [m], of 1 N."""
+    scene = SCENE.with_(numerics={"closure": closure})
+    model = lubfric.Model(scene, ROUGH, Spring(3.0, 1.0, stiffness))
+    return Guessed(model, speed, model.contact, Settings(level or EvenFilmLevel(), 1e-3, tolerance), guess)
 
 
 @dataclass(frozen=True)
-class Film:
-    thickness: float
-    report: Report = OK
+class Guessed(OperatingPoint):
+    guess: float = 0.0
 
-
-def models(speed, stiffness, sigma=1.0, touching=3.0):
-    """film = speed/F_H (rigid isoviscous); gap = touching - sigma (F_C/stiffness)^(2/3)."""
-    calls = []
-
-    def solve_film(load, start):
-        calls.append(load)
-        return Film(speed / load)
-
-    def close(film, contact_load, start):
-        gap = touching - sigma * min((contact_load / stiffness) ** (2 / 3), touching * 0.999)
-        return Closure(gap, film.thickness, np.zeros(1), np.zeros(1), 0.0, 0.0)
-
-    return solve_film, close, calls
+    def guessed_split(self):
+        return self.guess
 
 
 @settings(max_examples=80)
 @given(st.floats(1e-9, 1e3), st.floats(0.3, 30))
 def test_closes_both_balances_for_any_speed(speed, stiffness):
-    solve_film, close, calls = models(speed, stiffness)
-    balance = share_load(1.0, solve_film, close, guess=0.0, tolerance=1e-6)
-    assert balance.report.converged and len(calls) <= 45
+    balance = balanced(point(speed, stiffness))
+    assert balance.report.converged and balance.report.evaluations <= 45
     assert balance.film_load + balance.contact_load == pytest.approx(1.0, rel=1e-14)
     if balance.contact_load > 0:
-        assert balance.closure.mean_gap == pytest.approx(balance.film.thickness, rel=3e-6)
+        assert balance.contact.mean_gap == pytest.approx(balance.film.thickness, rel=3e-6)
     else:
         assert speed >= 3.0  # film at full load clears the summits
 
 
+@pytest.mark.parametrize("speed", [0.01, 0.3, 2.0])
+def test_both_closures_find_the_one_balance(speed):
+    load, separation = (balanced(point(speed, tolerance=1e-9, closure=c)) for c in ("load", "separation"))
+    assert separation.film_load == pytest.approx(load.film_load, rel=1e-6)
+
+
 def test_film_share_grows_with_speed():
-    shares = [
-        share_load(1.0, *models(u, 1.0)[:2], guess=0.0, tolerance=1e-8).film_load for u in np.geomspace(1e-4, 10, 30)
-    ]
+    shares = [balanced(point(u, tolerance=1e-8)).film_load for u in np.geomspace(1e-4, 10, 30)]
     assert np.all(np.diff(shares) >= 0) and shares[0] < 1e-3 and shares[-1] == 1.0
 
 
 def test_a_neighbour_as_start_saves_evaluations_and_changes_nothing():
-    cold = share_load(1.0, *models(0.1, 1.0)[:2], guess=10.0, tolerance=1e-9)
-    warm = share_load(1.0, *models(0.101, 1.0)[:2], guess=10.0, tolerance=1e-9, start=cold)
-    again = share_load(1.0, *models(0.101, 1.0)[:2], guess=10.0, tolerance=1e-9)
+    cold = balanced(point(0.1, tolerance=1e-9, guess=10.0))
+    warm = balanced(point(0.101, tolerance=1e-9, guess=10.0), cold)
+    again = balanced(point(0.101, tolerance=1e-9, guess=10.0))
     assert warm.film_load == pytest.approx(again.film_load, rel=1e-7)
     assert warm.report.evaluations < again.report.evaluations
 
 
 def test_an_unclosable_balance_is_reported():
-    def close(film, contact_load, start):
-        return Closure(2.0, 1.0, np.zeros(1), np.zeros(1), 0.0, 0.0)  # gap never meets the film
+    class Apart(Spring):
+        def close(self, film, load, start=None, shape=None):
+            return self.state(film, 2 * float(np.mean(film)))  # the gap never meets the film
 
-    balance = share_load(1.0, models(1.0, 1.0)[0], close, guess=0.0, tolerance=1e-6)
+    apart = replace(point(1.0), contact=Apart(3.0, 1.0, 1.0))
+    balance = balanced(apart)
     assert balance.report.status == ITERATION_LIMIT and balance.report.residual == pytest.approx(1 / 3)
 
 
@@ -80,17 +82,32 @@ def test_the_strip_counts_cut_cells_by_their_share():
     assert math.isclose(strip_weight(x, 0.1, 9.0).sum(), 10)
 
 
+@dataclass(frozen=True)
+class Failing(EvenFilmLevel):
+    """Fails at the whole load."""
+
+    def solve(self, line, **options):
+        if line.load_per_width == 1.0:
+            raise lubfric.ConvergenceError("too heavy", Report("film", ITERATION_LIMIT, 1, 1.0, 0.1))
+        return super().solve(line, **options)
+
+
 def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance():
-    from lubfric import ConvergenceError
-
-    solve_film, close, _ = models(0.01, 1.0)
-
-    def failing(load, start):
-        if load == 1.0:
-            raise ConvergenceError("too heavy", Report("film", ITERATION_LIMIT, 1, 1.0, 0.1))
-        return solve_film(load, start)
-
-    balance = share_load(1.0, failing, close, guess=0.0, tolerance=1e-8)
-    reference = share_load(1.0, solve_film, close, guess=0.0, tolerance=1e-8)
+    balance = balanced(point(0.01, tolerance=1e-8, level=Failing()))
+    reference = balanced(point(0.01, tolerance=1e-8))
     assert balance.film_load == pytest.approx(reference.film_load, rel=1e-6)
     assert "too heavy" in balance.report.notes[0]
+
+
+def test_the_loads_of_a_split_add_up_and_give_it_back():
+    for split in (-35.0, -1.0, 0.0, 2.0, 25.0):
+        film, contact = divided(7.0, split)
+        assert film + contact == pytest.approx(7.0, rel=1e-14) and math.log(film / contact) == pytest.approx(split)
+    balance = balanced(point(0.1))
+    assert balance.moved(0.3).split == pytest.approx(balance.split + 0.3)
+
+
+def test_films_keep_to_one_grid_from_the_second_on():
+    """Cells of the film of the whole load, or of the first trial, bind no other: the root would have a jump."""
+    assert Trial().least_cells == Trial(solved=(512,)).least_cells == 0
+    assert Trial(solved=(512, 96)).least_cells == 96 and Trial(solved=(48, 96, 192)).least_cells == 192

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 import lubfric
-from lubfric.cautions import cautions
-from lubfric.shear import ShearForce
+from lubfric.film.shear import ShearForce
+from lubfric.point.cautions import cautions
 
 PAPER = lubfric.load_scene("paper").with_(contact={"shape": (96, 96), "spacing": 0.9e-6})
 
@@ -33,8 +33,8 @@ def test_each_limit_is_told(balance, words, scene, change, shear):
     if change:
         film = replace(balance.film, pressure=balance.film.pressure * (2e9 / balance.film.pressure.max()))
         balance = replace(balance, film=film)
-    notes = cautions(scene, balance, shear)
-    assert any(words in note for note in notes), notes
+    found = [caution for caution in cautions(scene, balance, shear) if words in caution.text]
+    assert len(found) == 1 and found[0].value > found[0].limit and found[0].unit
 
 
 def test_a_non_newtonian_oil_is_not_cautioned(balance):

@@ -1,57 +1,37 @@
 """Film levels against closed forms and the numerical film, their error estimates, grids, and the knob as a whole."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import lubfric
 from lubfric.analytic import rigid
+from lubfric.film.ladder import LEVELS, lowest_level
+from lubfric.film.rigid import isoviscous_film, piezoviscous_film
+from lubfric.film.rigid_error import elastic_error
+from lubfric.film.rigid_levels import Isoviscous
+from lubfric.film.shear import shear_force
 from lubfric.halfspace import half_space
-from lubfric.levels.contact_grid import cut, grids, holds, in_contact
-from lubfric.levels.film_error import elastic_error, rigid_error
-from lubfric.levels.film_level import EHL, ISOVISCOUS, PIEZOVISCOUS, lowest_level
+from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
-from lubfric.mixed import prepare
-from lubfric.rigid_film import isoviscous_film, piezoviscous_film
-from lubfric.shear import shear_force
+from lubfric.model import prepare
+from lubfric.rough.half_space_grid import coarser_grids, cut, holds, in_contact
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
 PAPER = lubfric.load_scene("paper")
 
 
-def line_contact(m, l):
-    """Keyword arguments of a film with the Moes numbers."""
+def line_contact(m, l, lubricant):
+    """The line contact with the Moes numbers (of the Roelands oil)."""
     u1 = (l / (ALPHA * E)) ** 4
-    return {
-        "load_per_width": m * np.sqrt(u1) * E * R,
-        "radius": R,
-        "e_prime": E,
-        "entrainment_speed": u1 * E * R / (2 * ETA),
-    }
-
-
-def numerical(lubricant, **case):
-    return lubfric.solve_ehl(
-        viscosity=lubricant.viscosity,
-        viscosity_law=lubricant.viscosity_law,
-        tolerance=1e-4,
-        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-        **case,
-    )
+    return LineContact(m * np.sqrt(u1) * E * R, R, E, u1 * E * R / (2 * ETA), lubricant)
 
 
 def test_the_isoviscous_film_has_the_friction_of_the_closed_form():
-    film = isoviscous_film(
-        load_per_width=10.0, radius=R, e_prime=E, entrainment_speed=1e-3, lubricant=Lubricant(ETA, 0.0, "constant")
-    )
-    found = shear_force(
-        film,
-        Lubricant(ETA, 0.0, "constant"),
-        entrainment_speed=1e-3,
-        slide_roll_ratio=2.0,
-        radius=R,
-        width=1.0,
-        contact_fraction=lambda x: 0 * x[1:],
-    )
+    oil = Lubricant(ETA, 0.0, "constant")
+    film = isoviscous_film(LineContact(10.0, R, E, 1e-3, oil))
+    found = shear_force(film, oil, slide_roll_ratio=2.0, width=1.0, contact_fraction=lambda x: 0 * x[1:])
     assert found.couette == pytest.approx(
         rigid.couette_friction(film.min_film, radius=R, speed_difference=2e-3, viscosity=ETA), rel=1e-4
     )
@@ -67,37 +47,35 @@ def test_what_the_rigid_films_leave_out_is_foretold(law, l):
     """The estimate is the error against the numerical film, to the next order."""
     lubricant = Lubricant(ETA, ALPHA, law)
     for m in (0.05, 0.1, 0.2):
-        case = line_contact(m, l)
-        full = numerical(lubricant, **case).central_film
-        thin, thick = (make(lubricant=lubricant, **case) for make in (isoviscous_film, piezoviscous_film))
+        case = line_contact(m, l, lubricant)
+        full = LEVELS[-1].solve(case, tolerance=1e-4).central_film
+        thin, thick = isoviscous_film(case), piezoviscous_film(case)
         assert 1 - thick.central_film / full == pytest.approx(elastic_error(thick, lubricant), rel=0.1, abs=2e-4)
         assert 1 - thin.central_film / full == pytest.approx(
-            rigid_error(thin, lubricant, thick).total, rel=0.25, abs=3e-4
+            Isoviscous().left_out(thin, case).total, rel=0.25, abs=3e-4
         )
 
 
 def test_the_elastic_correction_of_the_isoviscous_film_grows_with_the_square_of_the_load():
     lubricant = Lubricant(ETA, 0.0, "constant")
-    errors = [
-        elastic_error(isoviscous_film(lubricant=lubricant, **line_contact(m, 1.0)), lubricant)
-        for m in (0.01, 0.02, 0.04)
-    ]
+    errors = [elastic_error(isoviscous_film(line_contact(m, 1.0, lubricant)), lubricant) for m in (0.01, 0.02, 0.04)]
     np.testing.assert_allclose(np.log2(np.divide(errors[1:], errors[:-1])), 2.0, atol=1e-6)
 
 
 def test_blok_limit_of_the_barus_film():
     lubricant = Lubricant(ETA, ALPHA, "barus")
-    case = line_contact(30.0, 15.0)
+    case = line_contact(30.0, 15.0, lubricant)
     limit = rigid.piezoviscous_min_film(
-        radius=R, entrainment_speed=case["entrainment_speed"], viscosity=ETA, pressure_viscosity_coefficient=ALPHA
+        radius=R, entrainment_speed=case.entrainment_speed, viscosity=ETA, pressure_viscosity_coefficient=ALPHA
     )
-    assert piezoviscous_film(lubricant=lubricant, **case).min_film == pytest.approx(limit, rel=0.02)
+    assert piezoviscous_film(case).min_film == pytest.approx(limit, rel=0.02)
 
 
 def test_a_film_run_backwards_is_mirrored():
-    lubricant, case = Lubricant(ETA, ALPHA), line_contact(0.1, 10.0)
-    forth = piezoviscous_film(lubricant=lubricant, **case)
-    back = piezoviscous_film(lubricant=lubricant, **case | {"entrainment_speed": -case["entrainment_speed"]})
+    lubricant = Lubricant(ETA, ALPHA)
+    case = line_contact(0.1, 10.0, lubricant)
+    forth = piezoviscous_film(case)
+    back = piezoviscous_film(replace(case, entrainment_speed=-case.entrainment_speed))
     np.testing.assert_allclose(back.x, -forth.x[::-1])
     np.testing.assert_allclose(back.pressure, forth.pressure[::-1])
     assert back.rupture == -forth.rupture and elastic_error(back, lubricant) == pytest.approx(
@@ -106,11 +84,16 @@ def test_a_film_run_backwards_is_mirrored():
 
 
 def test_levels_rise_with_load_and_with_what_is_asked():
-    order = [ISOVISCOUS, PIEZOVISCOUS, EHL]
-    levels = [lowest_level(PAPER, 1.0, load, 1e-3)[0] for load in np.geomspace(1e-3, 50.0, 25)]
-    assert sorted(levels, key=order.index) == levels and set(levels) == set(order)
-    asked = [lowest_level(PAPER, 1.0, 1.0, budget)[0] for budget in np.geomspace(0.2, 1e-6, 20)]
-    assert sorted(asked, key=order.index) == asked
+    b = PAPER.bodies
+
+    def lowest(load, budget):
+        line = LineContact(load / b.width, b.radius, b.e_prime, 1.0, PAPER.lubricant)
+        return lowest_level(LEVELS, line, budget)[0]
+
+    levels = [lowest(load, 1e-3) for load in np.geomspace(1e-3, 50.0, 25)]
+    assert sorted(levels, key=LEVELS.index) == levels and set(levels) == set(LEVELS)
+    asked = [lowest(1.0, budget) for budget in np.geomspace(0.2, 1e-6, 20)]
+    assert sorted(asked, key=LEVELS.index) == asked
 
 
 def test_a_shortened_operator_is_a_part_of_the_whole():
@@ -124,22 +107,22 @@ def test_a_shortened_operator_is_a_part_of_the_whole():
 
 def test_a_cut_patch_finds_the_same_contact_and_knows_when_it_does_not():
     model = prepare(PAPER.with_(contact={"shape": (160, 96)}))
-    whole = model.patch
+    whole = model.contact
     film = whole.x**2 / (2 * PAPER.bodies.radius)
     closure = whole.close(film, 5.0)
-    part = cut(whole, in_contact(whole, closure.contact.pressure))
+    part = cut(whole, in_contact(whole, closure.pressure))
     found = part.close(part.x**2 / (2 * PAPER.bodies.radius), 5.0)
     assert part.x.size < 140 and found.mean_gap == pytest.approx(closure.mean_gap, rel=1e-6)
-    assert holds(part, whole, film, found.contact)
+    assert holds(whole, part, film, found)
     narrow = cut(whole, (-8e-6, 8e-6))
     found = narrow.close(narrow.x**2 / (2 * PAPER.bodies.radius), 5.0)
-    assert not holds(narrow, whole, film, found.contact)
+    assert not holds(whole, narrow, film, found)
 
 
 def test_grids_end_at_the_given_one_and_hold_its_roughness():
     model = prepare(PAPER)
-    ladder = grids(model)
-    assert ladder[-1] is model.patch and len(ladder) >= 3
+    ladder = coarser_grids(model.contact, model.surface.sq)
+    assert ladder[-1] is model.contact and len(ladder) >= 3
     assert all(p.heights.std() > 0.89 * model.surface.sq for p in ladder)
 
 
@@ -189,7 +172,7 @@ def test_one_curve_serves_every_load_and_lubricant():
     heavy = prepare(flat.with_(bodies={"load": 55.0}))
     light = flat.with_(bodies={"load": 2.0}, lubricant={"viscosity": 0.1})
     again = prepare(light, like=heavy)
-    assert again.patch.curve is heavy.patch.curve
+    assert again.contact.curve is heavy.contact.curve
     assert lubfric.friction(again, 0.02).coefficient == pytest.approx(
         lubfric.friction(light, 0.02).coefficient, rel=1e-2
     )

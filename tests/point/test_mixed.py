@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (96, 96), "spacing": 0.6e-6}, surface={"correlation_length": 4e-6}, numerics={"tolerance": 1e-3}
@@ -17,7 +17,7 @@ FLAT = lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing":
 
 
 def with_heights(model, change):
-    return replace(model, patch=replace(model.patch, heights=change(model.patch.heights)))
+    return replace(model, contact=replace(model.contact, heights=change(model.contact.heights)))
 
 
 def test_without_entrainment_the_contact_carries_everything():
@@ -32,7 +32,7 @@ def test_without_entrainment_the_contact_carries_everything():
 def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder():
     point = lubfric.friction(MODEL, 1.0, fields=True)
     b, film = SCENE.bodies, point.balance.film
-    assert point.contact_load == 0 and point.balance.closure.contact is None and point.real_contact_area_fraction == 0
+    assert point.contact_load == 0 and point.balance.contact.fields is None and point.real_contact_area_fraction == 0
     exact = rigid.couette_friction(
         film.min_film, radius=b.radius, speed_difference=2.0, viscosity=0.36
     ) + rigid.rolling_friction(film.min_film, radius=b.radius, entrainment_speed=1.0, viscosity=0.36)
@@ -41,7 +41,7 @@ def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder():
 
 def test_both_balances_recomputed_from_the_fields():
     point = lubfric.friction(MODEL, 0.01, fields=True)
-    b, film, contact = SCENE.bodies, point.balance.film, point.balance.closure.contact
+    b, film, contact = SCENE.bodies, point.balance.film, point.balance.contact.fields
     dx, dy = MODEL.surface.spacing
     length = contact.pressure.shape[1] * dy
     carried = contact.pressure.sum() * dx * dy / length * b.width
@@ -49,7 +49,7 @@ def test_both_balances_recomputed_from_the_fields():
     assert carried == pytest.approx(point.contact_load, rel=1e-4)
     assert fluid == pytest.approx(point.film_load, rel=2e-3)  # trapezoid, without the far inlet
     assert carried + fluid == pytest.approx(b.load, rel=2e-3)
-    x = MODEL.patch.x
+    x = MODEL.contact.x
     share = np.clip((np.minimum(x + dx / 2, b.half_width) - np.maximum(x - dx / 2, -b.half_width)) / dx, 0, 1)
     gap = (share @ contact.gap.mean(axis=1)) / share.sum()
     smooth = (share @ film.film_at(x)) / share.sum()
@@ -112,7 +112,7 @@ def test_the_strip_does_not_depend_on_the_box_and_the_box_does():
             model = prepare(SCENE.with_(contact={"region": region}))
             keep = slice((96 - n) // 2, (96 + n) // 2)
             cut = prepare(SCENE.with_(contact={"region": region, "shape": (n, 96)}))
-            cut = replace(cut, patch=replace(cut.patch, heights=model.patch.heights[keep]))
+            cut = replace(cut, contact=replace(cut.contact, heights=model.contact.heights[keep]))
             loads.append(lubfric.friction(cut, 0.001).film_load)
         rows[region] = abs(loads[1] / loads[0] - 1)
     assert rows["hertz"] < 5e-3 < 0.02 < rows["box"]
@@ -147,7 +147,7 @@ def test_flat_contact_follows_its_curve(flat):
     from lubfric.contact import solve_contact
 
     point = lubfric.friction(flat, 0.05)
-    pressure = point.contact_load / flat.patch.area
+    pressure = point.contact_load / flat.contact.area
     heights = flat.surface.heights
     direct = solve_contact(heights.max() - heights, flat.surface.spacing, FLAT.bodies.e_prime, mean_pressure=pressure)
     assert point.mean_gap == pytest.approx(direct.mean_gap, rel=2e-3)

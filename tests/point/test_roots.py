@@ -15,7 +15,7 @@ BOUNDS = (-40.0, 40.0)
 def counted(f):
     calls = []
 
-    def g(x):
+    def g(x, last):
         calls.append(x)
         return f(x), x
 
@@ -65,3 +65,20 @@ def test_the_evaluation_limit_is_reported():
     found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-15, max_evaluations=4)
     assert found.status == ITERATION_LIMIT and len(calls) == 4
     assert abs(found.value) == min(found.history)
+
+
+def test_every_evaluation_is_handed_the_payload_of_the_one_before():
+    seen = []
+
+    def f(x, last):
+        seen.append(last)
+        return math.tanh(x - 1.3), x
+
+    increasing_root(f, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first="nothing yet")
+    assert seen[0] == "nothing yet" and len(set(seen)) == len(seen) and seen[1] == 0.0
+
+
+def test_the_slope_is_that_of_the_last_two_points():
+    found = increasing_root(lambda x, _: (3 * x - 1, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9)
+    assert found.slope == pytest.approx(3.0)
+    assert increasing_root(lambda x, _: (x, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9).slope is None

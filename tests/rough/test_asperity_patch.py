@@ -7,9 +7,10 @@ import pytest
 
 import lubfric
 from lubfric.asperity import contact_law
-from lubfric.mixed import prepare
-from lubfric.patch.asperities import AsperityPatch, asperity_curve
-from lubfric.patch.contact_curve import contact_curve
+from lubfric.model import prepare
+from lubfric.rough.asperities import AsperityContact
+from lubfric.rough.asperity_curve import asperity_curve
+from lubfric.rough.contact_curve import contact_curve
 
 CYLINDER = lubfric.load_scene("paper").with_(
     contact={"shape": (96, 96), "spacing": 0.6e-6},
@@ -30,7 +31,7 @@ def one_ball(model, reading="volume"):
     x = (np.arange(121) - 60) * 0.2e-6
     z = np.maximum(0.5e-6 - (x[:, None] ** 2 + x**2) / (2 * RADIUS), 0.0)
     z -= z.mean()
-    return AsperityPatch(z, (0.2e-6, 0.2e-6), x, np.ones(x.size), E, 121 * 0.2e-6, None, model, reading, 1e-6)
+    return AsperityContact(z, (0.2e-6, 0.2e-6), x, np.ones(x.size), E, 121 * 0.2e-6, None, model, reading, 1e-6)
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -52,7 +53,7 @@ def test_one_asperity_is_hertz(model):
 @pytest.mark.parametrize("reading", ["volume", "mean-plane"])
 @pytest.mark.parametrize("model", MODELS)
 def test_carry_is_the_inverse_of_close(model, reading):
-    patch = prepare(CYLINDER.with_(contact={"model": model, "asperity_separation": reading})).patch
+    patch = prepare(CYLINDER.with_(contact={"model": model, "asperity_separation": reading})).contact
     shape = patch.x**2 / (2 * CYLINDER.bodies.radius)
     closure = patch.close(shape + 2e-7, 3.0)
     film = shape + 2e-7 + closure.mean_gap - closure.mean_film
@@ -84,7 +85,7 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
     assert paper.film_load == pytest.approx(load.film_load, rel=2e-3)
     assert abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
-    assert paper.balance.closure.contact.report.solver == "single loop, consistent"
+    assert paper.balance.contact.fields.report.solver == "single loop, consistent"
 
 
 def test_the_flat_contact_closes_both_ways():
@@ -142,8 +143,8 @@ def test_the_scaled_film_does_not_deform_the_contact_twice():
     """The surface is pressed under the film's own share of the deflection; the contact adds the rest itself."""
     model = prepare(CYLINDER.with_(numerics={"film_deflection": "scaled"}))
     point = lubfric.friction(model, 1e-3, fields=True)
-    contact, b = point.balance.closure.contact, CYLINDER.bodies
-    dry = lubfric.friction(model, 0.0, fields=True).balance.closure.contact
+    contact, b = point.balance.contact.fields, CYLINDER.bodies
+    dry = lubfric.friction(model, 0.0, fields=True).balance.contact.fields
     assert point.film_load < 0.05 * b.load
     assert contact.pressure.max() == pytest.approx(dry.pressure.max(), rel=0.05)
     assert point.mean_gap == pytest.approx(lubfric.friction(replace(model), 0.0).mean_gap, rel=0.03)

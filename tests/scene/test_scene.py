@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.rough_map import contact_map
+from lubfric.rough.height_map import contact_map
 from lubfric.scene import scene_as_dict
 from lubfric.scene_file import builtin_scenes
 
@@ -150,7 +150,7 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
     ],
 )
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
-    from lubfric.rough_map import check_grid
+    from lubfric.rough.height_map import check_grid
 
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)

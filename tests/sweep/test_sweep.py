@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric import sweep
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}

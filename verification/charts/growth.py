@@ -91,7 +91,7 @@ SWEEP = (
     START
     + """
 import lubfric
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 model = prepare(lubfric.load_scene("paper").with_(contact={"shape": (50, 50), "spacing": 1.8e-6}))
 lubfric.stribeck(model, [0.1])
 """

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 from .draw import axes, image, png
 from .page import PaperFigure
@@ -217,8 +217,8 @@ def pressure_map(quick: bool) -> PaperFigure:
     for ax, acf in zip(panels, ("gaussian", "exponential")):
         scene = scene_of(acf)
         point = lubfric.friction(scene, 0.001, fields=True)
-        pressure = point.balance.closure.contact.pressure
-        x = point.balance.closure.x * 1e6
+        pressure = point.balance.contact.fields.pressure
+        x = point.balance.contact.x * 1e6
         image(
             canvas,
             ax,
@@ -296,14 +296,14 @@ def sections(quick: bool) -> PaperFigure:
     """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model, rows, words = prepare(PAPER), [], []
-    pressure = lubfric.friction(model, 0.001, fields=True).balance.closure.contact.pressure
+    pressure = lubfric.friction(model, 0.001, fields=True).balance.contact.fields.pressure
     line = int(np.argmax(pressure.max(axis=0)))  # through the highest contact pressure
-    z = model.patch.heights
+    z = model.contact.heights
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
-        closure, film = point.balance.closure, point.balance.film
+        closure, film = point.balance.contact, point.balance.film
         x, h = closure.x, film.film_at(closure.x)
-        weight = model.patch.region_weight / model.patch.region_weight.sum()
+        weight = model.contact.weight / model.contact.weight.sum()
         if closure.contact is not None:
             offset, gap = closure.contact.approach, closure.contact.gap[:, line]
         else:

@@ -10,8 +10,8 @@ from itertools import product
 import numpy as np
 
 import lubfric
-from lubfric.patch.asperities import asperity_curve
-from lubfric.patch.contact_curve import contact_curve
+from lubfric.rough.asperity_curve import asperity_curve
+from lubfric.rough.contact_curve import contact_curve
 
 from .draw import axes, png
 from .flat_model import at_mean_pressure, deviation, film_tables, share, tabulated

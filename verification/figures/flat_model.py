@@ -14,9 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from lubfric.ehl import solve_ehl
-from lubfric.patch.contact_curve import ContactCurve
+from lubfric.film.shear import shear_force
+from lubfric.rough.contact_curve import ContactCurve
 from lubfric.scene import Scene
-from lubfric.shear import shear_force
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128
@@ -121,9 +121,7 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
                 shear_force(
                     film,
                     oil,
-                    entrainment_speed=speed,
                     slide_roll_ratio=scene.motion.slide_roll_ratio,
-                    radius=b.radius,
                     width=b.width,
                     contact_fraction=fraction,
                 ).total

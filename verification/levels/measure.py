@@ -11,7 +11,7 @@ import numpy as np
 
 import lubfric
 from lubfric.errors import LubfricError
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 from .scenes import SEED, cells, points, scene
 

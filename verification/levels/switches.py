@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import lubfric
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 TOLERANCE = 1e-2
 LUBRICANTS = {

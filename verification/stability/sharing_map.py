@@ -21,7 +21,7 @@ from lubfric import (
     solve_differential_deflection,
     solve_ehl,
 )
-from lubfric.mixed import Model, prepare
+from lubfric.model import Model, prepare
 
 from .cell import Cell, Condition, judged
 from .film_check import viscosity_ratio
@@ -152,7 +152,7 @@ def judge_film(scene, load: float, speed: float):
 
 def judge_contact(model: Model, load: float, film) -> Sides:
     """A dry contact solved afresh at ``load`` [N]."""
-    patch, scene = model.patch, model.scene
+    patch, scene = model.contact, model.scene
     heights, spacing = model.surface.heights - model.surface.heights.mean(), model.surface.spacing
     x, flat = patch.x, scene.contact.geometry == "flat"
     smooth = film.film_at(x)
@@ -160,7 +160,7 @@ def judge_contact(model: Model, load: float, film) -> Sides:
         pressure, gap0, weight = load / patch.area, heights.max() - heights, np.ones(x.size)
     else:
         pressure = load / (scene.bodies.width * x.size * spacing[0])
-        gap0, weight = smooth[:, None] - heights, patch.region_weight
+        gap0, weight = smooth[:, None] - heights, patch.weight
     dry = solve_contact(
         gap0,
         spacing,

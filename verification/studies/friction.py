@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.mixed import Model, prepare
+from lubfric.model import Model, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import lubfric
-from lubfric.mixed import prepare
+from lubfric.model import prepare
 
 from .. import plotting
 from ..check import AT_LEAST, Check, Field, Table
@@ -252,7 +252,7 @@ def pressure_field(p: Point) -> Field:
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
-    contact = p.main.balance.closure.contact
+    contact = p.main.balance.contact.fields
     values = {
         "pressure": p.fem.pressed.pressure,
         "pressure_lubfric": contact.pressure,
@@ -272,7 +272,7 @@ def pressure_field(p: Point) -> Field:
 def pressure_figure(p: Point):
     """Contact pressure of both and the film's pressure of both."""
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
-    half, contact = LENGTH / 2 * 1e6, p.main.balance.closure.contact
+    half, contact = LENGTH / 2 * 1e6, p.main.balance.contact.fields
     largest = p.fem.pressed.pressure.max() / 1e9
     for ax, pressure, title in (
         (left, p.fem.pressed.pressure, "finite elements"),

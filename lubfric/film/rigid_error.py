@@ -3,34 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
-from ..rigid_film import CELLS, RigidFilm, unit_nodes
+from .rigid import CELLS, RigidFilm, unit_nodes
 
 STRIDE = 2  # of the nodes: the deflection is smooth
 STIFFEST = 50.0  # ln(eta/eta0): a rigid film of such pressures means nothing
-
-
-@dataclass(frozen=True)
-class FilmError:
-    """Relative change of film and film friction (the larger) by what a film level leaves out.
-
-    elastic: deflection of the film's own pressure; piezoviscous: rise of the viscosity; density: compression.
-    """
-
-    elastic: float = 0.0
-    piezoviscous: float = 0.0
-    density: float = 0.0
-
-    @property
-    def total(self) -> float:
-        """The sum."""
-        return self.elastic + self.piezoviscous + self.density
 
 
 @cache
@@ -77,8 +59,6 @@ def elastic_error(film: RigidFilm, lubricant: Lubricant) -> float:
     return float(max(central, shear))
 
 
-def rigid_error(film: RigidFilm, lubricant: Lubricant, reference: RigidFilm | None = None) -> FilmError:
-    """What ``film`` leaves out; ``reference``: the piezoviscous film of the same load, where it is isoviscous."""
-    piezo = 0.0 if reference is None else abs(reference.min_film / film.min_film - 1)
-    density = float(density_ratio(lubricant, film.pressure.max())[0]) - 1
-    return FilmError(elastic_error(film, lubricant), piezo, density)
+def compression(film: RigidFilm, lubricant: Lubricant) -> float:
+    """Largest rise of the density, relative, that a film of constant density leaves out."""
+    return float(density_ratio(lubricant, film.pressure.max())[0]) - 1

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .film_error import FilmError
-from .film_level import EHL, WORDS
-
-FILM_SHARE, GRID_SHARE = 0.2, 0.4  # of the tolerance on f; the solvers' own shares are those of `Numerics`
+from .. import budget
+from ..film.contract import LeftOut
 
 
 @dataclass(frozen=True)
 class Decision:
     """Levels of film and contact and the grid of one operating point.
 
-    film, contact: names of the levels; film_error: what the film level leaves out of film and film friction, of which
-    the share ``sensitivity`` reaches f; film_tolerance: of the EHL solve (0: closed form). clearance [sigma] between
-    the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells in those of
-    the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
+    film, contact: names of the levels, film_words: of the film in words; left_out: by the film level, of film and film
+    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
+    [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
+    in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
     tolerance: asked, on f; forced: what was not chosen but given.
     """
 
     film: str
     contact: str
     tolerance: float
-    film_error: FilmError = FilmError()
+    film_words: str = "none"
+    left_out: LeftOut = LeftOut()
     sensitivity: float = 1.0
     film_tolerance: float = 0.0
     clearance: float | None = None
@@ -37,27 +36,22 @@ class Decision:
     @property
     def text(self) -> str:
         """In words, the number beside its budget."""
-        return "; ".join(part for part in (self._film(), self._contact(), self._grid(), *self.notes) if part)
+        parts = (self.film_text, self._contact(), self._grid(), *self.notes)
+        return "; ".join(part for part in parts if part)
 
-    def _film(self) -> str:
-        text = f"film: {WORDS[self.film]}"
+    @property
+    def film_text(self) -> str:
+        """The film's part of ``text``."""
+        text = f"film: {self.film_words}"
         if self.film == "none":
             return f"{text}, no entrainment"
-        if self.film == EHL:
+        if self.film_tolerance > 0:
             text += f", tolerance {_percent(self.film_tolerance)}"
-        elif self.film_error.total > 0:
-            parts = [
-                f"{name} correction {_percent(value)}"
-                for name, value in (
-                    ("elastic", self.film_error.elastic),
-                    ("piezoviscous", self.film_error.piezoviscous),
-                    ("density", self.film_error.density),
-                )
-                if value > 0
-            ]
+        elif self.left_out.total > 0:
+            parts = [f"{name} correction {_percent(value)}" for name, value in self.left_out.parts.items() if value > 0]
+            limit = budget.FILM_LEVEL * self.tolerance
+            reached = self.left_out.total * self.sensitivity
             text += f", {' + '.join(parts)}"
-            limit = FILM_SHARE * self.tolerance
-            reached = self.film_error.total * self.sensitivity
             text += f" ({_percent(reached)} of f) {'<' if reached <= limit else '>'} {_percent(limit)} budget"
         return text + (" (forced)" if "film_level" in self.forced else "")
 
@@ -74,7 +68,7 @@ class Decision:
         if self.coarsening != (1, 1):
             text += f", cells of {self.coarsening[0]} x {self.coarsening[1]}"
         if self.grid_error is not None:
-            limit = GRID_SHARE * self.tolerance
+            limit = budget.CONTACT_GRID * self.tolerance
             text += (
                 f", estimated error {_percent(self.grid_error)} of f {'<' if self.grid_error <= limit else '>'} "
                 f"{_percent(limit)} budget"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lubricant import shear_stress
+from ..lubricant import Lubricant, shear_stress
 
 
 @dataclass(frozen=True)
@@ -30,17 +30,18 @@ class ShearForce:
 
 
 def shear_force(
-    film, lubricant, *, entrainment_speed, slide_roll_ratio, radius, width, contact_fraction, cavitated="none"
+    film, lubricant: Lubricant, *, slide_roll_ratio: float, width: float, contact_fraction, cavitated: str = "none"
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film`` is an `EHLResult` (x, pressure, film_thickness); ``contact_fraction(x)``, for nodes x (n,) [m], is the
+    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``, for nodes x (n,) [m], is the
     share of the width that is in contact and carries no fluid shear, averaged over each of the n - 1 cells between them
-    (`Closure.touching`). The Couette term reaches from
+    (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
     far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
     cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
     width. The lubricant's shear law (Newtonian by default) acts on the Couette term.
     """
+    entrainment_speed, radius = film.entrainment_speed, film.radius
     direction = math.copysign(1.0, entrainment_speed)
     sliding = slide_roll_ratio * abs(entrainment_speed)
     x = film.x * direction  # run downstream

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from . import validate
-from .errors import InputError
-from .scene import Scene
-from .surface import Surface, generate_surface, read_surface, rms_slope
+from .. import validate
+from ..errors import InputError
+from ..scene import Scene
+from ..surface import Surface, generate_surface, read_surface, rms_slope
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit

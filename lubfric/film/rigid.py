@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .analytic import rigid
-from .lubricant import Lubricant, log_viscosity_ratio, viscosity
-from .report import CONVERGED, Report
+from ..analytic import rigid
+from ..line_contact import LineContact
+from ..lubricant import Lubricant, log_viscosity_ratio, viscosity
+from ..report import CONVERGED, Report
 
 INLET, OUTLET = 30.0, 6.0  # ends of the nodes, in units of sqrt(2 R h0)
 CELLS = 256  # before rupture, even in arsinh(x/sqrt(2 R h0))
@@ -42,10 +43,16 @@ class RigidFilm:
     e_prime: float
     entrainment_speed: float
     report: Report
+    cells: int = 0  # no grid to refine
+    imposed: None = None  # nothing deflects it
 
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m]."""
         return self.min_film + np.asarray(x, dtype=float) ** 2 / (2 * self.radius)
+
+    def imposed_deflection(self, x) -> np.ndarray:
+        """Zero [m]: the surfaces are rigid."""
+        return np.zeros(np.shape(x))
 
 
 def unit_nodes() -> np.ndarray:
@@ -53,54 +60,42 @@ def unit_nodes() -> np.ndarray:
     return np.sinh(np.linspace(-math.asinh(INLET), math.asinh(rigid.rigid_constants().rupture), CELLS + 1))
 
 
-def isoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
-    """The film of a constant viscosity, h0 = 4.895 eta0 U R/w; the viscosity returned is that at its pressure.
-
-    load_per_width [N/m], radius [m], e_prime [Pa] (kept, not used), entrainment_speed [m/s], not 0.
-    """
-    h0 = rigid.isoviscous_min_film(
-        load_per_width=load_per_width,
-        radius=radius,
-        entrainment_speed=abs(entrainment_speed),
-        viscosity=lubricant.viscosity,
-    )
-    return _film(
-        h0, np.positive, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid isoviscous film"
-    )
+def isoviscous_film(line: LineContact) -> RigidFilm:
+    """The film of a constant viscosity, h0 = 4.895 eta0 U R/w; the viscosity returned is that at its pressure. E' is
+    kept, not used."""
+    return _film(line, line.rigid_film, np.positive, "rigid isoviscous film")
 
 
-def piezoviscous_film(*, load_per_width, radius, e_prime, entrainment_speed, lubricant: Lubricant) -> RigidFilm:
-    """The film of the lubricant's viscosity law at constant density; arguments as in `isoviscous_film`.
+def piezoviscous_film(line: LineContact) -> RigidFilm:
+    """The film of the lubricant's viscosity law at constant density; E' is kept, not used.
 
-    ln h0 is the root of ∫ p dx = load_per_width, to 1e-9. A Barus film carries any load at h0 above Blok's limit.
+    ln h0 is the root of ∫ p dx = w, to 1e-9. A Barus film carries any load at h0 above Blok's limit.
     """
     from scipy.optimize import brentq
 
-    given = dict(load_per_width=load_per_width, radius=radius, entrainment_speed=abs(entrainment_speed))
-    thinnest = rigid.isoviscous_min_film(viscosity=lubricant.viscosity, **given)
-    if lubricant.viscosity_law == "constant":
-        law, h0 = np.positive, thinnest
-    else:
-        law = true_pressure(lubricant)
-        nodes = unit_nodes()
+    if line.lubricant.viscosity_law == "constant":
+        return _film(line, line.rigid_film, np.positive, "rigid piezoviscous film")
+    law, nodes = true_pressure(line.lubricant), unit_nodes()
 
-        def surplus(log_h0):
-            h0 = math.exp(log_h0)
-            x = math.sqrt(2 * radius * h0) * nodes
-            p = law(
-                rigid.pressure(
-                    x, h0, radius=radius, entrainment_speed=abs(entrainment_speed), viscosity=lubricant.viscosity
-                )
-            )
-            carried = np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0]
-            return math.log(carried / load_per_width) if math.isfinite(carried) else 1e3
+    def surplus(log_h0):
+        h0 = math.exp(log_h0)
+        x = math.sqrt(2 * line.radius * h0) * nodes
+        p = law(_isoviscous_pressure(line, x, h0))
+        carried = np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0]
+        return math.log(carried / line.load_per_width) if math.isfinite(carried) else 1e3
 
-        low = math.log(thinnest) - 1e-3
-        high = low + 0.1
-        while surplus(high) > 0:
-            low, high = high, high + 2 * (high - low)
-        h0 = math.exp(brentq(surplus, low, high, xtol=1e-9, rtol=1e-12))
-    return _film(h0, law, load_per_width, radius, e_prime, entrainment_speed, lubricant, "rigid piezoviscous film")
+    low = math.log(line.rigid_film) - 1e-3
+    high = low + 0.1
+    while surplus(high) > 0:
+        low, high = high, high + 2 * (high - low)
+    h0 = math.exp(brentq(surplus, low, high, xtol=1e-9, rtol=1e-12))
+    return _film(line, h0, law, "rigid piezoviscous film")
+
+
+def _isoviscous_pressure(line: LineContact, x, h0: float) -> np.ndarray:
+    """[Pa] at ``x`` [m] in the direction of motion."""
+    speed, viscosity = abs(line.entrainment_speed), line.lubricant.viscosity
+    return rigid.pressure(x, h0, radius=line.radius, entrainment_speed=speed, viscosity=viscosity)
 
 
 def true_pressure(lubricant: Lubricant):
@@ -120,32 +115,31 @@ def true_pressure(lubricant: Lubricant):
     return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)
 
 
-def _film(h0, law, load, radius, e_prime, speed, lubricant, solver) -> RigidFilm:
-    constants, scale = rigid.rigid_constants(), math.sqrt(2 * radius * h0)
+def _film(line: LineContact, h0: float, law, solver: str) -> RigidFilm:
+    constants, scale = rigid.rigid_constants(), math.sqrt(2 * line.radius * h0)
     nodes = unit_nodes()
     behind = np.geomspace(1.0, OUTLET / nodes[-1], 17)[1:] * nodes[-1]
     x = scale * np.concatenate([nodes, behind])
-    p = law(rigid.pressure(x, h0, radius=radius, entrainment_speed=abs(speed), viscosity=lubricant.viscosity))
+    p = law(_isoviscous_pressure(line, x, h0))
     p[CELLS:] = 0.0
-    sign = math.copysign(1.0, speed)
+    sign = math.copysign(1.0, line.entrainment_speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
     carried = float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0])
-    residual = abs(carried / load - 1)
+    residual = abs(carried / line.load_per_width - 1)
     with np.errstate(over="ignore"):  # far above its range: infinite beyond e^709, as in an EHLResult
-        eta = viscosity(lubricant, p)[order]
-    report = Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual})
+        eta = viscosity(line.lubricant, p)[order]
     return RigidFilm(
         x=(sign * x)[order],
         pressure=p[order],
-        film_thickness=(h0 + x**2 / (2 * radius))[order],
+        film_thickness=(h0 + x**2 / (2 * line.radius))[order],
         viscosity=eta,
         min_film=h0,
         central_film=h0,
         flow_film=constants.flow_film_ratio * h0,
         rupture=sign * scale * constants.rupture,
-        load=load,
-        radius=radius,
-        e_prime=e_prime,
-        entrainment_speed=speed,
-        report=report,
+        load=line.load_per_width,
+        radius=line.radius,
+        e_prime=line.e_prime,
+        entrainment_speed=line.entrainment_speed,
+        report=Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual}),
     )

@@ -19,8 +19,8 @@ import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
-from ..patch.flat import FlatPatch
 from ..report import ITERATION_LIMIT, Report
+from .operating_point import OperatingPoint, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
 MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
@@ -45,27 +45,29 @@ class Ellipse:
         return x, p * (self.line_load / np.trapezoid(p, x))
 
 
-def film_and_contact(scene, patch, solve_film, close, film_load, contact_load, film, contact, tolerance):
-    """(film, closure) of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
+def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Trial) -> Trial:
+    """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
 
-    ``solve_film(load, start, imposed)`` and ``close(film, contact_load, start)`` solve for one; ``film`` and ``contact``
-    start them. Stops when `mismatch` <= max(tolerance, 1e-4); raises `ConvergenceError` with a report after 40 steps.
+    ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
+    `ConvergenceError` with a report after 40 steps.
     """
+    scene = point.scene
     line_load, half_width = contact_load / scene.bodies.width, scene.bodies.half_width
-    if isinstance(patch, FlatPatch):
-        film = solve_film(film_load, film, Ellipse(line_load, 0.0, half_width).nodes)
-        return film, close(film, contact_load, contact)
-    used = _first(film, line_load, half_width)
-    history, steps, tolerance = [], [], max(tolerance, TIGHTEST)
+    if point.contact.nominally_flat:
+        found = point.with_film(film_load, last, Ellipse(line_load, 0.0, half_width).nodes)
+        return point.with_contact(contact_load, found)
+    used, found = _first(last.film, line_load, half_width), last
+    tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
+    history: list[float] = []
+    steps: list[tuple[Ellipse, np.ndarray]] = []
     while len(history) < MOST:
-        film = solve_film(film_load, film, used.nodes)
-        closure = close(film, contact_load, contact)
-        contact, found = closure.contact, spread_of(scene, closure, line_load)
-        apart = deflection(scene, *found.nodes) - deflection(scene, *used.nodes)
-        history.append(float(np.max(np.abs(apart))) / closure.mean_film)
+        found = point.with_contact(contact_load, point.with_film(film_load, found, used.nodes))
+        spread = spread_of(scene, found.contact, line_load)
+        apart = deflection(scene, *spread.nodes) - deflection(scene, *used.nodes)
+        history.append(float(np.max(np.abs(apart))) / found.contact.mean_film)
         if history[-1] <= tolerance:
-            return film, closure
-        steps = [*steps, (found, apart)][-MEMORY:]
+            return found
+        steps = [*steps, (spread, apart)][-MEMORY:]
         used = _mixed(steps)
     report = Report(
         "film and contact under each other's pressure",
@@ -77,16 +79,16 @@ def film_and_contact(scene, patch, solve_film, close, film_load, contact_load, f
         tuple(history),
         MOST,
     )
-    raise ConvergenceError(report.message, report, (film, closure))
+    raise ConvergenceError(report.message, report, (found.film, found.contact))
 
 
 def told(scene, balance):
     """``balance`` with `mismatch` among the residuals of its report, and `departure` among its notes."""
     report, line_load = balance.report, balance.contact_load / scene.bodies.width
-    apart = {"deflection": mismatch(scene, balance.film, balance.closure)}
+    apart = {"deflection": mismatch(scene, balance.film, balance.contact)}
     notes = report.notes
-    if balance.closure.contact is not None:
-        left_out = 100 * departure(scene, balance.closure, line_load)
+    if balance.contact.fields is not None:
+        left_out = 100 * departure(scene, balance.contact, line_load)
         notes += (
             f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
             "mean film more than its semi-ellipse does",
@@ -94,29 +96,29 @@ def told(scene, balance):
     return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
 
 
-def mismatch(scene, film, closure) -> float:
+def mismatch(scene, film, contact) -> float:
     """Largest difference across the Hertz strip, but for a constant, between the deflections by the contact's pressure
     and by the one that the film was solved with, relative to the mean film: by so much h misses its own equation."""
-    if film is None or film.imposed is None or closure.contact is None:
+    if film is None or film.imposed is None or contact.pressure is None:
         return 0.0
     imposed = film.imposed
-    found = spread_of(scene, closure, imposed.load)
+    found = spread_of(scene, contact, imposed.load)
     apart = deflection(scene, *found.nodes) - deflection(scene, imposed.x, imposed.pressure)
-    return float(np.max(np.abs(apart))) / closure.mean_film
+    return float(np.max(np.abs(apart))) / contact.mean_film
 
 
-def departure(scene, closure, line_load: float) -> float:
+def departure(scene, contact, line_load: float) -> float:
     """What the semi-ellipse leaves out: the rms difference across the strip between the deflections by the mean over y
     of the contact's pressure and by its semi-ellipse, relative to the mean film."""
-    if closure.contact is None:
+    if contact.pressure is None:
         return 0.0
-    pressure, step = closure.contact.pressure.mean(axis=1), closure.x[1] - closure.x[0]
-    x = np.concatenate([[closure.x[0] - step], closure.x, [closure.x[-1] + step]])
-    apart = deflection(scene, x, np.pad(pressure, 1)) - deflection(scene, *spread_of(scene, closure, line_load).nodes)
-    return float(np.sqrt(np.mean(apart**2))) / closure.mean_film
+    pressure, step = contact.pressure.mean(axis=1), contact.x[1] - contact.x[0]
+    x = np.concatenate([[contact.x[0] - step], contact.x, [contact.x[-1] + step]])
+    apart = deflection(scene, x, np.pad(pressure, 1)) - deflection(scene, *spread_of(scene, contact, line_load).nodes)
+    return float(np.sqrt(np.mean(apart**2))) / contact.mean_film
 
 
-def spread_of(scene, closure, line_load: float) -> Ellipse:
+def spread_of(scene, contact, line_load: float) -> Ellipse:
     """The semi-ellipse of ``line_load`` whose deflection across the strip |x| <= b has the same linear and quadratic
     Chebyshev coefficients as that of a contact's pressure, both to second order in centre/b.
 
@@ -124,9 +126,9 @@ def spread_of(scene, closure, line_load: float) -> Ellipse:
     beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip m1 = c/b,
     m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2 a²).
     """
-    b, step = scene.bodies.half_width, closure.x[1] - closure.x[0]
-    share = closure.contact.pressure.sum(axis=1)
-    s, share = closure.x / b, share / share.sum()
+    b, step = scene.bodies.half_width, contact.x[1] - contact.x[0]
+    share = contact.pressure.sum(axis=1)
+    s, share = contact.x / b, share / share.sum()
     beyond = np.abs(s) > 1
     near = np.where(beyond, np.sign(s) * (np.abs(s) - np.sqrt(np.maximum(s * s - 1, 0.0))), s)
     m1 = float(share @ near)
@@ -145,9 +147,9 @@ def deflection(scene, x, pressure) -> np.ndarray:
 
 
 def _first(film, line_load: float, half_width: float) -> Ellipse:
-    imposed = getattr(film, "imposed", None)
-    if imposed is None:
+    if film is None or film.imposed is None:
         return Ellipse(line_load, 0.0, half_width)
+    imposed = film.imposed
     return Ellipse(line_load, 0.5 * float(imposed.x[0] + imposed.x[-1]), 0.5 * float(imposed.x[-1] - imposed.x[0]))
 
 

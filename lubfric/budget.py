@@ -1,0 +1,30 @@
+"""How the tolerance on the friction coefficient is shared out, and how far a share may loosen or tighten a solver.
+
+The one place of these numbers; docs/levels.md quotes it. The shares are bounds that are hardly ever reached together.
+An error of the film reaches f by a factor, the sensitivity (`lubfric.point.forces.Forces`): what is asked of the film
+is divided by it.
+"""
+
+from __future__ import annotations
+
+# shares of the tolerance on f
+FILM_LEVEL = 0.2  # what the film level leaves out
+FILM_GRID = 0.3  # grid of a numerical film
+FILM_GRID_ALONE = 0.6  # the same where there is no contact
+SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
+CONTACT_GRID = 0.4  # grid of the rough contact
+BALANCE = 5e-2  # closing of load and volume
+CONTACT = 1e-2  # solver of the rough contact
+CURVE = 0.3  # interpolation of a contact curve
+
+# what a solver is never asked for, however little or much of its error reaches f
+LOOSEST_FILM, TIGHTEST_FILM = 0.03, 2e-4
+LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7
+TIGHTEST_CONTACT = 1e-9  # of Sq
+MOST_CELLS = 1536  # of a film whose shear stress is not resolved
+SLACK = 1.5  # a tolerance off by less is not worth another solve
+
+# what holds where f has not been looked at yet: the tolerances of `Numerics`
+FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-4, 1e-3
+
+LARGEST_LEFT_OUT = 0.3  # of a film, to first order: beyond it the estimate is none

@@ -1,0 +1,106 @@
+"""A scene made ready: what every speed shares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .errors import InputError
+from .film.contract import FilmLevel
+from .film.ladder import LEVELS
+from .rough.contract import RoughContact
+from .rough.height_map import check_grid, contact_map
+from .rough.make import rough_contact
+from .scene import Scene
+from .surface import Surface
+
+
+@dataclass(frozen=True)
+class Model:
+    """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
+
+    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes.
+    """
+
+    scene: Scene
+    surface: Surface
+    contact: RoughContact
+    film_levels: tuple[FilmLevel, ...] = LEVELS
+
+
+def prepare(
+    scene: Scene,
+    surface: Surface | None = None,
+    *,
+    like: Model | None = None,
+    contact: RoughContact | None = None,
+    film_levels: Sequence[FilmLevel] = LEVELS,
+) -> Model:
+    """Build what does not depend on the speed: the height map and the rough contact.
+
+    ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
+    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so).
+    ``like``: a model of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
+    load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
+    ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
+    """
+    if like is not None:
+        return _another(scene, like)
+    if surface is None:
+        surface = contact_map(scene)
+    else:
+        check_grid(scene, surface)
+    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
+        surface = surface.periodic("mirror", axes=(True, False))
+    levels = tuple(film_levels)
+    _check_levels(scene, levels)
+    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
+
+
+def scene_of(scene: Scene | Model) -> Scene:
+    """The scene of a model, or the scene itself; anything else is an `InputError`."""
+    if isinstance(scene, Model):
+        return scene.scene
+    if not isinstance(scene, Scene):
+        raise InputError(
+            f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
+            "lubfric.prepare returned"
+        )
+    return scene
+
+
+def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
+    """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
+    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
+    asked = scene_of(scene).with_(numerics=changed)
+    if not isinstance(scene, Model):
+        return prepare(asked)
+    return prepare(asked, like=scene) if asked != scene.scene else scene
+
+
+def _another(scene: Scene, like: Model) -> Model:
+    """The model of another scene on the map and contact of ``like``."""
+    old = like.scene
+    for name, a, b in (
+        ("surface", scene.surface, old.surface),
+        ("contact", scene.contact, old.contact),
+        ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
+        ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),
+    ):
+        if a != b:
+            raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
+    if not like.contact.nominally_flat:
+        check_grid(scene, like.surface)
+    _check_levels(scene, like.film_levels)
+    return Model(scene, like.surface, like.contact.again(scene, old), like.film_levels)
+
+
+def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:
+    names = [level.name for level in levels]
+    if not names:
+        raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")
+    if scene.numerics.film_level not in ("auto", "none", *names):
+        raise InputError(
+            f"numerics.film_level = {scene.numerics.film_level!r} is none of the levels of this model; allowed: "
+            f"{', '.join(map(repr, names))}"
+        )

@@ -1,0 +1,131 @@
+"""Film and rough contact at one speed, on one grid, to given tolerances: each of them at a load, and both together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..film.contract import Film, FilmLevel
+from ..line_contact import LineContact
+from ..model import Model
+from ..rough.contract import ContactState, RoughContact
+from ..scene import Scene
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain; how many
+    cells a numerical film has at least; tolerance of the contact (None: its own)."""
+
+    level: FilmLevel
+    film_tolerance: float
+    volume_tolerance: float
+    touching: bool = False
+    film_cells: int = 0
+    contact_tolerance: float | None = None
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Film and contact at one division of the load [N], found or to start from.
+
+    start: the contact that the next one starts from, the last that touched; solved: cells of the films of this balance so far, the latest last. From the second on they keep to one grid, or the
+    root of the balance has a jump.
+    """
+
+    film_load: float = 0.0
+    contact_load: float = 0.0
+    film: Film | None = None
+    contact: ContactState | None = None
+    start: ContactState | None = None
+    solved: tuple[int, ...] = ()
+
+    @property
+    def least_cells(self) -> int:
+        """Of the next film."""
+        return max(self.solved[1:], default=0)
+
+    def touching(self, contact_load: float, contact: ContactState) -> Trial:
+        """The same film with the contact found."""
+        start = self.start if contact.pressure is None else contact
+        return replace(self, contact_load=contact_load, contact=contact, start=start)
+
+
+@dataclass(frozen=True)
+class OperatingPoint:
+    """A model at one speed [m/s], not 0, to ``settings``, on ``contact``: the model's own, coarser, or a part of it."""
+
+    model: Model
+    speed: float
+    contact: RoughContact
+    settings: Settings
+
+    @property
+    def scene(self) -> Scene:
+        """Of the model."""
+        return self.model.scene
+
+    def line(self, film_load: float) -> LineContact:
+        """The smooth line contact of a film that carries ``film_load`` [N]; with Johnson's modulus E' F_H/F_T where the
+        scene asks for it, so that the strip is that of the whole load."""
+        bodies = self.scene.bodies
+        share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
+        return LineContact(
+            film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self.scene.lubricant
+        )
+
+    def with_film(self, film_load: float, last: Trial, imposed=None) -> Trial:
+        """``last`` with the film that carries ``film_load`` [N] instead of its own."""
+        film = self.settings.level.solve(
+            self.line(film_load),
+            tolerance=self.settings.film_tolerance,
+            cells=max(self.settings.film_cells, last.least_cells),
+            imposed=imposed,
+            start=last.film,
+        )
+        return replace(last, film_load=film_load, film=film, solved=(*last.solved, film.cells))
+
+    def with_contact(self, contact_load: float, last: Trial) -> Trial:
+        """``last`` with the contact that carries ``contact_load`` [N] under its film."""
+        return last.touching(contact_load, self.closed(last.film, contact_load, last.start))
+
+    def closed(self, film: Film, contact_load: float, start: ContactState | None = None) -> ContactState:
+        """The contact of ``contact_load`` [N] under ``film``."""
+        return self._contact.close(
+            film.film_at(self.contact.x), contact_load, start, pressed_under(self.scene, film, self.contact.x)
+        )
+
+    def with_imposed_film(self, last: Trial) -> Trial:
+        """``last`` with the load that the contact carries where its film is imposed on it."""
+        film, x = last.film, self.contact.x
+        return last.touching(*self._contact.carry(film.film_at(x), last.start, pressed_under(self.scene, film, x)))
+
+    def guessed_split(self) -> float:
+        """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""
+        scene, thickness = self.scene, max(2 * self.model.surface.sq, 1e-12)
+        bodies = scene.bodies
+        whole = 4.895 * scene.lubricant.viscosity * abs(self.speed) * bodies.radius * bodies.width
+        share = min(whole / (thickness * bodies.load), 0.9)
+        return math.log(share / (1 - share))
+
+    @property
+    def _contact(self) -> RoughContact:
+        tolerance = self.settings.contact_tolerance
+        return self.contact if tolerance is None else self.contact.tightened(tolerance)
+
+
+def pressed_under(scene: Scene, film: Film, x: np.ndarray) -> np.ndarray:
+    """What the surface is pressed under at ``x`` [m], up to a constant: the film, or less of it.
+
+    With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact adds
+    its own share itself.
+    """
+    thickness = film.film_at(x)
+    if scene.numerics.film_deflection == "hydrodynamic":
+        return thickness
+    if scene.numerics.film_deflection == "total":
+        return thickness - film.imposed_deflection(x)
+    parabola = x**2 / (2 * film.radius)
+    return parabola + film.e_prime / scene.bodies.e_prime * (thickness - parabola)

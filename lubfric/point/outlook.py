@@ -1,0 +1,42 @@
+"""What will be modelled, foretold from closed forms: `lubfric info` solves nothing."""
+
+from __future__ import annotations
+
+from .. import budget
+from ..film.contract import LeftOut
+from ..film.ladder import LEVELS, given_level, lowest_level
+from ..line_contact import LineContact
+from ..scene import Scene
+from ..surface import Surface
+from .decision import Decision
+
+SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain
+
+
+def outlook(scene: Scene, surface: Surface, speed: float) -> str:
+    """Film level at the whole load and whether the summits of ``surface`` will touch at ``speed`` [m/s], in words.
+
+    In contact the film carries less and may do with a simpler level; that and the grid are decided by the solve.
+    """
+    bodies, numerics = scene.bodies, scene.numerics
+    if speed == 0 or numerics.film_level == "none":
+        return "film: none, no entrainment; contact: carries everything"
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
+    level, left_out = given_level(LEVELS, numerics), LeftOut()
+    allowed = budget.FILM_LEVEL * numerics.tolerance
+    if level is None:
+        level, left_out = lowest_level(LEVELS, line, allowed)
+    words = Decision(
+        film=level.name,
+        contact="",
+        tolerance=numerics.tolerance,
+        film_words=level.words,
+        left_out=left_out,
+        film_tolerance=numerics.film_tolerance if level.numerical else 0.0,
+    ).film_text
+    if level.numerical and 0 < left_out.total < 10:
+        words += f" (rigid: {100 * left_out.total:.2g} % off, budget {100 * allowed:.2g} %)"
+    summit = float(surface.heights.max() - surface.heights.mean())
+    sigma, film = max(surface.sq, 1e-12), line.moes_film
+    touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
+    return f"{words}; contact: {touching}, clearance about {(film - summit) / sigma:.2g} sigma"

@@ -1,0 +1,39 @@
+"""Mean gap against mean pressure of independent asperities on a nominally flat contact."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..asperity import contact_law
+from .contact_curve import ContactCurve
+
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
+
+
+def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
+    """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
+
+    ``reading``: "volume" or "mean-plane" (`lubfric.rough.asperities`) of heights [m] about their mean. The flat
+    comes down until ``heaviest`` [Pa] is carried, or, where the model cannot carry it, to the deepest valley
+    (to the mean plane itself for "mean-plane"): the curve then ends at the most it carries. Patches that grow
+    together carry less than before; such nodes are left out, so the pressure rises along the curve. The search
+    ends below half of the most that was carried.
+    """
+    law = contact_law(heights, spacing, e_prime, definition=definition, hardness=hardness)
+    top, span = float(heights.max()), float(np.ptp(heights))
+    nodes = []
+    for approach in span * APPROACHES:
+        found = law(top - approach)
+        gap = _curve_gap(heights, top - approach, reading)
+        if gap <= 0:
+            break
+        if found.load > 0 and (not nodes or found.mean_pressure > nodes[-1][0]):
+            nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
+        if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
+            break
+    pressure, gap, area, plastic = np.array(nodes[::-1]).T
+    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0)
+
+
+def _curve_gap(heights, separation, reading) -> float:
+    return float(np.maximum(separation - heights, 0.0).mean()) if reading == "volume" else float(separation)

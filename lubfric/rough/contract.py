@@ -1,0 +1,134 @@
+"""What every rough contact under a film answers: all that an implementer needs to know.
+
+`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which is
+always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from ..contact import ContactResult
+from ..scene import Scene
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """A rough contact at one division of the load: both sides of the volume balance, Eq. (8), and where it touches.
+
+    mean_gap [m]: lubricant volume per area of A between the rough surfaces; mean_film [m]: the same between the smooth
+    ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m]; real_contact_area_fraction,
+    plastic_area_fraction: of the area A. fields: pressure and gap on the contact grid, (nx, ny) (None: separated, or a
+    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from.
+    """
+
+    mean_gap: float
+    mean_film: float
+    x: np.ndarray
+    contact_fraction: np.ndarray
+    real_contact_area_fraction: float
+    plastic_area_fraction: float
+    fields: ContactResult | None = None
+    pressure: np.ndarray | None = field(default=None, repr=False)
+
+    @property
+    def volume_residual(self) -> float:
+        """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
+        return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
+
+    @property
+    def contact(self) -> ContactResult | None:
+        """``fields``, by the name it had up to version 0.1."""
+        return self.fields
+
+    def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
+        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal stretches of the width;
+        of a contact with ``fields``, of a number of cells along y that ``stretches`` divides."""
+        load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
+        gap = weight @ gap / np.sum(weight)
+        return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
+
+    def touching(self, x) -> np.ndarray:
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either way:
+        the columns of the contact are finer than the cells of a film, and vary from one to the next."""
+        step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
+        edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
+        touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
+        return np.diff(np.interp(x, edges, touched)) / np.diff(x)
+
+
+class Grid(NamedTuple):
+    """Cells (nx, ny) of a contact and their size (dx, dy) [m]."""
+
+    cells: tuple[int, int]
+    spacing: tuple[float, float]
+
+
+class RoughContact:
+    """A rough contact under a film, immutable; loads in N on the whole width of the line.
+
+    name: in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight (nx,): part of
+    each of them inside the area A of Eq. (8).
+    """
+
+    name: str
+    x: np.ndarray
+    weight: np.ndarray
+
+    def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
+        """The contact loaded with ``load`` [N], 0 included (first touch), under ``film`` [m] (nx,).
+
+        ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, where it is not the film itself;
+        ``start``: of a neighbour, on this grid or another. Raises `ConvergenceError` where it cannot be solved."""
+        raise NotImplementedError
+
+    def carry(self, film, start: ContactState | None = None, shape=None) -> tuple[float, ContactState]:
+        """Load [N] of the contact on which ``film`` is imposed, so that mean gap = mean film, and its state."""
+        raise NotImplementedError
+
+    @property
+    def nominally_flat(self) -> bool:
+        """Whether its load is spread evenly over the Hertz strip, with no distribution along x of its own."""
+        return False
+
+    @property
+    def grid(self) -> Grid | None:
+        """Its cells; None where it has no grid that f depends on."""
+        return None
+
+    @property
+    def adjustable_tolerance(self) -> float | None:
+        """Of the mean gap, relative to Sq, where `tightened` changes it."""
+        return None
+
+    def tightened(self, tolerance: float) -> RoughContact:
+        """The same, solved to ``tolerance``."""
+        return self
+
+    def coarsened(self) -> RoughContact | None:
+        """The same on cells twice as long and wide, heights averaged; None where that cannot be."""
+        return None
+
+    @property
+    def sq(self) -> float:
+        """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""
+        return 0.0
+
+    def cut(self, state: ContactState, found_on: RoughContact) -> RoughContact:
+        """Its part that is enough for a contact such as ``state``, which was found on the same or a coarser grid."""
+        return self
+
+    def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
+        """Nothing outside of ``part``, cut from this one, touches; ``shape`` (nx,) [m], on this one's x."""
+        return True
+
+    def check(self, state: ContactState) -> None:
+        """Raise `InputError` where ``state``, of this contact or a part of it, is cut short by its ends."""
+
+    def again(self, scene: Scene, old: Scene) -> RoughContact:
+        """The same map for ``scene``, of another load, motion or tolerance than ``old``, for which it was made; raises
+        `InputError` where it cannot serve."""
+        return self

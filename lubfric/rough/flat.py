@@ -1,0 +1,113 @@
+"""The nominally flat contact (paper, Sec. 3.1): one periodic contact curve under the film of the Hertz strip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import budget
+from ..errors import ConvergenceError, InputError
+from ..halfspace import half_space
+from ..scene import Scene
+from .asperity_curve import asperity_curve
+from .contact_curve import ContactCurve, contact_curve
+from .contract import ContactState, RoughContact
+from .strip import centred_axis
+
+POINTS = 128  # across the strip, where the film is averaged
+BEYOND = 1.5  # of the total load: how far a curve reaches when a film may be imposed on it
+ROUNDING = 1e-9  # of a load that is the heaviest of the curve
+
+
+@dataclass(frozen=True)
+class FlatContact(RoughContact):
+    """Roughness spread evenly over the Hertz strip of the total load.
+
+    x [m] (nx,): points across the strip; area [m^2] of the strip: a load divided by it is a mean pressure of the curve.
+    """
+
+    curve: ContactCurve
+    x: np.ndarray
+    weight: np.ndarray
+    area: float
+    name: str = "flat periodic curve"
+
+    def close(self, film, load, start=None, shape=None) -> ContactState:
+        """Read from the curve; ``start`` and ``shape`` are not needed. Raises `ConvergenceError` for a load that the
+        contact model of the curve cannot carry."""
+        pressure, heaviest = load / self.area, float(self.curve.mean_pressure[0])
+        if pressure > heaviest * (1 + 1e-12):
+            raise ConvergenceError(
+                f"the contact model carries {heaviest * self.area:.4g} N at most, asked for {load:.4g} N"
+            )
+        gap, touching, plastic = self.curve.at(min(pressure, heaviest))
+        return ContactState(
+            mean_gap=gap,
+            mean_film=float(np.mean(film)),
+            x=self.x,
+            contact_fraction=np.full(self.x.size, touching),
+            real_contact_area_fraction=touching,
+            plastic_area_fraction=plastic,
+        )
+
+    def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
+        """A film thinner than the gap at the heaviest load of the curve gives that load: a lower bound, which the
+        volume residual of the state shows."""
+        load = self.curve.pressure_at(float(np.mean(film))) * self.area
+        return load, self.close(film, load)
+
+    @property
+    def nominally_flat(self) -> bool:
+        """Yes."""
+        return True
+
+    def again(self, scene: Scene, old: Scene) -> FlatContact:
+        """The curve under the strip of another load: no heavier one, and no tighter tolerance."""
+        pressure, heaviest = scene.bodies.mean_hertz_pressure, float(self.curve.mean_pressure[0])
+        if pressure > heaviest * (1 + ROUNDING):
+            raise InputError(
+                f"bodies.load = {scene.bodies.load:g} N needs {pressure:.4g} Pa of a contact curve that ends at "
+                f"{heaviest:.4g} Pa; allowed: lighter loads, or prepare with the heaviest first"
+            )
+        if scene.numerics.tolerance < old.numerics.tolerance:
+            raise InputError(
+                f"numerics.tolerance = {scene.numerics.tolerance:g} is tighter than that of the contact curve; "
+                f"allowed: at least {old.numerics.tolerance:g}, or prepare again"
+            )
+        return _under_the_strip(scene, self.curve)
+
+
+def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
+    """The contact of ``scene``, its curve made of ``heights`` [m] (nx, ny) about their mean, periodic both ways."""
+    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
+    heaviest = bodies.load / (2 * bodies.half_width * bodies.width)
+    heaviest *= BEYOND if numerics.closure == "separation" else 1.0
+    if contact.model == "half-space":
+        curve = contact_curve(
+            heights,
+            spacing,
+            bodies.e_prime,
+            heaviest=heaviest,
+            hardness=bodies.hardness,
+            tolerance=numerics.pressure_tolerance,
+            accuracy=budget.CURVE * numerics.tolerance,
+            operator=half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers),
+        )
+    else:
+        curve = asperity_curve(
+            heights,
+            spacing,
+            bodies.e_prime,
+            heaviest=heaviest,
+            definition=contact.model,
+            reading=contact.asperity_separation,
+            hardness=bodies.hardness,
+        )
+    return _under_the_strip(scene, curve)
+
+
+def _under_the_strip(scene: Scene, curve: ContactCurve) -> FlatContact:
+    half_width = scene.bodies.half_width
+    x = centred_axis(POINTS, 2 * half_width / POINTS)
+    return FlatContact(curve, x, np.ones(POINTS), 2 * half_width * scene.bodies.width)

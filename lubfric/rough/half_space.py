@@ -1,0 +1,163 @@
+"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec. 3.2."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact import solve_contact
+from ..contact.single_loop import single_loop
+from ..errors import InputError
+from ..halfspace import HalfSpace, half_space
+from ..scene import Scene
+from .contract import ContactState, Grid, RoughContact
+from .half_space_grid import carried_over, coarsened, cut, holds, in_contact
+from .strip import area_half_width, area_weight, centred_axis, weighted_mean
+
+EDGE_SHARE = 0.01
+BOUNDARY = ("free", "periodic")
+
+
+@dataclass(frozen=True)
+class HalfSpaceContact(RoughContact):
+    """A rough surface under a cylinder: free along x, periodic along y.
+
+    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of each
+    column inside the area A of Eq. (8), |x| <= half_width [m] (None: all); tolerance: of `lubfric.solve_contact`.
+    """
+
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+    weight: np.ndarray
+    half_width: float | None
+    operator: HalfSpace
+    width: float
+    hardness: float | None
+    tolerance: float
+    name: str = "semi-periodic"
+
+    def close(self, film, load, start=None, shape=None) -> ContactState:
+        """The surface loaded under the film's shape: `lubfric.solve_contact`."""
+        gap0 = (film if shape is None else shape)[:, None] - self.heights
+        length = self.x.size * self.spacing[0]
+        if load == 0:
+            return self._state(film, gap0 - gap0.min(), None)
+        found = solve_contact(
+            gap0,
+            self.spacing,
+            self.operator.e_prime,
+            operator=self.operator,
+            mean_pressure=load / (self.width * length),
+            hardness=self.hardness,
+            boundary=BOUNDARY,
+            tolerance=self.tolerance,
+            start=self._starting_pressure(start),
+        )
+        return self._state(film, found.gap, found)
+
+    def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
+        """Load under the imposed film by the single loop (paper, Appendix 2)."""
+        under = film if shape is None else shape + weighted_mean(film - shape, self.weight)
+        found = single_loop(
+            self.heights,
+            under,
+            self.spacing,
+            self.operator.e_prime,
+            weight=self.weight,
+            hardness=self.hardness,
+            boundary=BOUNDARY,
+            tolerance=self.tolerance,
+            start=self._starting_pressure(start),
+            operator=self.operator,
+        )
+        load = found.mean_pressure * self.width * self.x.size * self.spacing[0]
+        return load, self._state(film, found.gap, found if load > 0 else None)
+
+    @property
+    def grid(self) -> Grid:
+        """Its cells."""
+        return Grid(self.heights.shape, self.spacing)
+
+    @property
+    def adjustable_tolerance(self) -> float:
+        """That of the contact solve."""
+        return self.tolerance
+
+    def tightened(self, tolerance: float) -> HalfSpaceContact:
+        """The same, solved to ``tolerance``."""
+        return replace(self, tolerance=tolerance)
+
+    @property
+    def sq(self) -> float:
+        """Standard deviation [m] of the heights on this grid."""
+        return float(self.heights.std())
+
+    def coarsened(self) -> HalfSpaceContact | None:
+        """On cells twice as long and wide: `lubfric.rough.half_space_grid.coarsened`."""
+        return coarsened(self)
+
+    def cut(self, state: ContactState, found_on: RoughContact) -> HalfSpaceContact:
+        """The columns in contact and a margin; all of them where the mean over the whole patch counts."""
+        return self if self.half_width is None else cut(self, in_contact(found_on, state.pressure))
+
+    def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
+        """One convolution of the contact found on the part: `lubfric.rough.half_space_grid.holds`."""
+        return holds(self, part, shape, state)
+
+    def check(self, state: ContactState) -> None:
+        """Raise `InputError` when the contact reaches the ends of the patch."""
+        if state.pressure is None or self.x.size <= 2:
+            return
+        share = (state.pressure[0].sum() + state.pressure[-1].sum()) / state.pressure.sum()
+        if share > EDGE_SHARE:
+            raise InputError(
+                f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
+                f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
+                f"{100 * EDGE_SHARE:g} % (make the patch longer in x)"
+            )
+
+    def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
+        """With the same operator."""
+        return half_space_contact(scene, self.heights, self.spacing, self.operator)
+
+    def _starting_pressure(self, start: ContactState | None) -> np.ndarray | None:
+        return None if start is None else carried_over(start, self)
+
+    def _state(self, film, gap, found) -> ContactState:
+        touching = np.zeros(gap.shape, bool) if found is None else found.pressure > 0
+        fraction = touching.mean(axis=1)
+        plastic = 0.0
+        if found is not None and self.hardness is not None:
+            plastic = weighted_mean((found.pressure >= self.hardness).mean(axis=1), self.weight)
+        return ContactState(
+            mean_gap=weighted_mean(np.maximum(gap, 0.0).mean(axis=1), self.weight),
+            mean_film=weighted_mean(film, self.weight),
+            x=self.x,
+            contact_fraction=fraction,
+            real_contact_area_fraction=weighted_mean(fraction, self.weight),
+            plastic_area_fraction=plastic,
+            fields=found,
+            pressure=None if found is None else found.pressure,
+        )
+
+
+def half_space_contact(scene: Scene, heights, spacing, operator: HalfSpace | None = None) -> HalfSpaceContact:
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid."""
+    bodies, numerics = scene.bodies, scene.numerics
+    x = centred_axis(heights.shape[0], spacing[0])
+    weight = area_weight(scene, x, spacing[0])
+    if operator is None:
+        operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)
+    return HalfSpaceContact(
+        heights=heights,
+        spacing=spacing,
+        x=x,
+        weight=weight,
+        half_width=area_half_width(scene),
+        operator=operator,
+        width=bodies.width,
+        hardness=bodies.hardness,
+        tolerance=numerics.pressure_tolerance,
+    )

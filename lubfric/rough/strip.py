@@ -1,0 +1,42 @@
+"""The Hertz strip on a contact grid: cell centres, and the part of each that counts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..scene import Scene
+
+
+def centred_axis(count: int, step: float) -> np.ndarray:
+    """Cell centres [m] of ``count`` cells around zero."""
+    return (np.arange(count) - 0.5 * (count - 1)) * step
+
+
+def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
+    """Part of each cell that lies within |x| <= half_width, cut cells counted by their share."""
+    inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
+    weight = np.clip(inside / step, 0.0, 1.0)
+    if not weight.any():
+        raise InputError(
+            "contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width "
+            f"{validate.positive('half_width', half_width, 'm'):g} m; allowed: finer grids"
+        )
+    return weight
+
+
+def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
+    """Part of each cell inside the area A of Eq. (8) that the scene asks for."""
+    half_width = area_half_width(scene)
+    return np.ones(x.size) if half_width is None else strip_weight(x, step, half_width)
+
+
+def area_half_width(scene: Scene) -> float | None:
+    """Half-width [m] of the area A; None: all of the patch."""
+    return None if scene.contact.region == "box" else scene.bodies.half_width
+
+
+def weighted_mean(values, weight) -> float:
+    """Mean over the area A."""
+    return float(np.dot(values, weight) / weight.sum())
