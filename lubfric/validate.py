@@ -65,9 +65,10 @@ def number(
     return _within(name, value, unit, above, minimum, maximum, LEAST if unit in SANE else 0.0)
 
 
-def positive(name: str, value: Any, unit: str, *, minimum: float = -math.inf, maximum: float = math.inf) -> float:
+def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum: float = math.inf) -> float:
     """A finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
-    return _within(name, value, unit, 0.0, minimum, maximum, SANE.get(unit, (LEAST, LARGEST))[0])
+    least = max(minimum, SANE.get(unit, (LEAST, LARGEST))[0])
+    return _within(name, value, unit, 0.0, -math.inf, maximum, least)
 
 
 def _within(name, value, unit, above, minimum, maximum, least) -> float:
