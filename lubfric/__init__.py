@@ -23,7 +23,7 @@ _HOME = {
     "AsperityResult": "asperity",
     "solve_ehl": "ehl",
     "EHLResult": "ehl",
-    "solve_differential_deflection": "ehl.differential",
+    "solve_differential_deflection": "paper.differential",
     "Scene": "scene",
     "load_scene": "scene_file",
     "friction": "steady",

@@ -24,6 +24,7 @@ SUBCOMMANDS: dict[str, str] = {
     "mutations": "verification.mutations",
     "charts": "verification.charts.command",
     "stability": "verification.stability.command",
+    "tables": "verification.tables",
 }
 
 

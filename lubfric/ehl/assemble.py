@@ -85,10 +85,11 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
 
 
 def assemble(
-    problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, sign: float, notes: tuple
+    problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, notes: tuple[str, ...]
 ) -> EHLResult:
-    """The result in SI units of solutions on nested grids; sign -1 mirrors it."""
-    last = levels[-1]
+    """The result in SI units of solutions on nested grids, seen along +x."""
+    last, contact = levels[-1], problem.contact
+    sign = math.copysign(1.0, contact.entrainment_speed)
     t, M = last.terms, problem.M
     X_out, H_out = _outlet(problem, last)
     X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
@@ -108,7 +109,7 @@ def assemble(
     if problem.imposed is not None:
         deflecting += problem.imposed_load
     with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
-        viscosity = problem.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
+        viscosity = contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
     return EHLResult(
         x=(sign * X * length)[order],
@@ -119,17 +120,12 @@ def assemble(
         min_film=smallest(X, H) * film,
         central_film=float(_interpolated(problem, X, H, np.zeros(1))[0]) * film,
         flow_film=float(t.q) * film,
-        flux=float(t.q) * film * problem.speed * sign,
+        flux=float(t.q) * film * contact.entrainment_speed,
         rupture=float(last.z[-1]) * length * sign,
         approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film,
         half_width=b * length,
         hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit,
-        load=problem.load,
-        radius=problem.radius,
-        e_prime=problem.e_prime,
-        entrainment_speed=sign * problem.speed,
-        load_number=M,
-        material_number=problem.L,
+        contact=contact,
         report=report,
         state=solution_state(problem, last, error),
         imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored(),

@@ -53,11 +53,11 @@ def find_seats(problem) -> tuple[Seat, ...]:
         return (Seat(),)
     from scipy.optimize import brentq
 
-    imposed, radius = problem.imposed, problem.radius
+    imposed, radius = problem.imposed, problem.contact.radius
     wide = problem.flat_half_width * problem.length_unit
     reach = max(2.0 * wide + math.hypot(*_window(problem, 1.0)), float(np.abs(imposed.x).max()))
     x = reach * np.sinh(np.linspace(-6.0, 6.0, 1201)) / 50.0
-    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.e_prime
+    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.contact.e_prime
     sine = np.sin((np.arange(64) + 0.5) * (math.pi / 64) - math.pi / 2)
 
     def slopes(centre, window):
@@ -73,8 +73,9 @@ def find_seats(problem) -> tuple[Seat, ...]:
     def surplus(log_window):
         return log_window - math.log(math.hypot(*_window(problem, ratio_of(math.exp(log_window)))))
 
+    load = problem.contact.load_per_width
     window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
-    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, problem.load / (problem.load + imposed.load))
+    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, load / (load + imposed.load))
     curved = Seat(centre_of(window), ratio_of(window))
     return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
 

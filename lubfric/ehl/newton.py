@@ -1,4 +1,4 @@
-"""Newton's method on one grid, with the two limits that keep the step physical."""
+"""Newton's method on one grid."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ import numpy as np
 
 from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
+from .limiter import step_length
 from .problem import Problem
 from .reynolds import Terms, linearise, residual
-
-VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
-FILM_STEP = 0.7  # largest share of the film (or flux) that one step may remove
 
 
 @dataclass(frozen=True)
@@ -53,16 +51,10 @@ def _iterate(grid, problem, z, H, tolerance, max_steps) -> Solution:
         if info != 0:
             break
         dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.by_rupture * delta[-1])
-        length = _step_length(grid.n, terms, delta, dH)
+        loss = max(float(np.max(-dH / terms.H)), -delta[-2] / terms.q)
+        length = step_length(delta[:-3] * terms.slope[:-1], loss)
         z = z + length * delta
         H = H + length * dH
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
     return Solution(grid, z, terms, status, error, tuple(history))
-
-
-def _step_length(n: int, terms: Terms, delta: np.ndarray, dH: np.ndarray) -> float:
-    change = np.max(np.abs(delta[:n] * terms.slope[:n]))
-    length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
-    shrink = max(float(np.max(-dH / terms.H)), -delta[n + 1] / terms.q)
-    return length if shrink * length <= FILM_STEP else FILM_STEP / shrink

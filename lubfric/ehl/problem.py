@@ -1,13 +1,12 @@
 """The steady line contact in Moes' similarity variables.
 
-With U1 = 2 eta0 U/(E' R) and the units x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
+With the units of `lubfric.line_contact`, x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
 
     d/dX( rho H^3/(6 eta) dP/dX ) = d(rho H)/dX                  Reynolds
     H = H00 + X^2/2 - (4/pi) ∫ (P + Pi)(X') ln|X - X'| dX'       elastic film, Pi imposed
     ∫ P dX = M                                                   load
 
-rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure
-(H. Moes, Wear 159 (1992) 57-66, for the numbers M and L).
+rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure.
 """
 
 from __future__ import annotations
@@ -18,7 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..analytic.film import moes_film
-from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
+from ..line_contact import LineContact
+from ..lubricant import density_ratio, log_viscosity_ratio
 from .imposed import LinePressure, Seat, line_deflection
 
 STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
@@ -26,52 +26,41 @@ STARVED = 0.1  # film of a badly starved contact, relative to the square of the 
 
 @dataclass(frozen=True)
 class Problem:
-    """A line contact: SI inputs (speed > 0, inlet None or metres upstream of the centre) and its units.
+    """A line contact in its own units, seen along its motion: X points downstream.
 
-    imposed: a pressure that deflects the film beside its own and carries none of the load; seat: what the film is like
-    then, for grids and starts.
+    inlet_length: None or metres upstream of the centre; imposed: a pressure that deflects the film beside its own and
+    carries none of the load; seat: what the film is like then, for grids and starts.
     """
 
-    load: float
-    radius: float
-    e_prime: float
-    speed: float
-    lubricant: Lubricant
+    contact: LineContact
     inlet_length: float | None = None
     imposed: LinePressure | None = None
     seat: Seat = Seat()
 
     @property
-    def speed_number(self) -> float:
-        """U1 = 2 eta0 U/(E' R) [-]."""
-        return 2.0 * self.lubricant.viscosity * self.speed / (self.e_prime * self.radius)
+    def M(self) -> float:
+        """Moes' load number."""
+        return self.contact.M
+
+    @property
+    def L(self) -> float:
+        """Moes' material number (0 for the constant-viscosity law)."""
+        return self.contact.L
 
     @property
     def length_unit(self) -> float:
         """Unit of x [m]."""
-        return self.radius * self.speed_number**0.25
+        return self.contact.length_unit
 
     @property
     def film_unit(self) -> float:
         """Unit of h [m]."""
-        return self.radius * math.sqrt(self.speed_number)
+        return self.contact.film_unit
 
     @property
     def pressure_unit(self) -> float:
         """Unit of p [Pa]."""
-        return self.e_prime * self.speed_number**0.25
-
-    @property
-    def M(self) -> float:
-        """Moes load number."""
-        return self.load / (self.e_prime * self.film_unit)
-
-    @property
-    def L(self) -> float:
-        """Moes material number (0 for the constant-viscosity law)."""
-        if self.lubricant.viscosity_law == "constant":
-            return 0.0
-        return self.lubricant.pressure_viscosity_coefficient * self.pressure_unit
+        return self.contact.pressure_unit
 
     @property
     def half_width(self) -> float:
@@ -81,7 +70,7 @@ class Problem:
     @property
     def imposed_load(self) -> float:
         """Of the imposed pressure, in the units of M."""
-        return 0.0 if self.imposed is None else self.M * self.imposed.load / self.load
+        return 0.0 if self.imposed is None else self.M * self.imposed.load / self.contact.load_per_width
 
     @property
     def flat_half_width(self) -> float:
@@ -104,13 +93,9 @@ class Problem:
 
     def alone(self) -> Problem:
         """The cylinder of the seat, without imposed pressure."""
-        return replace(
-            self,
-            radius=self.radius * self.seat.radius,
-            e_prime=self.e_prime * self.seat.modulus,
-            imposed=None,
-            seat=Seat(),
-        )
+        whole, seat = self.contact, self.seat
+        cylinder = replace(whole, radius=whole.radius * seat.radius, e_prime=whole.e_prime * seat.modulus)
+        return replace(self, contact=cylinder, imposed=None, seat=Seat())
 
     @property
     def film_guess(self) -> float:
@@ -124,17 +109,18 @@ class Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
             return self
-        alpha = share * self.lubricant.pressure_viscosity_coefficient
-        return replace(self, lubricant=replace(self.lubricant, pressure_viscosity_coefficient=alpha))
+        oil = self.contact.lubricant
+        oil = replace(oil, pressure_viscosity_coefficient=share * oil.pressure_viscosity_coefficient)
+        return replace(self, contact=replace(self.contact, lubricant=oil))
 
     def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""
-        value, slope = log_viscosity_ratio(self.lubricant, P * self.pressure_unit)
+        value, slope = log_viscosity_ratio(self.contact.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
 
     def density(self, P) -> tuple[np.ndarray, np.ndarray]:
         """rho/rho0 and its derivative with respect to P."""
-        value, slope = density_ratio(self.lubricant, P * self.pressure_unit)
+        value, slope = density_ratio(self.contact.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..line_contact import LineContact
 from ..report import Report
 from .imposed import LinePressure, line_deflection
 from .start import State
@@ -24,8 +25,8 @@ class EHLResult:
     rho = rho0; with constant density also the film at every other point where dp/dx = 0.
     flux [m²/s]: mass flux/rho0, along +x when positive.
     approach [m]: h0 in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'.
-    half_width [m], hertz_pressure [Pa]: Hertz values of the load; load [N/m];
-    load_number, material_number: Moes' M and L; imposed: the pressure, if any, that deflects the film beside its own.
+    half_width [m], hertz_pressure [Pa]: Hertz values of the load; contact: what was solved.
+    imposed: the pressure, if any, that deflects the film beside its own.
     """
 
     x: np.ndarray
@@ -41,15 +42,40 @@ class EHLResult:
     approach: float
     half_width: float
     hertz_pressure: float
-    load: float
-    radius: float
-    e_prime: float
-    entrainment_speed: float
-    load_number: float
-    material_number: float
+    contact: LineContact
     report: Report
     state: State = field(repr=False)
     imposed: LinePressure | None = field(default=None, repr=False)
+
+    @property
+    def load(self) -> float:
+        """Of the film [N/m]."""
+        return self.contact.load_per_width
+
+    @property
+    def radius(self) -> float:
+        """R [m]."""
+        return self.contact.radius
+
+    @property
+    def e_prime(self) -> float:
+        """E' [Pa]."""
+        return self.contact.e_prime
+
+    @property
+    def entrainment_speed(self) -> float:
+        """U [m/s]."""
+        return self.contact.entrainment_speed
+
+    @property
+    def load_number(self) -> float:
+        """Moes' M."""
+        return self.contact.M
+
+    @property
+    def material_number(self) -> float:
+        """Moes' L."""
+        return self.contact.L
 
     @property
     def cells(self) -> int:

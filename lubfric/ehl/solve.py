@@ -1,19 +1,20 @@
-"""`solve_ehl`: checks, nested grids, error estimate, report."""
+"""`solve_ehl`, and `solve_line_contact` for those who have a `LineContact`: nested grids from a warm or a cold start."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import InputError
+from ..line_contact import LineContact
 from ..lubricant import Lubricant
 from ..report import CONVERGED
 from ..validate import integer, number, positive
 from .assemble import assemble, grid_error
 from .grid import FAR_INLET, make_grid, node_positions
-from .imposed import find_seats, line_pressure
+from .imposed import LinePressure, Seat, find_seats, line_pressure
 from .newton import Solution, newton
 from .problem import Problem
 from .result import EHLResult
@@ -24,6 +25,26 @@ WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
 DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
 EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What is asked of the grids and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
+    rupture that are reached even where the films need fewer, Newton steps per grid."""
+
+    tolerance: float = 3e-3
+    least_cells: int = 0
+    max_iterations: int = 60
+
+    def __post_init__(self):
+        number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
+        integer("least_cells", self.least_cells, minimum=0)
+        integer("max_iterations", self.max_iterations, minimum=1)
+
+    @property
+    def cells(self) -> int:
+        """``least_cells``, or the finest grid there is."""
+        return min(self.least_cells, FINEST)
 
 
 def solve_ehl(
@@ -85,70 +106,84 @@ def solve_ehl(
 
     Similarity solution in M and L; checked for M = 1e-6 to 1000, L = 0 to 20.
     """
-    speed = number("entrainment_speed", entrainment_speed, "m/s")
-    if speed == 0.0:
-        raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density)
-    problem = Problem(
-        positive("load_per_width", load_per_width, "N/m"),
-        positive("radius", radius, "m"),
-        positive("e_prime", e_prime, "Pa"),
-        abs(speed),
-        lubricant,
-        None if inlet_length is None else positive("inlet_length", inlet_length, "m"),
+    return solve_line_contact(
+        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant),
+        Effort(tolerance, least_cells, max_iterations),
+        inlet_length=inlet_length,
+        imposed=line_pressure(imposed_pressure),
+        start=start,
+        raise_on_failure=raise_on_failure,
     )
-    imposed = line_pressure(imposed_pressure)
-    if imposed is not None:
-        imposed = imposed if speed > 0 else imposed.mirrored()
-        problem = replace(problem, imposed=imposed)
-    if inlet_length is not None and inlet_length <= problem.flat_half_width * problem.length_unit:
-        raise InputError(
-            f"inlet_length = {inlet_length:g} m lies inside the dry contact; allowed: more than "
-            f"its half-width {problem.flat_half_width * problem.length_unit:.4g} m"
-        )
-    tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
-    least_cells = min(integer("least_cells", least_cells, minimum=0), FINEST)
-    max_iterations = integer("max_iterations", max_iterations, minimum=1)
+
+
+def solve_line_contact(
+    contact: LineContact,
+    effort: Effort = Effort(),
+    *,
+    inlet_length: float | None = None,
+    imposed: LinePressure | None = None,
+    start: EHLResult | None = None,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """`solve_ehl` for a contact that is a value already; ``effort``: its tolerance and limits."""
+    problem = make_problem(contact, inlet_length, imposed)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
-
     levels, first, notes, seats = [], [], (), find_seats(problem)
     if start is not None:
         alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
         problem = replace(problem, seat=(alike or seats)[0])
-        levels = _warm(problem, tolerance, least_cells, max_iterations, start.state)
+        levels = _warm(problem, effort, start.state)
         if not _sound(levels):
             notes = ("the warm start failed; solved again from a cold start",)
     if not _sound(levels):
-        problem, levels, first, retries = _cold(problem, seats, tolerance, least_cells, max_iterations)
+        problem, levels, first, retries = _cold(problem, seats, effort)
         notes += retries
-    result = assemble(problem, levels, first, tolerance, math.copysign(1.0, speed), notes)
+    result = assemble(problem, levels, first, effort.tolerance, notes)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def _warm(problem: Problem, tolerance: float, least: int, max_steps: int, state: State) -> list[Solution]:
+def make_problem(contact: LineContact, inlet_length: float | None, imposed: LinePressure | None = None) -> Problem:
+    """The contact in its own units, along its motion; `InputError` where the lubricant begins inside the dry contact."""
+    if imposed is not None and contact.entrainment_speed < 0:
+        imposed = imposed.mirrored()
+    if inlet_length is None:
+        return Problem(contact, None, imposed)
+    problem = Problem(contact, positive("inlet_length", inlet_length, "m"), imposed)
+    half_width = problem.flat_half_width * problem.length_unit
+    if inlet_length <= half_width:
+        raise InputError(
+            f"inlet_length = {inlet_length:g} m lies inside the dry contact; "
+            f"allowed: more than its half-width {half_width:.4g} m"
+        )
+    return problem
+
+
+def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
     """Two grids, the finer one as fine as the error of ``state`` says is needed, or more."""
     n = _coarsest(problem)
-    needed = max(least, state.pressure.size * min(4.0, math.sqrt(state.grid_error / tolerance)))
+    needed = max(effort.cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
     while 2 * n < min(needed, FINEST):
         n *= 2
-    return _ascend(problem, tolerance, least, max_steps, state, n, 2)
+    return _ascend(problem, effort, state, n, 2)
 
 
 def _cold(
-    problem: Problem, seats: tuple, tolerance: float, least: int, max_steps: int
-) -> tuple[Problem, list[Solution], list[Solution], tuple]:
+    problem: Problem, seats: tuple[Seat, ...], effort: Effort
+) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
     """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
     solutions; the solutions that led there, and notes."""
-    spent, notes = [], ()
+    spent: list[Solution] = []
+    notes: tuple[str, ...] = ()
     for n, seat, doublings in _attempts(seats, _coarsest(problem)):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         problem = replace(problem, seat=seat)
-        state, first = _first_state(problem, n, max_steps, doublings)
-        levels = _ascend(problem, tolerance, least, max_steps, state, n, 2 if tolerance >= COARSE_TOLERANCE else 3)
+        state, first = _first_state(problem, n, effort.max_iterations, doublings)
+        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
         if _sound(levels):
             return problem, levels, spent + first, notes
         spent += first + levels
@@ -162,7 +197,7 @@ def _coarsest(problem: Problem) -> int:
     return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
 
 
-def _attempts(seats: tuple, coarsest: int) -> list[tuple]:
+def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
     """(cells, seat, doublings of the speed) of one cold start after the other."""
     grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
     grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
@@ -173,19 +208,17 @@ def _attempts(seats: tuple, coarsest: int) -> list[tuple]:
     ]
 
 
-def _ascend(
-    problem: Problem, tolerance: float, least: int, max_steps: int, state: State, n: int, fewest: int
-) -> list[Solution]:
-    """Solutions on ``fewest`` or more grids of n, 2n, ... cells until there are ``least`` and the error is below ``tolerance``."""
+def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
+    """Solutions on ``fewest`` or more grids of n, 2n, ... cells until they are as many and as accurate as asked."""
     rupture = rupture_guess(problem)
     levels: list[Solution] = []
     while True:
-        grid = make_grid(_positions(problem, n, rupture))
+        grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
-        levels.append(newton(grid, problem, z, H, 1e-3 * tolerance, max_steps))
+        levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
         if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
             return levels
-        if len(levels) >= fewest and n >= least and grid_error(levels) <= tolerance:
+        if len(levels) >= fewest and n >= effort.cells and grid_error(levels) <= effort.tolerance:
             return levels
         rupture = levels[-1].z[-1]
         n *= 2
@@ -203,7 +236,7 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
     state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
-        grid = make_grid(_positions(stage, n, rupture_guess(stage)))
+        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)
@@ -216,11 +249,12 @@ def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[
     """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
     state, solutions = None, []
     for k in range(doublings, 0, -1):
-        stage = replace(problem, speed=problem.speed * 2.0**k)
+        faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
+        stage = replace(problem, contact=faster)
         stage = replace(stage, seat=find_seats(stage)[0])
         if state is None:
             state, solutions = _first_state(stage, n, max_steps)
-        grid = make_grid(_positions(stage, n, rupture_guess(stage)))
+        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)
         if solutions[-1].status != CONVERGED:
@@ -228,7 +262,8 @@ def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[
     return state, solutions
 
 
-def _positions(problem: Problem, n: int, rupture: float) -> np.ndarray:
+def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
+    """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
     distance = None
     if problem.inlet_length is not None:
         distance = problem.inlet_length / problem.length_unit + rupture

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ..errors import LubfricError
-from ..mixed import FrictionResult, Model, friction
+from ..model import Model
+from ..steady import FrictionResult, friction
 from ..store import digest
 from .journal import Journal
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import fft
 
 from ..errors import InputError
-from ..rough_map import contact_map
+from ..rough.height_map import contact_map
 
 FILM = 4e-3  # s for the films of a point, of which no grid is larger than some hundred nodes
 WARM, COLD = 40, 120  # transforms of the patch for a point started from its neighbour, and for the first of a chain

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from .. import errors
 from ..errors import ConvergenceError, LubfricError
-from ..mixed import FrictionResult
 from ..report import Report
+from ..steady import FrictionResult
 from ..store import Records, decode, encode, read_checked, write_checked
 from ..store.codec import from_plain, to_plain
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from ..mixed import scene_of
+from ..model import scene_of
 from ..scene import Scene
 from ..store import fingerprint
 from .chain import Chain, make_chain

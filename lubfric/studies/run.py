@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 
 from ..errors import InputError, LubfricError
-from ..mixed import prepare
+from ..model import prepare
 from ..scene import Scene
 from ..store import FolderLock, write_whole
 from ..store.whole import clear_parts

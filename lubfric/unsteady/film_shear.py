@@ -22,10 +22,10 @@ def film_shear(
     free = 1.0 - closure.touching(x)
     rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
     lubricant = setting.contact.lubricant
-    rate = sliding * now.viscosity * p.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta
+    rate = sliding * now.viscosity * p.contact.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta
     tau = shear_stress(lubricant, pressure, rate)
     couette = float(np.sum(0.5 * (tau[1:] + tau[:-1]) * free * np.diff(x) * full_part(x, pressure)))
-    ambient = float(viscosity(lubricant, 0.0)) * now.viscosity * p.lubricant.viscosity / lubricant.viscosity
+    ambient = float(viscosity(lubricant, 0.0)) * now.viscosity * p.contact.lubricant.viscosity / lubricant.viscosity
     for end, sign in ((0, 1.0), (-1, -1.0)):
         if t.P[end] > 0.0:
             flow = sign * t.flux[end] + t.stored[end]

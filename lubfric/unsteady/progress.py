@@ -1,12 +1,13 @@
-"""How far a run has come, and the state that a `Checkpoint` keeps of it."""
+"""The outputs of a run so far, and the state that a `Checkpoint` keeps of it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..ehl.transient.bdf import Level, March
+from ..march.bdf import Level, March
+from ..march.course import Progress
 from ..rough.contract import ContactState
 from .row import UNITS, moment
 from .setup import Run
@@ -14,41 +15,29 @@ from .sharing import Contact
 
 
 @dataclass
-class Progress:
-    """What grows while a run goes on."""
+class Outputs:
+    """One row of numbers and one of fields (pressures and films) for each output time."""
 
-    march: March
-    rows: list
-    fields: list
-    steps: int = 0
-    rejected: int = 0
-    worst: float = 0.0
+    rows: list[np.ndarray] = field(default_factory=list)
+    fields: list[np.ndarray] = field(default_factory=list)
 
 
-def keep(run: Run, now: Progress, store, time, solution, advanced) -> None:
-    """Add the output at ``time`` [s]: its row and its fields."""
-    row = moment(
-        run.sharing,
-        time,
-        run.sliding_speed(time),
-        run.model.scene.bodies.boundary_friction_coefficient,
-        solution,
-        solution.payload,
-        advanced,
-        now.steps,
-    )
-    now.rows.append(np.array(list(row.values()), dtype=float))
-    now.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
+def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
+    """Add the output at the time of ``now``: its row and its fields."""
+    boundary = run.model.scene.bodies.boundary_friction_coefficient
+    row = moment(run.sharing, now.time, run.sliding_speed(now.time), boundary, solution, now)
+    outputs.rows.append(np.array(list(row.values()), dtype=float))
+    outputs.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
     if store:
-        store.append(now.rows[-1], now.fields[-1])
+        store.append(outputs.rows[-1], outputs.fields[-1])
 
 
-def state_of(run: Run, now: Progress) -> dict:
+def state_of(run: Run, outputs: Outputs, now: Progress) -> dict:
     """All that `resume` needs, as plain numbers and arrays."""
     contact, closure = now.march.payload, now.march.payload.closure
     pressure = closure.pressure
     return {
-        "outputs": len(now.rows),
+        "outputs": len(outputs.rows),
         "row_size": len(UNITS),
         "field_size": 2 * (run.sharing.setting.grid.n + 1),
         "steps": np.array([now.steps, now.rejected, now.worst, now.march.step]),
@@ -70,8 +59,8 @@ def state_of(run: Run, now: Progress) -> dict:
     }
 
 
-def resume(run: Run, store) -> Progress | None:
-    """The progress of an interrupted run, or None where there is none."""
+def resume(run: Run, store) -> tuple[Progress, Outputs] | None:
+    """Progress and outputs of an interrupted run, or None where there is none."""
     found = store.load() if store else None
     if found is None:
         return None
@@ -91,11 +80,5 @@ def resume(run: Run, store) -> Progress | None:
     levels = tuple(
         Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])
     )
-    return Progress(
-        March(levels, float(step), Contact(load, closure, softness)),
-        list(rows),
-        list(fields),
-        int(steps),
-        int(rejected),
-        float(worst),
-    )
+    march = March(levels, float(step), Contact(load, closure, softness))
+    return Progress(march, int(steps), int(rejected), float(worst)), Outputs(list(rows), list(fields))

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import validate
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .progress import Progress
+from ..march.course import Plan, Progress, report_of
+from ..report import Report
+from .progress import Outputs
 from .row import UNITS
 from .setup import Run
 
@@ -39,39 +40,23 @@ class TransientResult:
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(run: Run, now: Progress, status: str) -> TransientResult:
-    """The result of the rows and fields so far."""
-    setting, scene = run.sharing.setting, run.model.scene
+def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientResult:
+    """The result of the outputs so far."""
+    setting = run.sharing.setting
     p, n = setting.problem, setting.grid.n + 1
-    table = np.array(now.rows).reshape(len(now.rows), len(UNITS))
+    table = np.array(outputs.rows).reshape(len(outputs.rows), len(UNITS))
     columns = dict(zip(UNITS, table.T))
-    fields = np.array(now.fields).reshape(len(now.fields), 2 * n)
+    fields = np.array(outputs.fields).reshape(len(outputs.fields), 2 * n)
     worst = {
-        "step": now.worst,
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / run.sharing.tolerance,
     }
     if not np.isnan(run.grid_error):
-        worst["grid"] = run.grid_error / scene.numerics.film_tolerance
-    if status == CONVERGED and not max(worst.values()) <= 1.0:
-        status = ITERATION_LIMIT
-    notes = (f"{setting.grid.n} cells, {now.rejected} steps rejected",)
-    if status == STAGNATED:
-        notes += (f"stopped at t = {now.march.time:.6g} s: the shortest step failed",)
-    report = Report(
-        "transient, BDF2",
-        status,
-        now.steps,
-        max(worst.values()),
-        1.0,
-        worst,
-        evaluations=now.steps + now.rejected,
-        notes=notes,
-    )
+        worst["grid"] = run.grid_error / run.model.scene.numerics.film_tolerance
     return TransientResult(
         columns,
         setting.grid.x * p.length_unit,
         fields[:, :n] * p.pressure_unit,
         fields[:, n:] * p.film_unit,
-        report,
+        report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells", worst),
     )

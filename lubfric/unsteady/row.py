@@ -8,10 +8,10 @@ import numpy as np
 
 from ..ehl.result import smallest
 from ..ehl.transient.active_set import StepSolution
-from ..ehl.transient.bdf import Advance
-from ..ehl.transient.solve import WET
+from ..ehl.transient.setting import WET
+from ..march.course import Progress
 from .film_shear import film_shear
-from .sharing import Contact, Sharing
+from .sharing import Sharing
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 UNITS = {
@@ -52,12 +52,10 @@ def moment(
     sliding: float,
     boundary_coefficient: float,
     solution: StepSolution,
-    contact: Contact,
-    advanced: Advance | None,
-    steps: int,
+    now: Progress,
 ) -> dict[str, float]:
     """One row of the result, by name in the order of ``UNITS``."""
-    setting, t = sharing.setting, solution.terms
+    setting, t, contact = sharing.setting, solution.terms, solution.payload
     p, grid, total = setting.problem, setting.grid, sharing.total(time)
     wet = np.flatnonzero(t.P > 0.0)
     film_load = t.carried * sharing.unit
@@ -91,8 +89,8 @@ def moment(
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
-        "time_error": advanced.error if advanced else 0.0,
-        "steps": steps,
+        "time_error": now.error,
+        "steps": now.steps,
     }
 
 
@@ -101,7 +99,7 @@ def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
     largest): into it, kept there; and the growth of the gap in the cavitated zone that nothing fills.
     mass_residual: what is missing in the balance, of the larger of the flow and of ``NO_FLOW``."""
     t, p = solution.terms, sharing.setting.problem
-    unit = p.film_unit * p.speed
+    unit = p.film_unit * p.contact.entrainment_speed
     film = t.P[1:-1] > WET * t.P.max()
     stored = float(np.sum(t.stored[1:-1][film]))
     inflow = -float(np.sum(np.diff(t.flux)[film]))

@@ -6,19 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import validate
-from ..ehl.transient.bdf import March, advance, restarted
-from ..ehl.transient.solve import SHORTEST, stops_and_jumps
 from ..errors import InputError
 from ..history.plan import Transient
+from ..march.course import checked_times, steps
 from ..model import Model
-from ..report import CONVERGED, STAGNATED
 from ..scene import Scene
 from .checkpoint import Checkpoint
-from .progress import Progress, keep, resume, state_of
+from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
 from .row import UNITS
-from .setup import Run, begin, first_level
+from .setup import Run, begin
 
 
 def transient(
@@ -28,7 +25,7 @@ def transient(
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.transient.squeeze`: Swift-Stieber
     complementarity, either side may rupture, no entrainment needed), marched by variable-step BDF2 with error
-    control (`lubfric.ehl.transient.bdf`); at every step film and rough contact share the load of that moment
+    control (`lubfric.march`); at every step film and rough contact share the load of that moment
     and close the volume of Eq. (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015,
     doi:10.1007/s11249-015-0536-z).
 
@@ -70,40 +67,21 @@ def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
         if plan is None:
             raise InputError("scene has no [transient] table; allowed: one, or output times in s")
         return plan, np.linspace(0.0, plan.duration, plan.outputs + 1)
-    times = validate.array("times", times, "s", ndim=1)
-    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
-        raise InputError("times must increase and not be negative; allowed: 0 <= t1 < t2 < ... in s")
+    times = checked_times(times)
     last = float(times[-1])
-    if last <= 0.0:
-        raise InputError(f"times end at {last:g} s; allowed: > 0 s")
-    plan = Transient(last) if plan is None else replace(plan, duration=last)
-    return plan, times
+    return Transient(last) if plan is None else replace(plan, duration=last), times
 
 
-def _run(run: Run, times, store, on_step) -> TransientResult:
-    plan = run.plan
-    now = resume(run, store) or Progress(March((first_level(run),), run.first_step, run.start.payload), [], [])
-    if not now.rows and times[0] == 0.0:
-        keep(run, now, store, 0.0, run.start, None)
-    stops, jumps = stops_and_jumps(run.histories, times, plan.duration)
-    for stop in stops:
-        while now.march.time < stop:
-            advanced = advance(now.march, stop, run.solve, run.error_of, run.tolerance, SHORTEST * plan.duration)
-            if advanced is None:
-                return collect(run, now, STAGNATED)
-            now.march, now.steps, now.rejected = (
-                advanced.march,
-                now.steps + 1,
-                now.rejected + advanced.rejected,
-            )
-            now.worst = max(now.worst, advanced.error)
-            output = now.march.time == stop and bool(np.any(times == stop))
-            if output:
-                keep(run, now, store, stop, advanced.solution, advanced)
-            if now.march.time in jumps:
-                now.march = restarted(now.march, run.first_step)
-            if store:
-                store.save(state_of(run, now))
-            if on_step:
-                on_step(now.march.time, plan.duration, dict(zip(UNITS, now.rows[-1])) if output else None)
-    return collect(run, now, CONVERGED)
+def _run(run: Run, times: np.ndarray, store, on_step) -> TransientResult:
+    plan = run.course(times)
+    now, outputs = resume(run, store) or (run.begun(), Outputs())
+    if not outputs.rows and times[0] == 0.0:
+        keep(run, outputs, store, now, run.start)
+    for now in steps(run, plan, now):
+        if now.at_output:
+            keep(run, outputs, store, now, now.solution)
+        if store:
+            store.save(state_of(run, outputs, now))
+        if on_step:
+            on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
+    return collect(run, plan, now, outputs)

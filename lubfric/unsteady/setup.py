@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..ehl.transient.active_set import StepSolution
-from ..ehl.transient.bdf import Level
-from ..ehl.transient.setting import FINER, LineContact, Setting, make_setting
-from ..ehl.transient.solve import TIME_SHARE, default_step, film_error
-from ..ehl.transient.squeeze import Memory
+from ..ehl.transient.setting import FINER, ContactHistory, Setting, make_setting
+from ..ehl.transient.solve import TIME_SHARE
 from ..errors import InputError
 from ..history import Constant, History
 from ..history.plan import Transient
+from ..march.bdf import March, Memory
+from ..march.course import Plan, Progress, plan_of
 from ..model import Model, prepare
 from ..scene import Scene
 from .sharing import Contact, Sharing, make_sharing, share_step
@@ -35,21 +35,17 @@ class Run:
     start: StepSolution
     grid_error: float
 
-    @property
-    def tolerance(self) -> float:
-        """Largest local error of the film in a step."""
-        return self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
+    def course(self, times: np.ndarray) -> Plan:
+        """The march with outputs at ``times`` [s]."""
+        setting = self.sharing.setting
+        histories = (*setting.histories, self.sliding) if self.sliding is not None else setting.histories
+        tolerance = self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
+        return plan_of(times, histories, setting.first_step, tolerance)
 
-    @property
-    def histories(self) -> tuple[History, ...]:
-        """All that may jump."""
-        c = self.sharing.setting.contact
-        return tuple(h for h in (c.speed, c.load, c.radius, c.viscosity, self.sliding) if h is not None)
-
-    @property
-    def first_step(self) -> float:
-        """The step [s] after a start or a jump."""
-        return default_step(self.sharing.setting)
+    def begun(self) -> Progress:
+        """At t = 0."""
+        setting = self.sharing.setting
+        return Progress(March((setting.level(0.0, self.start),), setting.first_step, self.start.payload))
 
     def sliding_speed(self, time: float) -> float:
         """u2 - u1 just before ``time`` [m/s]."""
@@ -58,12 +54,12 @@ class Run:
         return self.model.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
-        """Film and contact at ``time``: the solver of `lubfric.ehl.transient.bdf.advance`."""
+        """Film and contact at ``time`` (`lubfric.march.bdf.Solver`)."""
         return share_step(self.sharing, time, memory, z, past)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """`lubfric.ehl.transient.solve.film_error`."""
-        return film_error(self.sharing.setting, solution, difference)
+        """Of the film."""
+        return self.sharing.setting.error_of(solution, difference)
 
 
 def begin(scene: Scene | Model, plan: Transient) -> Run:
@@ -99,7 +95,7 @@ def _volume_tolerance(scene: Scene) -> float:
 def _setting(model: Model, plan: Transient, load: History, finer: float) -> Setting:
     scene = model.scene
     bodies, lubricant = scene.bodies, scene.lubricant
-    contact = LineContact(
+    contact = ContactHistory(
         _per_width(load, bodies.width),
         plan.radius or Constant(bodies.radius),
         bodies.e_prime,
@@ -153,8 +149,3 @@ class _PerWidth(History):
 
 def _per_width(load: History, width: float) -> _PerWidth:
     return _PerWidth(source=load, width=width)
-
-
-def first_level(run: Run) -> Level:
-    """The level at t = 0."""
-    return run.sharing.setting.level(0.0, run.start)

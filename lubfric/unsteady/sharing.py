@@ -10,8 +10,9 @@ import numpy as np
 from ..ehl.result import cubic
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import Setting
-from ..ehl.transient.squeeze import Memory, Spring
+from ..ehl.transient.squeeze import Spring
 from ..errors import ConvergenceError
+from ..march.bdf import Memory
 from ..report import CONVERGED, ITERATION_LIMIT
 from ..rough.contract import ContactState, RoughContact
 
@@ -63,7 +64,7 @@ def make_sharing(setting: Setting, patch, width: float, tolerance: float) -> Sha
         patch,
         to_patch,
         weight @ to_patch / weight.sum(),
-        p.e_prime * p.film_unit * width,
+        p.contact.e_prime * p.film_unit * width,
         width,
         tolerance,
     )

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..ehl.transient.active_set import StepSolution, solve_step
-from ..ehl.transient.setting import discretisation, parabola, steady_start
-from ..ehl.transient.squeeze import Memory
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.setting import discretisation, parabola, steady, steady_start
 from ..errors import ConvergenceError, InputError
 from ..history.plan import Transient
 from ..model import Model
@@ -35,15 +34,7 @@ def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
 
 def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
     """No pressure anywhere, the gap as it is."""
-    setting = sharing.setting
-    found = solve_step(
-        setting.grid,
-        setting.problem,
-        setting.conditions(0.0),
-        Memory(0.0, np.zeros(setting.grid.n + 1)),
-        z,
-        max_steps=0,
-    )
+    found = sharing.setting.at_rest(z)
     contact = _untouched(sharing, found.terms.H)
     if contact.closure.volume_residual > 0.0:
         raise InputError(
@@ -67,14 +58,7 @@ def _resting(sharing: Sharing) -> StepSolution:
             "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
             "initial = 'steady' with an entrainment speed, or transient.initial_film"
         )
-    found = solve_step(
-        setting.grid,
-        setting.problem,
-        setting.conditions(0.0),
-        Memory(0.0, np.zeros(setting.grid.n + 1)),
-        z,
-        max_steps=0,
-    )
+    found = setting.at_rest(z)
     closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
     return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
 
@@ -97,7 +81,7 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     if point.contact_load == 0.0:
         return replace(film, payload=_untouched(sharing, film.terms.H)), error
     contact = Contact(point.contact_load, point.balance.contact, 0.3 * point.mean_gap)
-    found = share_step(sharing, 0.0, Memory(0.0, np.zeros(setting.grid.n + 1)), film.z, contact)
+    found = share_step(sharing, 0.0, steady(setting.grid), film.z, contact)
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.analytic import film, grubin, rigid
 from lubfric.ehl import assemble, grid, kernel, newton, problem, reynolds, solve, start
+from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
 
 ALPHA, Z = 2.2e-8, 0.68
@@ -147,7 +148,7 @@ def test_kostreva_complementarity(rpm, h_min, p_max):
 def make_problem(M, L, density="constant", law="roelands"):
     si, _ = contact(M, L)
     lubricant = Lubricant(ROELANDS_VISCOSITY, ALPHA, law, density)
-    return problem.Problem(si["load_per_width"], 0.01, 2.2e11, si["entrainment_speed"], lubricant)
+    return problem.Problem(LineContact(si["load_per_width"], 0.01, 2.2e11, si["entrainment_speed"], lubricant))
 
 
 def test_kernel_is_the_exact_integral():
@@ -202,7 +203,7 @@ def test_jacobian_matches_differences(density, inlet_length):
 def test_second_order_convergence(M, L):
     p = make_problem(M, L)
     state, _ = solve._first_state(p, 48, 60)
-    levels = solve._ascend(p, 1e-5, 0, 60, state, 48, 5)
+    levels = solve._ascend(p, solve.Effort(1e-5), state, 48, 5)
     flow = np.array([level.terms.q for level in levels])[:5]
     orders = np.log2(np.diff(flow)[:-1] / np.diff(flow)[1:])
     assert np.all(orders[-2:] > 1.6) and orders[-1] < 2.6
@@ -414,7 +415,7 @@ def test_flux_and_flow_film():
 def test_complementarity_sees_tension_and_a_film_that_narrows_behind_rupture():
     p = make_problem(5, 5)
     state, _ = solve._first_state(p, 48, 60)
-    good = solve._ascend(p, 1e-3, 0, 60, state, 48, 2)[-1]
+    good = solve._ascend(p, solve.Effort(1e-3), state, 48, 2)[-1]
     _X, H = assemble._outlet(p, good)
     assert assemble.complementarity(good, H) < 1e-9
     assert assemble.complementarity(good, 0.5 * H) == pytest.approx(1 - 0.5 * H.min() / good.terms.H[-1])

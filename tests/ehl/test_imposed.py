@@ -14,6 +14,7 @@ from lubfric.analytic import hertz
 from lubfric.ehl import grid, kernel, problem, reynolds, solve, start
 from lubfric.ehl.imposed import LinePressure, find_seats, line_deflection
 from lubfric.ehl.kernel import hat_kernel
+from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
 from lubfric.point import total_pressure
 from lubfric.point.total_pressure import mismatch, spread_of
@@ -33,7 +34,7 @@ def semi_ellipse(load, width=None, centre=0.0, count=65):
 
 
 def make_problem(load, speed, imposed, law="roelands"):
-    found = problem.Problem(load, R, E, speed, Lubricant(0.1, 2e-8, law), imposed=LinePressure(*imposed))
+    found = problem.Problem(LineContact(load, R, E, speed, Lubricant(0.1, 2e-8, law)), imposed=LinePressure(*imposed))
     return replace(found, seat=find_seats(found)[0])
 
 
@@ -55,7 +56,7 @@ def test_deflection_and_its_slope_are_exact():
 
 def test_jacobian_matches_differences_as_the_rupture_moves_through_the_deflection():
     p = make_problem(2e4, 0.1, semi_ellipse(5e4, centre=2e-5))
-    g = grid.make_grid(solve._positions(p, 24, start.rupture_guess(p)))
+    g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
     z, _ = start.cold_start(g, p)
     _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])
     J, _ = reynolds.linearise(g, p, terms)
@@ -154,7 +155,7 @@ def test_more_of_the_pressure_imposed_never_thins_the_film():
 def test_second_order(load, imposed):
     p = make_problem(load, 0.05, semi_ellipse(imposed, count=513))
     state, _ = solve._first_state(p, 96, 60)
-    flow = np.array([level.terms.q for level in solve._ascend(p, 1e-5, 0, 60, state, 96, 5)])[:5]
+    flow = np.array([level.terms.q for level in solve._ascend(p, solve.Effort(1e-5), state, 96, 5)])[:5]
     changes = np.abs(np.diff(flow))
     assert changes[-1] < 2e-4 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
 

@@ -9,16 +9,17 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric.analytic import film
-from lubfric.ehl.differential import newton as differential_newton
-from lubfric.ehl.differential import solve as differential_solve
-from lubfric.ehl.differential import solve_differential_deflection
-from lubfric.ehl.differential.equations import evaluate, measure
-from lubfric.ehl.differential.mesh import convolve, make_mesh
-from lubfric.ehl.differential.newton import Squeeze, newton
 from lubfric.ehl.kernel import hat_kernel
 from lubfric.ehl.problem import Problem
 from lubfric.ehl.result import cubic, smallest
+from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
+from lubfric.paper.differential import newton as differential_newton
+from lubfric.paper.differential import solve as differential_solve
+from lubfric.paper.differential import solve_differential_deflection
+from lubfric.paper.differential.equations import evaluate, measure
+from lubfric.paper.differential.mesh import convolve, make_mesh
+from lubfric.paper.differential.newton import Squeeze, newton
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,
@@ -221,7 +222,7 @@ def test_starts_from_a_neighbour_and_starts_the_default(heavy):
 )
 def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
-    problem = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA))
+    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA)))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
     s = newton(mesh, problem, *differential_solve._cold(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8
@@ -272,8 +273,8 @@ def test_speed_halved_at_once():
     At T = 2 the front of the new film stands at the centre."""
     kw = moes(20, 5)
     oil = Lubricant(ETA, ALPHA, density_law="dowson-higginson")
-    first = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"], oil)
-    later = Problem(kw["load_per_width"], R, E, kw["entrainment_speed"] / 2, oil)
+    first = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], oil))
+    later = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"] / 2, oil))
     stretch, unit = first.length_unit / later.length_unit, later.film_unit / first.film_unit
     b = first.half_width
     steady = newton(

@@ -63,14 +63,14 @@ NEWTON = (
     + """
 from lubfric.ehl.grid import make_grid
 from lubfric.ehl.newton import newton
-from lubfric.ehl.solve import _positions
+from lubfric.ehl.solve import problem_nodes
 from lubfric.ehl.start import rupture_guess, warm_start
 from verification.charts.growth import newton_problem
 problem, state = newton_problem()
 
 
 def solve(n):
-    grid = make_grid(_positions(problem, n, rupture_guess(problem)))
+    grid = make_grid(problem_nodes(problem, n, rupture_guess(problem)))
     return newton(grid, problem, *warm_start(grid, problem, state), 1e-6, 60)
 
 
@@ -117,13 +117,16 @@ def newton_problem():
     """A contact (M = 20, L = 5) and a solution to start every grid from."""
     from lubfric import solve_ehl
     from lubfric.ehl.problem import Problem
+    from lubfric.line_contact import LineContact
     from lubfric.lubricant import Lubricant
 
     from ..stability.film_map import case_of
 
     case = case_of(20, 5)
     oil = Lubricant(case["viscosity"], case["pressure_viscosity_coefficient"], "roelands", "constant")
-    problem = Problem(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+    problem = Problem(
+        LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+    )
     return problem, solve_ehl(**case, tolerance=1e-2).state
 
 

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 
 from lubfric import ConvergenceError
 from lubfric.ehl import solve_ehl
-from lubfric.ehl.differential.transient import solve_differential_transient
 from lubfric.ehl.problem import Problem
 from lubfric.ehl.transient import solve_transient_ehl
-from lubfric.ehl.transient.bdf import Level, March, advance
 from lubfric.ehl.transient.fixed_grid import make_fixed_grid, symmetric_nodes
-from lubfric.ehl.transient.setting import LineContact, make_setting, parabola
-from lubfric.ehl.transient.squeeze import Memory
+from lubfric.ehl.transient.setting import ContactHistory, make_setting, parabola
 from lubfric.history import Constant, Harmonic, Ramp
 from lubfric.history import Table as History
+from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
+from lubfric.march.bdf import Level, March, Memory, advance
+from lubfric.paper.differential.transient import solve_differential_transient
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
@@ -72,23 +73,19 @@ def contact(M: float, L: float, density: str = "constant"):
     """Keywords, `Problem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     e, r, alpha, eta = 2.2e11, 0.01, 2.2e-8, 0.0358
     number = (L / (alpha * e)) ** 4
-    problem = Problem(
-        M * e * r * math.sqrt(number),
-        r,
-        e,
-        number * e * r / (2 * eta),
-        Lubricant(eta, alpha, "roelands", density),
-    )
+    speed = number * e * r / (2 * eta)
+    oil = Lubricant(eta, alpha, "roelands", density)
+    problem = Problem(LineContact(M * e * r * math.sqrt(number), r, e, speed, oil))
     keywords = dict(
-        load_per_width=problem.load,
+        load_per_width=problem.contact.load_per_width,
         radius=r,
         e_prime=e,
-        entrainment_speed=problem.speed,
+        entrainment_speed=speed,
         viscosity=eta,
         pressure_viscosity_coefficient=alpha,
         density=density,
     )
-    return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / problem.speed
+    return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / speed
 
 
 def step_history(value: float, factor: float, at: float = 0.0) -> History:
@@ -133,7 +130,7 @@ def squeeze(level: str):
 
 def setting(resolution: float):
     """The rigid squeeze on a grid of a given resolution."""
-    line = LineContact(
+    line = ContactHistory(
         Constant(100.0),
         Constant(0.01),
         2.2e17,
@@ -157,8 +154,7 @@ def marched(resolution: float, steps: int) -> float:
         march = advance(
             replace(march, step=LONG),
             0.3 * LONG * (k + 1) / steps,
-            lambda t, m, z, _: made.step(t, m, z),
-            lambda s, d: 0.0,
+            SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0),
             1.0,
             0.0,
         ).march

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...march.bdf import Memory
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..limiter import step_length
 from ..problem import Problem
 from .fixed_grid import FixedGrid
-from .squeeze import Conditions, Memory, Spring, StepTerms, evaluate, jacobian
+from .squeeze import Conditions, Spring, StepTerms, evaluate, jacobian
 
-VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
 SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
-FILM_STEP = 0.7  # largest share of the film that one step may remove
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,8 @@ def _iterate(grid, problem, now, memory, spring, z, tolerance, max_steps) -> Ste
         if delta is None:
             status = DIVERGED
             break
-        z = z + _length(grid, t, delta) * delta
+        loss = float(np.max(-(grid.kernel @ delta[:-1] + delta[-1]) / t.H))
+        z = z + step_length(delta[:-1] * t.log_slope, loss) * delta
         z[:-1][cavitated & (z[:-1] < 1e-14 * t.P.max())] = 0.0
     return StepSolution(z, t, cavitated, status, residuals, tuple(history))
 
@@ -131,10 +132,3 @@ def _solve(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | N
         return None
     delta[free] = solution
     return delta
-
-
-def _length(grid: FixedGrid, t: StepTerms, delta: np.ndarray) -> float:
-    change = float(np.max(np.abs(delta[:-1] * t.log_slope)))
-    length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
-    shrink = float(np.max(-(grid.kernel @ delta[:-1] + delta[-1]) / t.H))
-    return length if shrink * length <= FILM_STEP else FILM_STEP / shrink

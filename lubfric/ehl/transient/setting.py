@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...analytic.film import moes_film
 from ...history import History
+from ...line_contact import LineContact
 from ...lubricant import Lubricant
+from ...march.bdf import Level, Memory
 from ...report import CONVERGED
 from ..problem import Problem
-from ..solve import solve_ehl
+from ..solve import Effort, solve_line_contact
 from .active_set import StepSolution, solve_step
-from .bdf import Level
 from .fixed_grid import FixedGrid, make_fixed_grid, symmetric_nodes
-from .squeeze import Conditions, Memory, Spring
+from .squeeze import Conditions, Spring
 
 FINER = (
     1.0,
@@ -26,12 +26,14 @@ FINER = (
 )  # factors of the number of nodes, tried until the steady start is accurate enough
 RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
 SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
+WET = 1e-3  # of the largest pressure: where the error of the film counts
+FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 
 
 @dataclass(frozen=True)
-class LineContact:
-    """Histories in SI units of a contact from t = 0 to ``duration`` [s].
+class ContactHistory:
+    """A line contact in time: histories in SI units from t = 0 to ``duration`` [s].
 
     load [N/m], radius [m], speed [m/s] (entrainment), viscosity [Pa s] (ambient; the pressure law stays);
     initial_film [m]: flying height of the undeformed parabola at t = 0, or None: steady before t = 0.
@@ -46,28 +48,35 @@ class LineContact:
     duration: float
     initial_film: float | None = None
 
+    def steady(self, load: float | None = None) -> LineContact:
+        """As it is just before t = 0 (there must be entrainment), or with another load [N/m]."""
+        oil = replace(self.lubricant, viscosity=self.viscosity.before(0.0))
+        return LineContact(
+            load or self.load.before(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
+        )
+
 
 @dataclass(frozen=True)
 class Setting:
     """The contact in the units of a reference ``problem``, on ``grid``."""
 
-    contact: LineContact
+    contact: ContactHistory
     problem: Problem
     grid: FixedGrid
 
     @property
     def time_unit(self) -> float:
         """Unit of time [s]: the unit of x over the reference speed."""
-        return self.problem.length_unit / self.problem.speed
+        return self.problem.length_unit / self.problem.contact.entrainment_speed
 
     def conditions(self, time: float) -> Conditions:
         """Just before ``time`` [s]."""
         c, p = self.contact, self.problem
         return Conditions(
-            c.speed.before(time) / p.speed,
-            c.load.before(time) / (p.e_prime * p.film_unit),
-            p.radius / c.radius.before(time),
-            c.viscosity.before(time) / p.lubricant.viscosity,
+            c.speed.before(time) / p.contact.entrainment_speed,
+            c.load.before(time) / (p.contact.e_prime * p.film_unit),
+            p.contact.radius / c.radius.before(time),
+            c.viscosity.before(time) / p.contact.lubricant.viscosity,
         )
 
     def step(
@@ -89,13 +98,45 @@ class Setting:
             tolerance=tolerance,
         )
 
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> StepSolution:
+        """The step of a film that carries the whole load (`lubfric.march.bdf.Solver`)."""
+        return self.step(time, memory, z)
+
+    def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
+        """Root mean square over the pressurised film of a difference of films, relative to the film."""
+        P = solution.terms.P
+        weights = self.grid.weights * (P > WET * P.max())
+        return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
+
+    def at_rest(self, z: np.ndarray) -> StepSolution:
+        """The unknowns ``z`` taken as the state at t = 0: evaluated, not solved."""
+        return solve_step(self.grid, self.problem, self.conditions(0.0), steady(self.grid), z, max_steps=0)
+
+    @property
+    def histories(self) -> tuple[History, ...]:
+        """All that changes in time."""
+        return self.contact.speed, self.contact.load, self.contact.radius, self.contact.viscosity
+
+    @property
+    def first_step(self) -> float:
+        """The step [s] after a start or a jump."""
+        contact = self.contact
+        fastest = max(abs(u) for u in contact.speed.range(contact.duration))
+        width = math.hypot(self.problem.half_width, 3.0) * self.problem.length_unit
+        return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
+
     def level(self, time: float, solution: StepSolution) -> Level:
         """What later steps need of a solution."""
         return Level(time, solution.film, solution.z)
 
 
+def steady(grid: FixedGrid) -> Memory:
+    """The memory of a state that does not change."""
+    return Memory(0.0, np.zeros(grid.n + 1))
+
+
 def make_setting(
-    contact: LineContact,
+    contact: ContactHistory,
     tolerance: float,
     *,
     shared: bool = False,
@@ -122,13 +163,13 @@ def make_setting(
     return Setting(contact, problem, make_fixed_grid(x))
 
 
-def _reference(contact: LineContact, film_range) -> tuple[Problem, tuple[float, float]]:
+def _reference(contact: ContactHistory, film_range) -> tuple[Problem, tuple[float, float]]:
     c, T = contact, contact.duration
     load, radius, eta = c.load.range(T), c.radius.range(T), c.viscosity.range(T)
     fastest = max(abs(u) for u in c.speed.range(T))
     lubricant = replace(c.lubricant, viscosity=c.viscosity.at(0.0))
     films = [f for f in (*film_range, c.initial_film or 0.0) if 0.0 < f < math.inf]
-    reference = Problem(load[1], c.radius.at(0.0), c.e_prime, fastest or 1.0, lubricant)
+    reference = LineContact(load[1], c.radius.at(0.0), c.e_prime, fastest or 1.0, lubricant)
     if fastest:
         low, high = c.speed.range(T)
         slowest = 0.0 if low < 0.0 < high else min(abs(low), abs(high))
@@ -139,21 +180,15 @@ def _reference(contact: LineContact, film_range) -> tuple[Problem, tuple[float, 
     else:
         scale = math.sqrt(c.radius.at(0.0) * films[0])
         speed = scale**4 * c.e_prime / (2.0 * lubricant.viscosity * c.radius.at(0.0) ** 3)
-        reference = replace(reference, speed=speed)
+        reference = replace(reference, entrainment_speed=speed)
         time = math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
         films.append(films[0] / (1.0 + min(time, 10.0)) ** 2)
-    return reference, (min(films) / reference.film_unit, max(films) / reference.film_unit)
+    return Problem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
-def _moes(reference: Problem, load: float, radius: float, viscosity: float, speed: float) -> float:
-    p = replace(
-        reference,
-        load=load,
-        radius=radius,
-        speed=speed,
-        lubricant=replace(reference.lubricant, viscosity=viscosity),
-    )
-    return moes_film(p.M, p.L) * p.film_unit
+def _moes(reference: LineContact, load: float, radius: float, viscosity: float, speed: float) -> float:
+    oil = replace(reference.lubricant, viscosity=viscosity)
+    return LineContact(load, radius, reference.e_prime, speed, oil).moes_film
 
 
 def parabola(setting: Setting, film: float) -> np.ndarray:
@@ -165,28 +200,17 @@ def steady_start(setting: Setting, load: float | None = None, spring: Spring | N
     """The steady state of the conditions just before t = 0 (load [N/m]: instead of the history's)."""
     c, p, grid = setting.contact, setting.problem, setting.grid
     now = setting.conditions(0.0)
-    lubricant, speed = c.lubricant, c.speed.before(0.0)
-    found = solve_ehl(
-        load_per_width=load or c.load.before(0.0),
-        radius=c.radius.before(0.0),
-        e_prime=c.e_prime,
-        entrainment_speed=speed,
-        viscosity=c.viscosity.before(0.0),
-        pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-        viscosity_law=lubricant.viscosity_law,
-        density=lubricant.density_law,
-        tolerance=0.01,
-    )
+    found = solve_line_contact(c.steady(load), Effort(tolerance=0.01))
     x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
-    side = math.copysign(1.0, speed)
+    side = math.copysign(1.0, found.entrainment_speed)
     guess = np.interp(grid.x, x, P, left=0.0, right=0.0)
     inlet = x[0] if side > 0 else x[-1]
     beyond = grid.x * side < inlet * side
     guess[beyond] = (P[0] if side > 0 else P[-1]) * (inlet / grid.x[beyond]) ** 3
     centre = grid.n // 2
     z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
-    now = now if load is None else replace(now, load=load / (p.e_prime * p.film_unit))
-    return solve_step(grid, p, now, Memory(0.0, np.zeros(grid.n + 1)), z, spring=spring, max_steps=40)
+    now = now if load is None else replace(now, load=load / (p.contact.e_prime * p.film_unit))
+    return solve_step(grid, p, now, steady(grid), z, spring=spring, max_steps=40)
 
 
 def discretisation(setting: Setting, solution: StepSolution) -> float:
@@ -198,7 +222,7 @@ def discretisation(setting: Setting, solution: StepSolution) -> float:
         coarse.grid,
         coarse.problem,
         replace(setting.conditions(0.0), load=solution.terms.carried),
-        Memory(0.0, np.zeros(coarse.grid.n + 1)),
+        steady(coarse.grid),
         z,
         max_steps=40,
     )

@@ -9,26 +9,22 @@ import numpy as np
 
 from ... import validate
 from ...errors import ConvergenceError, InputError
-from ...history.read import check_history, history
 from ...lubricant import Lubricant
-from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ...march.bdf import March
+from ...march.course import Plan, Progress, checked_history, checked_times, plan_of, report_of, steps
+from ...report import CONVERGED, Report
 from ..result import smallest
-from .active_set import solve_step
-from .bdf import March, advance, restarted
+from .active_set import StepSolution
 from .setting import (
     FINER,
-    LineContact,
+    ContactHistory,
     Setting,
     discretisation,
     make_setting,
     parabola,
     steady_start,
 )
-from .squeeze import Memory
 
-FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
-SHORTEST = 1e-11  # of the duration: below it a step has failed for good
-WET = 1e-3  # of the largest pressure: where the error of the film counts
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
 
@@ -80,7 +76,7 @@ def solve_transient_ehl(
     time_tolerance : largest local error of the film in a step, relative (None: 0.01 x tolerance)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
-    Equations, cavitation and residuals: `squeeze` and `active_set` beside this module; time: `bdf`.
+    Equations, cavitation and residuals: `squeeze` and `active_set` beside this module; time: `lubfric.march`.
     report.residuals: "step", the largest accepted local error, and "grid", the grid error of the smallest and
     central film of the steady start (where there is one), each over its tolerance.
 
@@ -89,140 +85,53 @@ def solve_transient_ehl(
     """
     times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
-    time_tolerance = (
-        TIME_SHARE * tolerance
-        if time_tolerance is None
-        else validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
+    if time_tolerance is None:
+        time_tolerance = TIME_SHARE * tolerance
+    validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
+    if first_step is not None:
+        validate.positive("first_step", first_step, "s")
+    duration = float(times[-1])
+    eta = checked_history("viscosity", viscosity, "Pa s", duration)
+    contact = ContactHistory(
+        checked_history("load_per_width", load_per_width, "N/m", duration),
+        checked_history("radius", radius, "m", duration),
+        validate.positive("e_prime", e_prime, "Pa"),
+        checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
+        eta,
+        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density),
+        duration,
+        initial_film,
     )
-    given = {
-        "load_per_width": (load_per_width, "N/m"),
-        "radius": (radius, "m"),
-        "entrainment_speed": (entrainment_speed, "m/s"),
-        "viscosity": (viscosity, "Pa s"),
-    }
-    found = {name: history(name, value) for name, (value, _) in given.items()}
-    for name, (_, unit) in given.items():
-        check_history(name, unit, found[name], float(times[-1]), positive=name != "entrainment_speed")
-    speed = found["entrainment_speed"]
     if initial_film is not None:
         validate.positive("initial_film", initial_film, "m")
-    elif speed.before(0.0) == 0.0:
+    elif contact.speed.before(0.0) == 0.0:
         raise InputError(
             "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
         )
-    lubricant = Lubricant(found["viscosity"].at(0.0), pressure_viscosity_coefficient, viscosity_law, density)
-    contact = LineContact(
-        found["load_per_width"],
-        found["radius"],
-        validate.positive("e_prime", e_prime, "Pa"),
-        speed,
-        found["viscosity"],
-        lubricant,
-        float(times[-1]),
-        initial_film,
-    )
     setting, start, grid_error = _start(contact, tolerance)
-    result = _run(setting, start, grid_error / tolerance, times, time_tolerance, first_step or default_step(setting))
+    plan = plan_of(times, setting.histories, first_step or setting.first_step, time_tolerance)
+    result = _march(setting, start, plan, {} if math.isnan(grid_error) else {"grid": grid_error / tolerance})
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def default_step(setting: Setting) -> float:
-    """The step [s] after a start or a jump."""
-    contact = setting.contact
-    fastest = max(abs(u) for u in contact.speed.range(contact.duration))
-    width = math.hypot(setting.problem.half_width, 3.0) * setting.problem.length_unit
-    return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
-
-
-def film_error(setting: Setting, solution, difference: np.ndarray) -> float:
-    """Root mean square over the pressurised film of a difference of films, relative to the film."""
-    P = solution.terms.P
-    weights = setting.grid.weights * (P > WET * P.max())
-    return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
-
-
-def stops_and_jumps(histories, times, duration: float) -> tuple[list[float], set[float]]:
-    """Where steps end, and which of these are jumps."""
-    jumps = {t for h in histories for t in h.jumps(duration)}
-    return sorted({*times, *jumps, *(t for h in histories for t in h.stops(duration))}), jumps
-
-
-def checked_times(times) -> np.ndarray:
-    times = validate.array("times", times, "s", ndim=1)
-    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
-        raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
-    return times
-
-
-def _run(setting: Setting, start, grid, times, time_tolerance, first_step) -> TransientFilm:
-    contact, duration = setting.contact, float(times[-1])
-    outputs = [(0.0, start)] if times[0] == 0.0 else []
-    march = March((setting.level(0.0, start),), first_step)
-    stops, jumps = stops_and_jumps((contact.speed, contact.load, contact.radius, contact.viscosity), times, duration)
-    count, rejected, worst, status = 0, 0, 0.0, CONVERGED
-
-    def solve(time, memory, z, _):
-        return setting.step(time, memory, z)
-
-    def error_of(solution, difference):
-        return film_error(setting, solution, difference)
-
-    for stop in stops:
-        while march.time < stop and status == CONVERGED:
-            step = advance(march, stop, solve, error_of, time_tolerance, SHORTEST * duration)
-            if step is None:
-                status = STAGNATED
-                break
-            march, count, rejected, worst = (
-                step.march,
-                count + 1,
-                rejected + step.rejected,
-                max(worst, step.error),
-            )
-            if march.time == stop and np.any(times == stop):
-                outputs.append((stop, step.solution))
-            if march.time in jumps:
-                march = restarted(march, first_step)
-    residuals = {"step": worst} | ({} if math.isnan(grid) else {"grid": grid})
-    if status == CONVERGED and max(residuals.values()) > 1.0:
-        status = ITERATION_LIMIT
-    notes = (
-        f"{setting.grid.n} cells, {rejected} steps rejected",
-        *((f"stopped at t = {march.time:.6g} s: the shortest step failed",) if status != CONVERGED else ()),
-    )
-    report = Report(
-        "transient line-contact EHL, BDF2",
-        status,
-        count,
-        max(residuals.values()),
-        1.0,
-        residuals,
-        evaluations=count + rejected,
-        notes=notes,
-    )
+def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+    now = Progress(March((setting.level(0.0, start),), plan.first_step))
+    outputs = [(0.0, start)] if plan.times[0] == 0.0 else []
+    for now in steps(setting, plan, now):
+        if now.at_output:
+            outputs.append((now.time, now.solution))
+    report = report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals)
     return _collect(setting, outputs, report)
 
 
-def _start(contact: LineContact, tolerance: float):
+def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, StepSolution, float]:
     """(setting, state at t = 0, grid error), the grid refined until a steady start is as accurate as
     asked."""
     if contact.initial_film is not None:
         setting = make_setting(contact, tolerance)
-        grid = setting.grid
-        return (
-            setting,
-            solve_step(
-                grid,
-                setting.problem,
-                setting.conditions(0.0),
-                Memory(0.0, np.zeros(grid.n + 1)),
-                parabola(setting, contact.initial_film),
-                max_steps=0,
-            ),
-            math.nan,
-        )
+        return setting, setting.at_rest(parabola(setting, contact.initial_film)), math.nan
     for finer in FINER:
         setting = make_setting(contact, tolerance, finer=finer)
         start = steady_start(setting)
@@ -233,7 +142,7 @@ def _start(contact: LineContact, tolerance: float):
     raise ConvergenceError("transient: no steady film on the grid of the run to start from")
 
 
-def _collect(setting: Setting, outputs, report: Report) -> TransientFilm:
+def _collect(setting: Setting, outputs: list[tuple[float, StepSolution]], report: Report) -> TransientFilm:
     p, x = setting.problem, setting.grid.x
     H = np.array([s.terms.H for _, s in outputs]).reshape(-1, x.size)
     P = np.array([s.terms.P for _, s in outputs]).reshape(-1, x.size)
@@ -244,6 +153,6 @@ def _collect(setting: Setting, outputs, report: Report) -> TransientFilm:
         H * p.film_unit,
         np.array([smallest(x, h) for h in H]) * p.film_unit,
         H[:, x.size // 2] * p.film_unit,
-        np.array([s.terms.carried for _, s in outputs]) * p.e_prime * p.film_unit,
+        np.array([s.terms.carried for _, s in outputs]) * p.contact.e_prime * p.film_unit,
         report,
     )

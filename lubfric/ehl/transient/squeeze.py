@@ -4,7 +4,7 @@
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
 in the units of `lubfric.ehl.problem` for a reference speed, T = t U_ref/(unit of x). The time derivative is
-``rate (rho H - memory)``: any implicit formula has that shape (BDF2: `lubfric.ehl.transient.bdf`); rate = 0 is
+``rate (rho H - memory)``: any implicit formula has that shape (BDF2: `lubfric.march.bdf`); rate = 0 is
 the steady state. Unknowns z: the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
 
 Control volumes around the nodes; Couette flow with film and density interpolated third-order upwind,
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...march.bdf import Memory
 from ..problem import Problem
 from ..reynolds import log_mean_fluidity
 from .fixed_grid import FixedGrid
@@ -36,14 +37,6 @@ class Conditions:
     load: float
     curvature: float = 1.0
     viscosity: float = 1.0
-
-
-@dataclass(frozen=True)
-class Memory:
-    """Time derivative of rho H as rate (rho H - film); rate = 0: steady."""
-
-    rate: float
-    film: np.ndarray
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...ehl.limiter import step_length
+from ...ehl.problem import Problem
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
-from ..newton import FILM_STEP, VISCOSITY_STEP
-from ..problem import Problem
 from .equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
 from .mesh import Mesh, convolve
 
@@ -175,7 +175,7 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
             break
         z, count = newton_step(mesh, t, factors)
         solves += count
-        length = _step_length(t, H, z)
+        length = step_length(z[0::2] * t.slope, float(np.max(-z[1::2] / H)))
         P, H = _without_tension(P + length * z[0::2], t.last), H + length * z[1::2]
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
@@ -188,10 +188,3 @@ def _without_tension(P: np.ndarray, last: int) -> np.ndarray:
     peak = int(np.argmax(P))
     P[peak:] = np.maximum(P[peak:], 0.0)
     return P
-
-
-def _step_length(t: Terms, H: np.ndarray, z: np.ndarray) -> float:
-    change = float(np.max(np.abs(z[0::2] * t.slope)))
-    length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
-    shrink = float(np.max(-z[1::2] / H))
-    return length if shrink * length <= FILM_STEP else FILM_STEP / shrink

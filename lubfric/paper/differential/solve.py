@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from ...analytic.film import moes_film
+from ...ehl.problem import Problem
+from ...ehl.result import EHLResult, cubic
+from ...ehl.solve import Effort, make_problem
+from ...ehl.start import expected_rupture, rupture_guess
 from ...errors import InputError
+from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...report import CONVERGED
-from ...validate import integer, number, positive
-from ..problem import Problem
-from ..result import EHLResult, cubic
-from ..start import expected_rupture
+from ...validate import integer, number
 from .equations import load_row
 from .mesh import Mesh, convolve, make_mesh
 from .newton import Solution, newton
@@ -21,8 +24,23 @@ from .result import assemble, grid_error
 
 COARSEST, FINEST = 64, 32768  # cells
 FEWEST = 3  # grids to judge an error by: two may agree by chance
-STARVED = 0.1  # film of a badly starved contact, relative to inlet_length²
 RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
+
+
+@dataclass(frozen=True)
+class UniformEffort:
+    """What is asked ``on_a_grid``; nodes (None: doubled until accurate), the most of them, and the bandwidth."""
+
+    on_a_grid: Effort = Effort()
+    nodes: int | None = None
+    most_nodes: int = FINEST + 1
+    bandwidth: int = 8
+
+    def __post_init__(self):
+        if self.nodes is not None:
+            integer("nodes", self.nodes, minimum=COARSEST + 1)
+        integer("most_nodes", self.most_nodes, minimum=COARSEST + 1)
+        integer("bandwidth", self.bandwidth, minimum=0)
 
 
 def solve_differential_deflection(
@@ -51,7 +69,7 @@ def solve_differential_deflection(
     of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
     ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
     from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
-    (`lubfric.ehl.differential.equations`). A step costs O(N log N + N bandwidth²).
+    (`lubfric.paper.differential.equations`). A step costs O(N log N + N bandwidth²).
 
     Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
     H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,
@@ -85,116 +103,89 @@ def solve_differential_deflection(
     1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
     needs about 50 times the nodes of a graded one at M = 1000.
     """
-    problem = _problem(
+    contact = LineContact(
         load_per_width,
         radius,
         e_prime,
         entrainment_speed,
-        inlet_length,
         Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density),
     )
-    tolerance = number("tolerance", tolerance, "", minimum=1e-5, maximum=0.1)
-    max_iterations = integer("max_iterations", max_iterations, minimum=1)
-    bandwidth = integer("bandwidth", bandwidth, minimum=0)
-    nodes = None if nodes is None else integer("nodes", nodes, minimum=COARSEST + 1)
+    effort = UniformEffort(Effort(tolerance, max_iterations=max_iterations), nodes, most_nodes, bandwidth)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
-    most_nodes = integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    ends = _domain(problem, domain)
+    if domain is not None and inlet_length is not None:
+        raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
+    problem = make_problem(contact, inlet_length)
+    return solve_differential(problem, effort, domain_ends(problem, domain), start, raise_on_failure)
 
-    levels, notes = [], ()
+
+def solve_differential(
+    problem: Problem,
+    effort: UniformEffort,
+    ends: tuple[float, float],
+    start: EHLResult | None = None,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """`solve_differential_deflection` for a `Problem` on a grid between ``ends`` [units of x]."""
+    levels: list[Solution] = []
+    notes: tuple[str, ...] = ()
     if start is not None:
-        levels = _ascend(problem, ends, (nodes, most_nodes), bandwidth, tolerance, max_iterations, start)
+        levels = _ascend(problem, effort, ends, start)
         if levels[-1].status != CONVERGED:
             notes = ("the warm start failed; solved again from a cold start",)
     if not levels or levels[-1].status != CONVERGED:
-        levels = _ascend(problem, ends, (nodes, most_nodes), bandwidth, tolerance, max_iterations, None)
-    result = assemble(problem, levels, tolerance, math.copysign(1.0, entrainment_speed), notes)
+        levels = _ascend(problem, effort, ends, None)
+    result = assemble(problem, levels, effort.on_a_grid.tolerance, notes)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def _problem(load, radius, e_prime, speed, inlet_length, lubricant: Lubricant) -> Problem:
-    speed = number("entrainment_speed", speed, "m/s")
-    if speed == 0.0:
-        raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
-    return Problem(
-        positive("load_per_width", load, "N/m"),
-        positive("radius", radius, "m"),
-        positive("e_prime", e_prime, "Pa"),
-        abs(speed),
-        lubricant,
-        None if inlet_length is None else positive("inlet_length", inlet_length, "m"),
-    )
-
-
-def _film(problem: Problem) -> float:
-    """Expected film, less where the lubricant begins within the length on which a flooded film builds up."""
-    film = moes_film(problem.M, problem.L)
-    if problem.inlet_length is None:
-        return film
-    return min(film, STARVED * (problem.inlet_length / problem.length_unit) ** 2)
-
-
-def _rupture(problem: Problem) -> float:
-    return min(expected_rupture(problem.M, problem.L), problem.half_width + math.sqrt(2.0 * _film(problem)))
-
-
-def _domain(problem: Problem, domain) -> tuple[float, float]:
+def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     """First and last node in units of X."""
     b, unit = problem.half_width, problem.length_unit
-    rise = math.sqrt(2.0 * _film(problem))
-    first = -2.0 * b - 20.0 * rise
-    last = _rupture(problem) + 0.2 * b + rise
-    if problem.inlet_length is not None:
-        if domain is not None:
-            raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
-        first = -problem.inlet_length / unit
-        if -first <= b:
-            raise InputError(
-                f"inlet_length = {problem.inlet_length:g} m lies inside the dry contact; "
-                f"allowed: more than its half-width {b * unit:.4g} m"
-            )
+    rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
         first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
-        last = number("domain[1]", domain[1], "m", minimum=b * unit) / unit
-    return first, last
+        return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
+    first = -2.0 * b - 20.0 * rise if problem.inlet_length is None else -problem.inlet_length / unit
+    return first, rupture_guess(problem) + 0.2 * b + rise
 
 
-def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
+def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[int]:
     """Cells of the nested grids; the coarsest resolves the rise of the pressure if the finest does."""
-    film, b = math.sqrt(2.0 * _film(problem)), problem.half_width
+    film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
-    if nodes is None:
-        cells = [min(2 ** math.ceil(math.log2(enough)), most_nodes - 1)]
-        while 2 * cells[-1] < most_nodes:
+    if effort.nodes is None:
+        cells = [min(2 ** math.ceil(math.log2(enough)), effort.most_nodes - 1)]
+        while 2 * cells[-1] < effort.most_nodes:
             cells.append(2 * cells[-1])
         return cells
-    cells = [nodes - 1]
-    while cells[0] // 2 >= min(enough, max(COARSEST, (nodes - 1) // 2)):
+    cells = [effort.nodes - 1]
+    while cells[0] // 2 >= min(enough, max(COARSEST, (effort.nodes - 1) // 2)):
         cells.insert(0, cells[0] // 2)
     return cells
 
 
-def _ascend(problem, ends, counts, bandwidth, tolerance, max_steps, start: EHLResult | None) -> list[Solution]:
-    """Solutions on grids of doubling size; ``counts`` (nodes, most_nodes): without nodes until they agree to ``tolerance``."""
-    nodes, most_nodes = counts
-    cells = _cells(problem, ends, nodes, most_nodes)
+def _ascend(
+    problem: Problem, effort: UniformEffort, ends: tuple[float, float], start: EHLResult | None
+) -> list[Solution]:
+    """Solutions on grids of doubling size: up to the nodes asked for, or until they agree to the tolerance."""
+    cells, grid = _cells(problem, effort, ends), effort.on_a_grid
     levels: list[Solution] = []
     for n in cells:
-        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
+        mesh = make_mesh(*ends, n + 1, effort.bandwidth, problem.inlet_length is None)
         if levels:
             P, H = _transfer(mesh, levels[-1].mesh.X, levels[-1].P, levels[-1].H)
         else:
             P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
-        levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_steps))
+        levels.append(newton(mesh, problem, P, H, 1e-3 * grid.tolerance, grid.max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
             continue
-        enough = nodes is None and len(levels) >= FEWEST and grid_error(levels) <= tolerance
+        enough = effort.nodes is None and len(levels) >= FEWEST and grid_error(levels) <= grid.tolerance
         if levels[-1].status != CONVERGED or enough:
             break
     return levels
@@ -202,9 +193,9 @@ def _ascend(problem, ends, counts, bandwidth, tolerance, max_steps, start: EHLRe
 
 def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """A semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
-    film = _film(problem)
+    film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
-    place = (mesh.X - _rupture(problem)) / width
+    place = (mesh.X - rupture_guess(problem)) / width
     P = np.sqrt(np.maximum(0.0, 1.0 - (place + 1.0) ** 2))
     P /= load_row(mesh, problem) @ P
     gap = 0.5 * mesh.X**2 + convolve(mesh.log_transform, P)

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...analytic.film import moes_film
-from ..problem import Problem
-from ..reynolds import log_mean_fluidity
+from ...ehl.problem import Problem
+from ...ehl.reynolds import log_mean_fluidity
 from .mesh import Mesh, convolve
 
 

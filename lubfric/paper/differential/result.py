@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from ...analytic.film import moes_film
+from ...ehl.grid import node_positions
+from ...ehl.problem import Problem
+from ...ehl.result import EHLResult, cubic, smallest
+from ...ehl.start import State
 from ...report import CONVERGED, STAGNATED, Report
-from ..grid import node_positions
-from ..problem import Problem
-from ..result import EHLResult, cubic, smallest
-from ..start import State
 from .newton import Solution
 
 STATE_CELLS = 96
@@ -90,11 +90,12 @@ def _state(problem: Problem, solution: Solution, rupture: float, error: float) -
     return State(problem.M, problem.L, P[:-1], H, solution.terms.q, rupture, error)
 
 
-def assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: float, notes: tuple) -> EHLResult:
-    """The result in SI units; sign -1 mirrors it."""
-    last = levels[-1]
+def assemble(problem: Problem, levels: list[Solution], tolerance: float, notes: tuple[str, ...]) -> EHLResult:
+    """The result in SI units, seen along +x."""
+    last, contact = levels[-1], problem.contact
+    sign = math.copysign(1.0, contact.entrainment_speed)
     rupture, X, P, H = _with_rupture(last)
-    mesh, q, lubricant = last.mesh, last.terms.q, problem.lubricant
+    mesh, q = last.mesh, last.terms.q
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
     constant = last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -103,22 +104,17 @@ def assemble(problem: Problem, levels: list[Solution], tolerance: float, sign: f
         x=(sign * X * length)[order],
         pressure=(P * problem.pressure_unit)[order],
         film_thickness=(H * film)[order],
-        viscosity=lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
+        viscosity=contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
         density_ratio=problem.density(P)[0][order],
         min_film=smallest(mesh.X, last.H) * film,
         central_film=_at_centre(last) * film,
         flow_film=q * film,
-        flux=q * film * problem.speed * sign,
+        flux=q * film * contact.entrainment_speed,
         rupture=rupture * length * sign,
         approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
         half_width=b * length,
         hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
-        load=problem.load,
-        radius=problem.radius,
-        e_prime=problem.e_prime,
-        entrainment_speed=sign * problem.speed,
-        load_number=problem.M,
-        material_number=problem.L,
+        contact=contact,
         report=report,
         state=_state(problem, last, rupture, report.residuals["discretisation"]),
     )

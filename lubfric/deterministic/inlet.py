@@ -1,0 +1,112 @@
+"""The film upstream of the grid, in closed form: there the gap is the parabola and the fluid hardly thickens.
+
+With h(x) known, Reynolds' equation is one integral: Q(x) = 12 eta0 ∫ (U h - q)/(h³ Φ) dx', with Q the reduced pressure
+∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on. The substitution x = -a/t maps it on
+0 < t < 1, where everything is smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from ..film.rigid import true_pressure
+from ..lubricant import Lubricant
+from .problem import Problem
+from .rheology import cell_fluid, mean_fluidity, thinning
+
+POINTS = 24
+MOST = 0.8  # of Q times alpha: no converged film has that much upstream
+
+
+@cache
+def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Gauss points and weights on (0, 1), and the matrix of the integrals from 0 to each point."""
+    node, weight = np.polynomial.legendre.leggauss(POINTS)
+    values = np.polynomial.legendre.legvander(node, POINTS)  # of P_0..P_n at the nodes
+    order = np.arange(POINTS)
+    coefficients = (2 * order[:, None] + 1) / 2 * (values[:, :POINTS].T * weight)
+    integral = np.empty((POINTS, POINTS))
+    integral[:, 0] = node + 1
+    integral[:, 1:] = (values[:, 2:] - values[:, : POINTS - 1]) / (2 * order[1:] + 1)
+    return (node + 1) / 2, weight / 2, integral @ coefficients / 2
+
+
+@dataclass(frozen=True)
+class Inlet:
+    """Of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first face;
+    load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); the integrals upstream
+    ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m], means over the rows."""
+
+    flow: np.ndarray
+    by_pressure: np.ndarray
+    by_film: np.ndarray
+    load: float
+    load_by_pressure: np.ndarray
+    load_by_film: np.ndarray
+    shearing: float
+    rolling: float
+
+
+def inlet(problem: Problem, pressure, film) -> Inlet:
+    """Upstream of the first face, where the film is ``film`` [m] (ny,), p of the first cells ``pressure`` [Pa] (ny,)."""
+    lubricant, speed = problem.lubricant, problem.speed
+    t, weight, integral = _rule()
+    dx = problem.spacing[0]
+    start = -(problem.x[0] - dx / 2)
+    stretch = start / t**2
+    shape = (start / t) ** 2 / (2 * problem.radius) - start**2 / (2 * problem.radius) + problem.edge_log * np.log(t)
+    gap = film[:, None] + shape
+    thin = _ambient_thinning(problem, gap)
+    viscous = 12 * lubricant.viscosity
+    a, b, a_h, b_h = (
+        viscous * stretch / (gap**n * thin) * c for n, c in ((2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0))
+    )
+    A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
+    reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
+    T = 2 * film**3 * _ambient_thinning(problem, film[:, None])[:, 0] / (viscous * dx)
+    T_h = 3 * T / film
+    top, below = speed * film + T * (A - reduced), 1 + T * B
+    flow = top / below
+    by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
+    by_pressure = -T / below * reduced_slope
+    Q = a @ integral.T - flow[:, None] * (b @ integral.T)
+    p = _law(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
+    slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
+    by_flow = -(slope * (b @ integral.T)) @ (weight * stretch)
+    by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
+    rows = film.size
+    return Inlet(
+        flow,
+        by_pressure,
+        by_film,
+        float((p @ (weight * stretch)).mean()),
+        by_flow * by_pressure / rows,
+        (by_gap + by_flow * by_film) / rows,
+        float(((slope * stretch / gap) @ weight).mean()),
+        float((0.5 * gap * slope * (a - flow[:, None] * b) @ weight).mean()),
+    )
+
+
+def _ambient_thinning(problem: Problem, gap) -> np.ndarray:
+    lubricant = problem.lubricant
+    limit = None if lubricant.limiting_stress_coefficient is None else lubricant.limiting_stress_offset
+    if limit == 0.0:
+        limit = None
+    found = thinning(lubricant, lubricant.viscosity * problem.sliding / gap, limit, along=True)
+    return np.ones_like(gap) if found is None else found.factor
+
+
+@cache
+def _law(lubricant: Lubricant):
+    return np.positive if lubricant.viscosity_law == "constant" else true_pressure(lubricant)
+
+
+def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+    """∫_0^p eta0/eta dp and its derivative, the viscosity exponential in between."""
+    fluid = cell_fluid(lubricant, pressure)
+    log_mean, _, by = mean_fluidity(np.zeros_like(pressure), fluid.log_viscosity)
+    mean = np.exp(log_mean)
+    return mean * pressure, mean * (1 + by * fluid.log_slope * pressure)

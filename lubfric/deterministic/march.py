@@ -1,0 +1,48 @@
+"""The way to a steady state through time: implicit Euler steps, for starts from which Newton's method does not get there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .newton import Found, newton
+from .problem import Problem
+from .state import Past, State, look
+
+FIRST = 3.0  # times dx/U: the first step in time
+SHRINK, GROW = 0.4, 1.7
+LEAST, LAST = 1e-3, 1e4  # times dx/U: shorter, the march has failed; longer, it has arrived
+INNER, LOOSE = 6, 1e-2  # Newton steps in a step in time, and how well they solve it
+
+
+@dataclass(frozen=True)
+class March:
+    """The state at its end, whether it got there, and the work (LU factorisations, GMRES iterations, steps in time)."""
+
+    state: State
+    arrived: bool
+    factorisations: int
+    krylov: int
+    steps: int
+
+
+def march(problem: Problem, state: State, *, most: int) -> March:
+    """Let the film settle from ``state`` in time steps that grow while they are solved; at most ``most`` factorisations."""
+    unit = problem.spacing[0] / problem.speed
+    step, factorisations, krylov, steps = FIRST * unit, 0, 0, 0
+    at = look(problem, state)
+    while factorisations < most:
+        past = Past(at.balance.fluid.density * at.balance.film, step)
+        found = newton(problem, at.state, tolerance=LOOSE, most=INNER, past=past)
+        factorisations, krylov, steps = factorisations + found.factorisations, krylov + found.krylov, steps + 1
+        if _solved(found):
+            at = look(problem, found.look.state)
+            step *= GROW
+        else:
+            step *= SHRINK
+        if not LEAST * unit <= step <= LAST * unit:
+            return March(at.state, step > unit, factorisations, krylov, steps)
+    return March(at.state, False, factorisations, krylov, steps)
+
+
+def _solved(found: Found) -> bool:
+    return found.residual <= LOOSE

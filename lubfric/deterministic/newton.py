@@ -1,0 +1,106 @@
+"""Newton's method with active sets and a line search, steady or for one implicit step in time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .linear import System
+from .problem import Problem
+from .state import FLUID, Look, Past, State, load_error, look, residuals, resorted
+
+KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
+SHORTEST = 0.1  # step, whatever the gap says
+HALVINGS, GROWTH = 5, 1.05
+PATIENCE, PROGRESS = 10, 0.95  # steps in which the residual has to fall to that part of what it was
+
+
+@dataclass(frozen=True)
+class Found:
+    """Where Newton's method ended: its residuals, their history, and the work (LU factorisations, GMRES iterations)."""
+
+    look: Look
+    residuals: dict[str, float]
+    history: tuple[float, ...]
+    factorisations: int
+    krylov: int
+
+    @property
+    def residual(self) -> float:
+        """The largest."""
+        return max(self.residuals.values())
+
+
+def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None = None) -> Found:
+    """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
+
+    Before every step each cell gets the equation it asks for (`resorted`). A step leaves every cell a fifth of its gap
+    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the residual has not fallen for ten steps.
+    """
+    history, krylov = [], 0
+    at = look(problem, state, past)
+    best = None
+    for count in range(most + 1):
+        at = look(problem, resorted(problem, at), past)
+        found = residuals(problem, at)
+        worst = max(found.values())
+        history.append(worst)
+        best = Found(at, found, tuple(history), count, krylov)
+        if not math.isfinite(worst) or worst <= tolerance or count == most or _stalled(history):
+            return best
+        try:
+            step = System(problem, at, past).solve()
+        except RuntimeError:  # the LU is singular
+            return best
+        krylov += step.iterations
+        if not np.all(np.isfinite(step.gap)):
+            return best
+        at = _advanced(problem, at, step, past)
+    return best
+
+
+def _stalled(history) -> bool:
+    if len(history) <= PATIENCE:
+        return False
+    return not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
+
+
+def _advanced(problem: Problem, at: Look, step, past) -> Look:
+    length = _longest(problem, at, step)
+    before = _merit(problem, at, at.state.kind)
+    for _ in range(HALVINGS):
+        new = _moved(problem, at, step, length, past)
+        after = _merit(problem, new, at.state.kind)
+        if after <= GROWTH * before or length <= SHORTEST:
+            break
+        length /= 2
+    return new
+
+
+def _longest(problem: Problem, at: Look, step) -> float:
+    lost = -step.gap - BELOW * problem.floor
+    falling = (lost > 0) & (at.gap > problem.floor)
+    if not falling.any():
+        return 1.0
+    return float(max(SHORTEST, min(1.0, ((1 - KEEP) * at.gap[falling] / lost[falling]).min())))
+
+
+def _moved(problem: Problem, at: Look, step, length: float, past) -> Look:
+    state = at.state
+    moved = replace(
+        state,
+        pressure=state.pressure + length * step.pressure,
+        dent=state.dent + length * step.dent,
+        approach=state.approach + length * step.approach,
+    )
+    return look(problem, moved, past)
+
+
+def _merit(problem: Problem, at: Look, kind) -> float:
+    """Σ |r| over the cells that were fluid, and the load, both relative."""
+    value = float(np.abs(at.residual[kind == FLUID]).sum())
+    flow = float(np.mean(np.abs(at.balance.inlet.flow))) * kind.shape[1] / problem.spacing[0]
+    merit = value / flow + abs(load_error(problem, at)) / problem.load
+    return merit if math.isfinite(merit) else math.inf

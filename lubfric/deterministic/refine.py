@@ -1,0 +1,70 @@
+"""A deterministic point on one grid after the other, each started from the last, with an estimate of what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .problem import Problem
+from .result import DeterministicResult
+from .solve import solve_point
+from .transfer import refined_start, state_on
+
+RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
+UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
+
+
+@dataclass(frozen=True)
+class Refined:
+    """The solution on every grid, the coarsest first, and its problem; ``error``: estimate of the relative error that the
+    last grid leaves in the coefficient (None with one grid)."""
+
+    problems: tuple[Problem, ...]
+    results: tuple[DeterministicResult, ...]
+    error: float | None
+
+    @property
+    def result(self) -> DeterministicResult:
+        """On the finest grid."""
+        return self.results[-1]
+
+
+def solve_refined(
+    lay: Callable[[int], Problem],
+    grids: tuple[int, ...],
+    *,
+    tolerance: float,
+    least: int = 2,
+    start: Refined | None = None,
+    precision: float = 1e-5,
+) -> Refined:
+    """Solve ``lay(n)`` for n of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at least ``least`` of them.
+
+    The estimate is the geometric series of the changes c0, c1 of f on the last grids, c1 q/(1 - q) with q = c1/c0 kept
+    within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed; where it fails, and
+    on grids it has not, the next coarser grid starts. ``precision``: of `solve_point`. Raises `ConvergenceError`.
+    """
+    problems, results, error = [], [], None
+    for level, n in enumerate(grids):
+        problem = lay(n)
+        first = None
+        if start is not None and level < len(start.results):
+            first = state_on(problem, start.results[level])
+        elif results:
+            first = refined_start(problems[-1], problem, results[-1])
+        result = solve_point(problem, start=first, tolerance=precision)
+        problems.append(problem), results.append(result)
+        error = estimate([r.coefficient for r in results])
+        if len(results) >= least and error is not None and error <= tolerance:
+            break
+    return Refined(tuple(problems), tuple(results), error)
+
+
+def estimate(values) -> float | None:
+    """Relative error of the last of ``values`` found on grids each twice as fine as the one before; None of one value."""
+    if len(values) < 2:
+        return None
+    change = abs(values[-1] - values[-2])
+    before = abs(values[-2] - values[-3]) if len(values) > 2 else 0.0
+    ratio = UNKNOWN_RATIO if before == 0 else min(max(change / before, RATIO[0]), RATIO[1])
+    return change * ratio / (1 - ratio) / abs(values[-1]) if change else 0.0

@@ -1,0 +1,96 @@
+"""How a sheared fluid resists a pressure flow: fluidity between two cells, and what sliding adds to it.
+
+The pressure flow through a face is ``-rho h³/(12 eta) Φ dp/dx``. 1/eta is averaged over the pressures between the two
+cells, so that the flow follows the reduced pressure ∫ dp/eta. Φ >= 1 tells how much the sliding thins the fluid, with
+s = eta Δu/(h tau) the ratio of the Newtonian stress to a characteristic one:
+
+- Ree-Eyring, tau = tau_E: along the sliding the tangent of its law, sqrt(1 + s²); across it the secant, s/asinh(s)
+  (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654, doi:10.1115/1.3261526);
+- limiting stress, tau = tau_0 + Λ p: the secant of ``1/eta_eff = 1/eta + Δu/(h tau)``, 1 + s in both directions, which
+  is added to that of Eyring. (The tangent of a fluid at its limit is infinite.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
+
+THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not told from a solid's
+
+
+@dataclass(frozen=True)
+class CellFluid:
+    """The laws at the pressures of cells: ln(eta/eta0), rho/rho0, tau_0 + Λ p [Pa] (None: no limit), and their slopes
+    by p [1/Pa], [1/Pa], [-]."""
+
+    log_viscosity: np.ndarray
+    log_slope: np.ndarray
+    density: np.ndarray
+    density_slope: np.ndarray
+    limit: np.ndarray | None
+    limit_slope: float
+
+
+def cell_fluid(lubricant: Lubricant, pressure) -> CellFluid:
+    """The laws of ``lubricant`` at ``pressure`` [Pa], any shape."""
+    log_viscosity, log_slope = log_viscosity_ratio(lubricant, pressure)
+    density, density_slope = density_ratio(lubricant, pressure)
+    coefficient = lubricant.limiting_stress_coefficient
+    limit = None
+    if coefficient is not None:
+        limit = lubricant.limiting_stress_offset + coefficient * np.maximum(pressure, 0.0)
+    return CellFluid(
+        np.minimum(log_viscosity, THICKEST), log_slope, density, density_slope, limit, float(coefficient or 0.0)
+    )
+
+
+def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives by both."""
+    d = right - left
+    small = np.abs(d) < 1e-3
+    e = np.where(small, 1.0, d)
+    low = np.minimum(left, right)
+    size = np.abs(e)
+    decay = np.exp(-size)
+    mean = np.where(small, 1.0 - np.abs(d) / 2 + d * d / 6, -np.expm1(-size) / size)  # of exp(-(l - low))
+    by_size = np.where(small, -0.5 + np.abs(d) / 12, decay / -np.expm1(-size) - 1 / size)  # d ln(mean)/d|d|
+    higher = by_size
+    lower = -1.0 - by_size
+    by_left = np.where(left > right, higher, lower)
+    by_right = np.where(left > right, lower, higher)
+    return np.log(mean) - low, by_left, by_right
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """Φ [-], d ln Φ/d ln s over all stresses, and the part of it that belongs to the limiting stress."""
+
+    factor: np.ndarray
+    exponent: np.ndarray
+    limit_exponent: np.ndarray
+
+
+def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thinning | None:
+    """Φ at the Newtonian stress eta Δu/h [Pa] of faces, ``limit`` [Pa] their tau_0 + Λ p; None where Φ = 1."""
+    eyring = lubricant.eyring_stress
+    if eyring is None and limit is None:
+        return None
+    factor, slope = np.ones_like(newtonian_stress), np.zeros_like(newtonian_stress)
+    if eyring is not None:
+        s = newtonian_stress / eyring
+        if along:
+            factor = np.hypot(1.0, s)
+            slope = s * (s / factor)
+        else:
+            thick = s > 1e-4
+            safe = np.where(thick, s, 1.0)
+            factor = np.where(thick, safe / np.arcsinh(safe), 1.0 + s * s / 6)
+            slope = np.where(thick, factor - factor**2 / np.hypot(1.0, safe), s * s / 3)
+    limited = np.zeros_like(factor)
+    if limit is not None:
+        limited = newtonian_stress / limit
+        factor = factor + limited
+    return Thinning(factor, (slope + limited) / factor, limited / factor)

@@ -1,0 +1,107 @@
+"""One deterministic operating point on one grid: Newton's method, and the ways out where it fails."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
+from .march import march
+from .newton import Found, newton
+from .problem import Problem
+from .result import DeterministicResult, assemble
+from .start import dry_contact, dry_start
+from .state import State
+
+TOLERANCE = 1e-5
+DIRECT, MARCHED = 50, 250  # LU factorisations from a start, and in time
+THIN_STRESS = {
+    "limiting_stress_coefficient": 0.09,
+    "limiting_stress_offset": 2e6,
+}  # of the fluid that starts a Newtonian
+
+
+def solve_point(
+    problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, raise_on_failure=True
+) -> DeterministicResult:
+    """Gap, pressure and friction of ``problem`` on its own grid.
+
+    Tried in turn: Newton's method from ``start`` (see `lubfric.deterministic.transfer`), from the dry contact lifted by Moes' film,
+    and from where implicit steps in time lead from there; with a Newtonian lubricant also from the solution of one with
+    a limiting shear stress. Which one it was is in ``report.notes``. Converged when the largest of
+    `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
+    """
+    work = Work()
+    best = None
+    for name, found in _attempts(problem, start, tolerance, work):
+        if best is None or not found.residual >= best[1].residual:
+            best = name, found
+        if found.residual <= tolerance:
+            break
+    name, found = best
+    report = _report(found, tolerance, work, name)
+    result = assemble(problem, found.look, report)
+    if raise_on_failure:
+        report.raise_if_failed(result)
+    return result
+
+
+@dataclass
+class Work:
+    """What the attempts at one point cost: LU factorisations, GMRES iterations, steps in time; residuals along the way."""
+
+    factorisations: int = 0
+    krylov: int = 0
+    steps: int = 0
+    history: list[float] = field(default_factory=list)
+
+    def direct(self, problem, state, tolerance, most=DIRECT) -> Found:
+        """`newton`, counted."""
+        found = newton(problem, state, tolerance=tolerance, most=most)
+        self.factorisations += found.factorisations
+        self.krylov += found.krylov
+        self.history += found.history
+        return found
+
+    def in_time(self, problem, state, tolerance) -> Found:
+        """`march`, then `newton`, counted."""
+        way = march(problem, state, most=MARCHED)
+        self.factorisations += way.factorisations
+        self.krylov += way.krylov
+        self.steps += way.steps
+        return self.direct(problem, way.state, tolerance)
+
+
+def _attempts(problem: Problem, start, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+    if start is not None:
+        yield "from a neighbouring state", work.direct(problem, start, tolerance)
+    cold = dry_start(problem, dry_contact(problem), problem.contact.moes_film)
+    yield "from the dry contact", work.direct(problem, cold, tolerance)
+    lubricant = problem.lubricant
+    if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
+        thin = problem.with_lubricant(replace(lubricant, **THIN_STRESS))
+        helped = work.direct(thin, cold, tolerance)
+        if helped.residual > tolerance:
+            helped = work.in_time(thin, cold, tolerance)
+        if helped.residual <= tolerance:
+            yield "from a fluid with a limiting stress", work.direct(problem, helped.look.state, tolerance)
+    yield "in time from the dry contact", work.in_time(problem, cold, tolerance)
+
+
+def _report(found: Found, tolerance: float, work: Work, name: str) -> Report:
+    worst = found.residual
+    status = CONVERGED if worst <= tolerance else ITERATION_LIMIT if math.isfinite(worst) else DIVERGED
+    return Report(
+        "deterministic mixed film",
+        status,
+        work.factorisations,
+        worst if math.isfinite(worst) else math.inf,
+        tolerance,
+        found.residuals,
+        tuple(work.history),
+        work.krylov,
+        (
+            f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} steps in time",
+        ),
+    )

@@ -1,0 +1,34 @@
+"""Where Newton's method begins: the dry contact of the whole load, lifted by the smooth film."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..contact import ContactResult, solve_contact
+from .problem import Problem
+from .state import FLUID, RUPTURED, State
+
+DRY_TOLERANCE = 1e-4
+
+
+def dry_contact(problem: Problem, start=None, tolerance=DRY_TOLERANCE) -> ContactResult:
+    """The rough bodies pressed together without fluid under the whole load."""
+    return solve_contact(
+        problem.rigid_gap,
+        problem.spacing,
+        problem.e_prime,
+        mean_pressure=problem.load / (problem.x.size * problem.spacing[0]),
+        hardness=None if np.isinf(problem.hardness) else problem.hardness,
+        boundary=("free", "periodic"),
+        tolerance=tolerance,
+        operator=problem.operator,
+        start=start,
+    )
+
+
+def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
+    """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind the contact the film has ruptured."""
+    p = dry.pressure
+    dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
+    kind = np.where((p <= 0) & (problem.x > 0)[:, None], RUPTURED, FLUID).astype(np.int8)
+    return State(p.copy(), dent, kind, p >= problem.hardness, film - dry.approach)

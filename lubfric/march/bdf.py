@@ -1,0 +1,174 @@
+"""One step in time: variable-step BDF2 with a local error estimate, started by two backward Euler half steps.
+
+BDF2 differentiates the parabola through the new value and the two before it; seen from one step it is
+backward Euler with another memory: y' = rate (y - memory) (`Memory`). Its
+local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third derivative from the divided difference of four
+values (τ' is the step before τ). A start, and every jump of a history, takes one step as two halves and as a
+whole; their difference is the error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..report import CONVERGED
+
+SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41
+FAILED = 0.25  # step after a solve that failed
+LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What an implicit step knows of the past: y' = rate (y - film), in 1/s; rate = 0: steady."""
+
+    rate: float
+    film: np.ndarray
+
+
+class Solved(Protocol):
+    """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else the
+    next solve starts from. Only a ``status`` of "converged" is marched on."""
+
+    @property
+    def status(self) -> str: ...
+    @property
+    def film(self) -> np.ndarray: ...
+    @property
+    def z(self) -> np.ndarray: ...
+    @property
+    def payload(self) -> Any: ...
+
+
+class Solver(Protocol):
+    """What is marched. The last of its unknowns z may have any sign; the others are 0 or positive, and stay what they
+    are in the extrapolation that a step starts from."""
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Solved:
+        """The state at ``time`` [s] with this memory, from the unknowns ``z``."""
+        ...
+
+    def error_of(self, solution: Any, difference: np.ndarray) -> float:
+        """Relative size of a difference of films, compared with the tolerance of a step."""
+        ...
+
+
+@dataclass(frozen=True)
+class Level:
+    """The state at one time [s]: the film that is differentiated (n + 1) and the unknowns z."""
+
+    time: float
+    film: np.ndarray
+    z: np.ndarray
+
+
+@dataclass(frozen=True)
+class March:
+    """Up to three levels, oldest first, since the last jump, and the next step [s]. ``payload``: what the
+    solver of a step left beside its unknowns."""
+
+    levels: tuple[Level, ...]
+    step: float
+    payload: Any = None
+
+    @property
+    def time(self) -> float:
+        """Time reached [s]."""
+        return self.levels[-1].time
+
+
+@dataclass(frozen=True)
+class Advance:
+    """One accepted step: the march after it, its solution, error estimate [of the tolerance], solves
+    rejected."""
+
+    march: March
+    solution: Any
+    error: float
+    rejected: int
+
+
+def advance(march: March, until: float, solver: Solver, tolerance: float, shortest: float) -> Advance | None:
+    """One step towards ``until`` [s], the step halved so that none is left tiny; tried again shorter where its solve
+    fails or its error is above ``tolerance``. None: even the shortest [s] failed."""
+    rejected, step = 0, march.step
+    while step >= shortest:
+        left = until - march.time
+        planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
+        attempt = _bdf2 if len(march.levels) > 1 else _pair
+        found = attempt(march, march.time + planned if planned < left else until, solver)
+        if found is None:
+            step, rejected = FAILED * planned, rejected + 1
+            continue
+        levels, solution, error, order = found
+        factor = SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1))
+        if error <= tolerance:
+            after = March(levels, planned * min(max(factor, SHRINK), GROWTH), solution.payload)
+            return Advance(after, solution, error / tolerance, rejected)
+        step, rejected = planned * min(max(factor, SHRINK), 0.9), rejected + 1
+    return None
+
+
+def restarted(march: March, step: float) -> March:
+    """The same state without its past, for a jump."""
+    return replace(march, levels=march.levels[-1:], step=step)
+
+
+Attempt = tuple[tuple[Level, ...], Solved, float, int]  # levels after the step, its solution, error, order
+
+
+def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Solved | None:
+    solution = solver.solve(time, memory, z, payload)
+    return solution if solution.status == CONVERGED else None
+
+
+def _pair(march: March, end: float, solver: Solver) -> Attempt | None:
+    start = march.levels[-1]
+    step = end - start.time
+    middle = start.time + 0.5 * step
+    whole = _solved(solver, end, Memory(1.0 / step, start.film), start.z, march.payload)
+    first = whole and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, march.payload)
+    second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
+    if whole is None or first is None or second is None:
+        return None
+    levels = (start, Level(middle, first.film, first.z), Level(end, second.film, second.z))
+    return levels, second, solver.error_of(second, whole.film - second.film), 1
+
+
+def _bdf2(march: March, end: float, solver: Solver) -> Attempt | None:
+    old, last = march.levels[-2:]
+    step, before = end - last.time, last.time - old.time
+    ratio = step / before
+    weight = ratio**2 / (1.0 + 2.0 * ratio)
+    memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
+    solution = _solved(solver, end, memory, _extrapolated(old, last, ratio), march.payload)
+    solution = solution or _solved(solver, end, memory, last.z, march.payload)
+    if solution is None:
+        return None
+    levels = (*march.levels[-2:], Level(end, solution.film, solution.z))
+    if len(march.levels) < 3:
+        return levels, solution, 0.0, 2
+    curve = _divided(
+        [march.levels[-3].time, old.time, last.time, end],
+        [march.levels[-3].film, old.film, last.film, solution.film],
+    )
+    error = solver.error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
+    return levels, solution, error, 2
+
+
+def _extrapolated(old: Level, last: Level, ratio: float) -> np.ndarray:
+    """Unknowns on the line through two levels; what is zero stays so, what is positive keeps `LEAST_LEFT` of itself."""
+    guess = last.z + ratio * (last.z - old.z)
+    guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], LEAST_LEFT * last.z[:-1]), 0.0)
+    return guess
+
+
+def _divided(times: list[float], values: list[np.ndarray]) -> np.ndarray:
+    """Highest divided difference."""
+    values = list(values)
+    for k in range(1, len(times)):
+        values = [(b - a) / (times[i + k] - times[i]) for i, (a, b) in enumerate(zip(values, values[1:]))]
+    return values[0]

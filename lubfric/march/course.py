@@ -1,0 +1,123 @@
+"""From output to output: the loop over the steps of a run, its plan, and its report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .. import validate
+from ..errors import InputError
+from ..history import History
+from ..history.read import check_history, history
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from .bdf import March, Solver, advance, restarted
+
+SHORTEST = 1e-11  # of the duration: below it a step has failed for good
+
+
+@dataclass(frozen=True)
+class Plan:
+    """When and how closely: output ``times`` [s], ``stops`` (times at which a step ends, these among them), those that are
+    ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a step."""
+
+    times: np.ndarray
+    stops: tuple[float, ...]
+    jumps: frozenset[float]
+    first_step: float
+    tolerance: float
+
+    @property
+    def end(self) -> float:
+        """Last output [s]."""
+        return float(self.times[-1])
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run has come: what the next step starts from, steps taken and rejected, the largest local error so far
+    [of the tolerance]; of the last step its ``solution``, its ``error`` and whether it ended at an output time."""
+
+    march: March
+    steps: int = 0
+    rejected: int = 0
+    worst: float = 0.0
+    solution: Any = None
+    error: float = 0.0
+    at_output: bool = False
+
+    @property
+    def time(self) -> float:
+        """Reached [s]."""
+        return self.march.time
+
+
+def checked_times(times) -> np.ndarray:
+    """Output times [s]: increasing, the first >= 0, the last > 0."""
+    times = validate.array("times", times, "s", ndim=1)
+    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
+        raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
+    return times
+
+
+def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
+    """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
+    found = history(name, value)
+    check_history(name, unit, found, duration, positive=positive)
+    return found
+
+
+def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change."""
+    histories, end = tuple(histories), float(times[-1])
+    jumps = frozenset(t for h in histories for t in h.jumps(end))
+    stops = sorted({*times.tolist(), *jumps, *(t for h in histories for t in h.stops(end))})
+    return Plan(times, tuple(stops), jumps, first_step, tolerance)
+
+
+def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
+    """The progress after every step from ``now`` on, until the end or until the shortest step fails (then the last time is
+    before ``plan.end``). What the caller keeps of it is all there is: a run goes on from any progress."""
+    for stop in plan.stops:
+        while now.time < stop:
+            step = advance(now.march, stop, solver, plan.tolerance, SHORTEST * plan.end)
+            if step is None:
+                return
+            march = step.march
+            output = march.time == stop and bool(np.any(plan.times == stop))
+            if march.time in plan.jumps:
+                march = restarted(march, plan.first_step)
+            now = replace(
+                now,
+                march=march,
+                steps=now.steps + 1,
+                rejected=now.rejected + step.rejected,
+                worst=max(now.worst, step.error),
+                solution=step.solution,
+                error=step.error,
+                at_output=output,
+            )
+            yield now
+
+
+def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, float]) -> Report:
+    """Of a run: ``residuals``, each over its tolerance, beside "step", the largest accepted local error."""
+    residuals = {"step": now.worst} | residuals
+    status = CONVERGED if now.time >= plan.end else STAGNATED
+    if status == CONVERGED and not max(residuals.values()) <= 1.0:
+        status = ITERATION_LIMIT
+    notes = [f"{cells}, {now.rejected} steps rejected"]
+    if status == STAGNATED:
+        notes.append(f"stopped at t = {now.time:.6g} s: the shortest step failed")
+    return Report(
+        solver,
+        status,
+        now.steps,
+        max(residuals.values()),
+        1.0,
+        residuals,
+        evaluations=now.steps + now.rejected,
+        notes=tuple(notes),
+    )

@@ -1,0 +1,153 @@
+"""The equations of the deterministic film against quadrature, differences, closed forms and averaged flows."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from lubfric.analytic import rigid
+from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.inlet import inlet
+from lubfric.deterministic.problem import Problem
+from lubfric.deterministic.reynolds import balance, derivatives
+from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.halfspace import half_space
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant, shear_stress
+from lubfric.surface import Surface
+
+RADIUS, SPEED = 2e-3, 0.1
+LAWS = {
+    "Newtonian": Lubricant(0.36, 25e-9),
+    "Eyring": Lubricant(0.36, 25e-9, density_law="dowson-higginson", eyring_stress=5e6),
+    "limit": Lubricant(0.36, 25e-9, "barus", limiting_stress_coefficient=0.09, limiting_stress_offset=2e6),
+    "both": Lubricant(0.1, 20e-9, eyring_stress=3e6, limiting_stress_coefficient=0.05),
+    "constant": Lubricant(0.1, viscosity_law="constant", density_law="dowson-higginson"),
+}
+
+
+def small(lubricant, shape=(12, 6), step=5e-6, e_prime=231e9, load=900.0):
+    random = np.random.default_rng(3)
+    x = (np.arange(shape[0]) - 8) * step
+    contact = LineContact(load, RADIUS, e_prime, SPEED, lubricant)
+    operator = half_space(shape, step, e_prime, ("free", "periodic"))
+    return Problem(contact, 2 * SPEED, x, 1e-8 * random.standard_normal(shape), operator, 0.09)
+
+
+@pytest.mark.parametrize("left, right", [(0.0, 0.0), (1.0, 1.0004), (3.0, 40.0), (40.0, 3.0), (2.0, 1.0)])
+def test_mean_fluidity_is_the_mean_of_the_exponential_and_its_derivatives(left, right):
+    found, by_left, by_right = mean_fluidity(np.array([left]), np.array([right]))
+    exact = quad(lambda t: np.exp(-(left + t * (right - left))), 0, 1, epsabs=0, epsrel=1e-11, points=[0.02, 0.98])[0]
+    assert found[0] == pytest.approx(np.log(exact), abs=1e-7)
+    step = 1e-6
+    for by, dl, dr in ((by_left, step, 0.0), (by_right, 0.0, step)):
+        up = mean_fluidity(np.array([left + dl]), np.array([right + dr]))[0]
+        down = mean_fluidity(np.array([left - dl]), np.array([right - dr]))[0]
+        assert by[0] == pytest.approx((up - down)[0] / (2 * step), abs=2e-4)
+
+
+@pytest.mark.parametrize("rate", [1e2, 1e4, 1e6, 1e8])
+def test_thinning_of_an_eyring_film_is_tangent_along_and_secant_across(rate):
+    """Against the library's own shear law: eta over d tau/d rate, and eta over tau/rate."""
+    oil, p = LAWS["Eyring"], 3e8
+    stress = oil.viscosity * np.exp(np.log(shear_stress(Lubricant(0.36, 25e-9), p, 1.0) / 0.36)) * rate
+    law = lambda g: float(shear_stress(oil, p, g))  # noqa: E731
+    tangent = (law(rate * 1.0001) - law(rate * 0.9999)) / (2e-4 * rate)
+    eta = stress / rate
+    assert thinning(oil, np.array([stress]), None, True).factor[0] == pytest.approx(eta / tangent, rel=1e-5)
+    assert thinning(oil, np.array([stress]), None, False).factor[0] == pytest.approx(eta * rate / law(rate), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_derivatives_are_those_of_the_residual(name):
+    problem, random = small(LAWS[name]), np.random.default_rng(1)
+    shape = problem.heights.shape
+    p, h = 1e8 * random.random(shape), 1e-7 + 1e-7 * random.random(shape)
+    p[0] *= 0.1
+    h[0] = problem.x[0] ** 2 / (2 * RADIUS)
+    by_p, by_h = derivatives(problem, balance(problem, p, h), p)
+    for matrix, base, step, at in (
+        (by_p, p, 10.0, lambda v: balance(problem, v, h).residual),
+        (by_h, h, 1e-14, lambda v: balance(problem, p, v).residual),
+    ):
+        d = random.standard_normal(shape)
+        numerical = (at(base + step * d) - at(base - step * d)) / (2 * step)
+        analytic = (matrix @ d.ravel()).reshape(shape)
+        first = 5e-3 if name not in ("Newtonian", "constant") else 1e-6  # the inlet's thinning is taken as it stands
+        assert np.abs(analytic - numerical)[1:].max() < 1e-6 * np.abs(numerical).max()
+        assert np.abs(analytic - numerical)[0].max() < first * np.abs(numerical).max()
+
+
+def test_inlet_against_martins_closed_form():
+    """A rigid isoviscous film: pressure, load and rolling friction upstream of a point, from the exact pressure."""
+    eta, h0 = 0.01, 1e-6
+    oil = Lubricant(eta, viscosity_law="constant")
+    problem = small(oil, e_prime=1e13)
+    edge = problem.x[0] - 2.5e-6
+    pressure = lambda x: rigid.pressure(x, h0, radius=RADIUS, entrainment_speed=SPEED, viscosity=eta)  # noqa: E731
+    film = h0 + edge**2 / (2 * RADIUS)
+    first = pressure(np.full(6, problem.x[0]))
+    found = inlet(problem, first, np.full(6, film))
+    q = SPEED * h0 * rigid.rigid_constants().flow_film_ratio
+    assert found.flow == pytest.approx(q, rel=2e-3)  # half a cell of 5 µm is differenced
+    load = quad(lambda x: float(pressure(x)), -np.inf, edge, epsrel=1e-10, epsabs=0)[0]
+    assert found.load == pytest.approx(load, rel=2e-3)
+    gap = lambda x: h0 + x**2 / (2 * RADIUS)  # noqa: E731
+    slope = lambda x: 12 * eta * (SPEED * gap(x) - q) / gap(x) ** 3  # noqa: E731
+    assert found.rolling == pytest.approx(quad(lambda x: 0.5 * gap(x) * slope(x), -np.inf, edge)[0], rel=2e-3)
+    assert found.shearing == pytest.approx(quad(lambda x: 1 / gap(x), -np.inf, edge)[0], rel=1e-4)
+
+
+def rigid_load(q_of, film_at, eta, x):
+    """Load and rupture of a one-dimensional film with the flow factors ``q_of``: flow = a(h) - b(h) dp/dx/(12 eta)."""
+    from scipy.optimize import brentq
+
+    fine = np.linspace(x[0], x[-1], 20001)
+    a, b = q_of(film_at(fine))
+
+    def pressure(q):
+        slope = 12 * eta * (a - q) / b
+        p = np.concatenate([[0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(fine))])
+        return p, slope
+
+    def at_rupture(q):  # p where its slope vanishes behind the middle
+        p, slope = pressure(q)
+        behind = np.flatnonzero((fine > 0) & (slope > 0))
+        return p[behind[0]] if behind.size else p[-1]
+
+    low, high = a.min() * 1.0001, a.min() * 1.7
+    q = brentq(at_rupture, low, high, xtol=1e-18, rtol=1e-12)
+    p, slope = pressure(q)
+    end = np.flatnonzero((fine > 0) & (slope > 0))[0]
+    return float(np.sum(0.5 * (p[1 : end + 1] + p[:end]) * np.diff(fine)[:end])), q
+
+
+@pytest.mark.parametrize("along", [True, False], ids=["along", "across"])
+def test_rigid_waviness_against_christensens_averages(along):
+    """Short waves of 0.4 h0: longitudinal ones average h and h³, transverse ones 1/h² and 1/h³ (Christensen 1969)."""
+    eta, h0, amplitude = 0.01, 2e-6, 0.8e-6
+    oil = Lubricant(eta, viscosity_law="constant")
+    phase = 2 * np.pi * (np.arange(64) + 0.5) / 64
+
+    def factors(h):
+        wavy = h[:, None] + amplitude * np.cos(phase)
+        if along:
+            return SPEED * wavy.mean(axis=1), (wavy**3).mean(axis=1)
+        return SPEED * (wavy**-2).mean(axis=1) / (wavy**-3).mean(axis=1), 1 / (wavy**-3).mean(axis=1)
+
+    ends = (4.5e-4, 1.5e-4)
+    n, waves = 1200, 100
+    dx = sum(ends) / n
+    if along:
+        heights = amplitude * np.cos(2 * np.pi * (np.arange(32) + 0.5) / 32) * np.ones((4, 1))
+        surface = Surface(heights, (dx * 4, 4e-7), periodic_axes=(True, True))
+    else:
+        heights = amplitude * np.cos(2 * np.pi * waves * (np.arange(n) + 0.5) / n)[:, None]
+        surface = Surface(heights, (dx, dx), periodic_axes=(True, True))
+    x = np.linspace(-20 * ends[0], ends[1], 3)
+    load, q = rigid_load(factors, lambda s: h0 + s**2 / (2 * RADIUS), eta, x)
+    contact = LineContact(load, RADIUS, 1e13, SPEED, oil)
+    problem = lay_out(surface, contact, sliding=2 * SPEED, boundary_friction=0.09, ends=ends)
+    found = solve_point(problem)
+    lift = found.gap + problem.heights - (problem.x**2 / (2 * RADIUS))[:, None]
+    assert found.flow_film == pytest.approx(q / SPEED, rel=0.02)
+    assert np.median(lift) == pytest.approx(h0, rel=0.02)

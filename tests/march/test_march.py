@@ -1,0 +1,135 @@
+"""The march in time by equations whose solutions are known, and the limiter of Newton's method."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from lubfric import InputError
+from lubfric.ehl.limiter import FILM_STEP, VISCOSITY_STEP, step_length
+from lubfric.history import Table
+from lubfric.march.bdf import Level, March
+from lubfric.march.course import Progress, checked_history, checked_times, plan_of, report_of, steps
+
+
+@dataclass(frozen=True)
+class State:
+    status: str
+    film: np.ndarray
+    z: np.ndarray
+    payload: object = None
+
+
+@dataclass
+class Relaxation:
+    """y' = target(t) - y for every node, y and an idle last unknown: exp(-t) where the target is constant."""
+
+    target: Table
+    fails_after: float = 1e9
+    calls: int = 0
+
+    def solve(self, time, memory, z, payload):
+        self.calls += 1
+        y = (memory.rate * memory.film + self.target.before(time)) / (memory.rate + 1.0)
+        status = "converged" if time < self.fails_after else "diverged"
+        return State(status, y, np.append(y, -1.0), (payload or 0) + 1)
+
+    def error_of(self, solution, difference):
+        return float(np.max(np.abs(difference / solution.film)))
+
+
+CONSTANT = Table(times=(0.0, 9.0), values=(0.0, 0.0))
+JUMP = Table(times=(0.0, 1.0, 1.0, 9.0), values=(0.0, 0.0, 3.0, 3.0))
+
+
+def begun(step=1e-3):
+    return Progress(March((Level(0.0, np.array([1.0, 2.0]), np.array([1.0, 2.0, -1.0])),), step))
+
+
+def outputs(solver, plan, now):
+    return [now for now in steps(solver, plan, now) if now.at_output]
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_decay_is_followed_to_every_output(tolerance):
+    times = np.array([0.0, 0.5, 2.0, 3.0])
+    plan = plan_of(times, (CONSTANT,), 1e-3, tolerance)
+    found = outputs(Relaxation(CONSTANT), plan, begun())
+    assert [now.time for now in found] == times[1:].tolist()
+    for now in found:  # each step adds at most the tolerance
+        np.testing.assert_allclose(
+            now.solution.film, np.array([1.0, 2.0]) * np.exp(-now.time), rtol=now.steps * tolerance
+        )
+    assert 0 < found[-1].worst <= 1
+
+
+def test_error_falls_with_the_tolerance():
+    plans = [plan_of(np.array([2.0]), (CONSTANT,), 1e-3, tolerance) for tolerance in (1e-4, 1e-5, 1e-6)]
+    ends = [outputs(Relaxation(CONSTANT), plan, begun())[-1] for plan in plans]
+    errors = [abs(now.solution.film[0] / np.exp(-2.0) - 1) for now in ends]
+    assert errors[0] > 3 * errors[1] > 9 * errors[2]
+    assert ends[0].steps < ends[1].steps < ends[2].steps
+
+
+def test_a_jump_of_a_history_ends_a_step_and_forgets_the_past():
+    """y decays to e^-1, then rises to 3: what BDF2 would carry over the jump is not there."""
+    plan = plan_of(np.array([3.0]), (JUMP,), 1e-3, 1e-6)
+    assert plan.jumps == {1.0} and plan.stops == (1.0, 3.0)
+    marched = list(steps(Relaxation(JUMP), plan, begun()))
+    at = next(now for now in marched if now.time == 1.0)
+    assert len(at.march.levels) == 1 and at.march.step == 1e-3 and not at.at_output
+    exact = 3.0 + (np.array([1.0, 2.0]) * np.exp(-1.0) - 3.0) * np.exp(-2.0)
+    np.testing.assert_allclose(marched[-1].solution.film, exact, rtol=1e-4)
+
+
+def test_a_run_goes_on_from_any_progress_bit_by_bit():
+    plan = plan_of(np.linspace(0.0, 3.0, 7), (JUMP,), 1e-3, 1e-5)
+    whole = list(steps(Relaxation(JUMP), plan, begun()))
+    for k in (0, 3, len(whole) // 2, len(whole) - 2):
+        rest = list(steps(Relaxation(JUMP), plan, whole[k]))
+        assert len(rest) == len(whole) - k - 1
+        assert rest[-1].steps == whole[-1].steps and rest[-1].worst == whole[-1].worst
+        assert np.array_equal(rest[-1].solution.film, whole[-1].solution.film)
+        assert rest[-1].march.payload == whole[-1].march.payload
+
+
+def test_a_step_that_fails_is_tried_shorter_and_then_reported():
+    plan = plan_of(np.array([0.5, 2.0]), (CONSTANT,), 1e-3, 1e-5)
+    *_, last = steps(Relaxation(CONSTANT, fails_after=1.0), plan, begun())
+    assert 0.99 < last.time < 1.0 and last.rejected > 3
+    report = report_of("relaxation", plan, last, "2 nodes", {})
+    assert report.status == "stagnated" and "stopped at t = 1" in report.notes[-1]
+    whole = outputs(Relaxation(CONSTANT), plan, begun())[-1]
+    assert report_of("relaxation", plan, whole, "2 nodes", {}).converged
+    poor = report_of("relaxation", plan, whole, "2 nodes", {"grid": 1.5})
+    assert poor.status == "iteration_limit" and poor.residual == 1.5 and len(poor.notes) == 1
+
+
+@pytest.mark.parametrize("times", [[], [0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 1.0], [0.0, np.nan]])
+def test_times_that_are_refused(times):
+    with pytest.raises(InputError, match="times"):
+        checked_times(times)
+
+
+def test_a_history_must_last_and_stay_positive():
+    with pytest.raises(InputError, match="ends at 9 s"):
+        checked_history("load", JUMP, "N", 10.0)
+    with pytest.raises(InputError, match="falls to 0 N"):
+        checked_history("load", JUMP, "N", 5.0)
+    assert checked_history("speed", JUMP, "m/s", 5.0, positive=False) is JUMP
+
+
+@pytest.mark.parametrize(
+    "change, loss, length",
+    [
+        (1.0, 0.5, 1.0),
+        (2 * VISCOSITY_STEP, 0.5, 0.5),
+        (1.0, 4 * FILM_STEP, 0.25),
+        (-2 * VISCOSITY_STEP, 4 * FILM_STEP, 0.25),
+        (4 * VISCOSITY_STEP, 2 * FILM_STEP, 0.25),
+        (1.0, -3.0, 1.0),
+    ],
+)
+def test_newton_step_changes_neither_viscosity_nor_film_too_much(change, loss, length):
+    """The shorter of both limits; a film that grows sets none."""
+    assert step_length(np.array([0.1, change]), loss) == pytest.approx(length)

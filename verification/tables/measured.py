@@ -1,0 +1,110 @@
+"""What each table measures. A function returns a `Table`; `TABLES` names them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+import lubfric
+from lubfric.analytic import hertz
+
+
+@dataclass(frozen=True)
+class Table:
+    """Column titles and rows of cells, all as text."""
+
+    columns: list[str]
+    rows: list[list[str]]
+
+
+def stribeck() -> Table:
+    """The built-in scene at seven speeds."""
+    curve = lubfric.stribeck(lubfric.load_scene("paper"), [1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 1.0])
+    rows = [
+        [f"{u:g}", f"{f:.4f}", f"{contact:.3f}", f"{film:.3f}", f"{1e9 * gap:.0f}"]
+        for u, f, contact, film, gap in zip(
+            curve.speed, curve.coefficient, curve.contact_load, curve.film_load, curve.mean_gap
+        )
+    ]
+    return Table(["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows)
+
+
+def film_load_of_patches() -> Table:
+    """F_H at 0.001 m/s over generated patches of the paper's size: twelve seeds for each correlation length."""
+    rows = []
+    for length in (4e-6, 8e-6, 16e-6):
+        loads = []
+        for seed in range(1, 13):
+            scene = lubfric.load_scene("paper").with_(
+                surface={"correlation_length": length, "seed": seed}, numerics={"model": "full", "sampling": "patch"}
+            )
+            loads.append(lubfric.friction(scene, 0.001).film_load)
+        mean, spread = np.mean(loads), np.std(loads, ddof=1)
+        rows.append([f"{1e6 * length:g} µm", f"{mean:.3f} ± {spread:.3f} N", f"{min(loads):.3f} to {max(loads):.3f} N"])
+    return Table(["correlation length", "F_H mean ± sd", "range"], rows)
+
+
+def hertz_line() -> Table:
+    """A smooth cylinder through the rough-contact solver, on ever finer grids."""
+    radius, e_prime, load = 0.01, 230e9, 1e5
+    half_width = hertz.line_half_width(load, radius, e_prime)
+    peak = hertz.line_peak_pressure(load, radius, e_prime)
+    rows = []
+    for across in (50, 100, 200, 400):
+        step = 2 * half_width / across
+        x = (np.arange(2 * across) - across + 0.5) * step
+        gap = np.repeat((x**2 / (2 * radius))[:, None], 4, axis=1)
+        solved = lubfric.solve_contact(
+            gap,
+            (step, step),
+            e_prime,
+            mean_pressure=load / (2 * across * step),
+            boundary=("free", "periodic"),
+            tolerance=1e-8,
+        )
+        exact = peak * np.sqrt(np.maximum(1 - (x / half_width) ** 2, 0))
+        error = np.sqrt(np.mean((solved.pressure[:, 0] - exact) ** 2) / np.mean(exact**2))
+        rows.append([str(across), f"{solved.pressure.max() / peak - 1:+.1e}", f"{error:.1e}"])
+    return Table(["cells across the width", "peak pressure off by", "pressure, rms error"], rows)
+
+
+def times() -> Table:
+    """CPU seconds of usual jobs, the smallest of three."""
+    paper = lubfric.load_scene("paper")
+    film = dict(
+        load_per_width=paper.bodies.load / paper.bodies.width,
+        radius=paper.bodies.radius,
+        e_prime=paper.bodies.e_prime,
+        entrainment_speed=0.01,
+        viscosity=paper.lubricant.viscosity,
+        pressure_viscosity_coefficient=paper.lubricant.pressure_viscosity_coefficient,
+    )
+    speeds = np.geomspace(1e-4, 1.0, 20)
+    one_patch = paper.with_(numerics={"sampling": "patch"})
+    jobs: dict[str, Callable[[], object]] = {
+        "one film": lambda: lubfric.solve_ehl(**film),
+        "the paper's scene, one speed": lambda: lubfric.friction(paper, 0.01),
+        "the paper's scene, 20 speeds": lambda: lubfric.stribeck(paper, speeds),
+        "the same on the paper's one patch": lambda: lubfric.stribeck(one_patch, speeds),
+    }
+    return Table(["job", "CPU time"], [[name, f"{_seconds(job):.3g} s"] for name, job in jobs.items()])
+
+
+def _seconds(job) -> float:
+    found = []
+    for _ in range(3):
+        begun = time.process_time()
+        job()
+        found.append(time.process_time() - begun)
+    return min(found)
+
+
+TABLES: dict[str, Callable[[], Table]] = {
+    "stribeck": stribeck,
+    "film-load-of-patches": film_load_of_patches,
+    "hertz-line": hertz_line,
+    "times": times,
+}
