@@ -13,6 +13,7 @@ from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
+from .validate import shown
 
 
 @dataclass(frozen=True)
@@ -44,10 +45,16 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
+    if not isinstance(scene, Scene):
+        raise InputError(
+            f"scene = {shown(scene)} is a {type(scene).__name__}; allowed: a Scene, such as lubfric.load_scene returns"
+        )
     if like is not None:
         return _another(scene, like)
     if surface is None:
         surface = contact_map(scene)
+    elif not isinstance(surface, Surface):
+        raise InputError(f"surface = {shown(surface)} is a {type(surface).__name__}; allowed: a lubfric.Surface")
     else:
         check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
@@ -63,7 +70,7 @@ def scene_of(scene: Scene | Model) -> Scene:
         return scene.scene
     if not isinstance(scene, Scene):
         raise InputError(
-            f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
+            f"scene = {shown(scene)} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
             "lubfric.prepare returned"
         )
     return scene
@@ -80,9 +87,12 @@ def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | Non
 
 def _another(scene: Scene, like: Model) -> Model:
     """The model of another scene on the map and contact of ``like``."""
+    if not isinstance(like, Model):
+        raise InputError(f"like = {shown(like)} is a {type(like).__name__}; allowed: what lubfric.prepare returned")
     old = like.scene
     for name, a, b in (
         ("surface", scene.surface, old.surface),
+        ("counterface", scene.counterface, old.counterface),
         ("contact", scene.contact, old.contact),
         ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
         ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),

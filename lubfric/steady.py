@@ -7,13 +7,14 @@ import time
 from dataclasses import dataclass, replace
 
 from . import validate
+from .errors import InputError
 from .model import Model, at_tolerance
 from .point.adapt import Solved, solved
 from .point.balance import Balance
 from .point.cautions import Caution, cautions
 from .point.decision import Decision
 from .report import Report
-from .scene import Scene
+from .scene import FASTEST, Scene
 
 
 @dataclass(frozen=True)
@@ -79,8 +80,17 @@ def friction(
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
-    speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
+    if speed is None:
+        speed = ready.scene.motion.entrainment_speed
+    speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    if start is not None and not isinstance(start, FrictionResult):
+        raise InputError(f"start = {validate.shown(start)}; allowed: what lubfric.friction returned, or None")
     result = _result(ready, speed, solved(ready, speed, start.balance if start else None, given_grid=fields), begun)
+    if not math.isfinite(result.coefficient):
+        raise InputError(
+            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and stresses "
+            "of a lubricated contact"
+        )
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result

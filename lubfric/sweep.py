@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from numbers import Real
 
 import numpy as np
 
@@ -70,11 +71,13 @@ def stribeck(
     `ConvergenceError` is raised with the whole curve as its ``result`` (``raise_on_failure=False`` returns it).
     """
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     order = np.argsort(-np.abs(speeds), kind="stable")

@@ -137,6 +137,7 @@ def _in_contact(
         index, changes = finer.index, finer.changes
         stage = _settled(finer.point, grids[index], finer.balance)
         error = grid_error(changes, stage, limit)
+    grids[index].check(stage.balance.contact)
     return stage, grids[index], error
 
 
@@ -153,7 +154,6 @@ def _settled(point: OperatingPoint, whole: RoughContact, start: Balance | None) 
         if settings is None:
             break
         point, start = replace(point, settings=settings), balance
-    whole.check(stage.balance.contact)
     return stage
 
 

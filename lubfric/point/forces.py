@@ -16,7 +16,8 @@ from .balance import Balance
 class Forces:
     """What resists the sliding: f = (boundary + shear.total)/F_T.
 
-    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). a is what a change of
+    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T), where the rolling
+    part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). a is what a change of
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
     the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
     (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
@@ -36,7 +37,8 @@ def forces(scene: Scene, balance: Balance) -> Forces:
     sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
     boundary = sliding * balance.contact_load
     total = abs(boundary + shear.total)
-    moved = sliding * balance.film_load * (balance.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
+    viscous = abs(shear.couette) + max(abs(shear.rolling), shear.rolling_parts)
+    moved = sliding * balance.film_load * (balance.contact_load > 0) + viscous
     gain = 1.0
     if balance.slope and balance.contact_load > 0:
         gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))

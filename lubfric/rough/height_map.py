@@ -137,7 +137,7 @@ def _cut_to_contact(scene: Scene, surface: Surface, extended: bool) -> Surface:
         surface = surface.continued(length) if patch.shape or patch.geometry == "cylinder" else surface
     nx, ny = patch.shape or surface.shape
     if patch.shape is None and patch.geometry == "cylinder":
-        nx = min(nx, int(reach / surface.spacing[0]) + 1)
+        nx = min(nx, 2 * int(REACH * scene.bodies.half_width / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
