@@ -12,6 +12,8 @@ _HOME = {
     "InputError": "errors",
     "LubfricError": "errors",
     "OutputError": "errors",
+    "ValidityError": "errors",
+    "Validity": "validity",
     "Report": "report",
     "Surface": "surface",
     "generate_surface": "surface",

@@ -8,8 +8,9 @@ import time
 from pathlib import Path
 
 from .console import INTERRUPTED, Interrupted, interruptible, say
-from .errors import ConvergenceError, LubfricError
+from .errors import ConvergenceError, LubfricError, ValidityError
 
+MOST_SPEEDS = 100_000
 OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
 
 
@@ -24,6 +25,9 @@ def main(argv=None) -> int:
         say(f"lubfric: {error}")
         return 1
     except LubfricError as error:
+        say(f"lubfric: {error}")
+        return 2
+    except OSError as error:  # a folder that cannot be written, a disk that is full
         say(f"lubfric: {error}")
         return 2
     except Interrupted as error:
@@ -44,16 +48,21 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
     )
-    run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    _add_maps(run)
     run.add_argument(
         "--animation",
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
     )
+    run.add_argument(
+        "--accept",
+        action="store_true",
+        help="keep results outside the range of the model, marked, instead of refusing them",
+    )
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
-    info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    _add_maps(info)
     info.set_defaults(command=_info)
     study = commands.add_parser("study", help="vary anything in a scene: many points, kept as they end")
     study.add_argument("study", help="TOML file that says what is varied")
@@ -73,6 +82,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _add_maps(command: argparse.ArgumentParser) -> None:
+    for body in ("surface", "counterface"):
+        command.add_argument(f"--{body}", metavar="FILE", help=f"height map to use instead of the scene's {body}")
+
+
 def _oils(arguments) -> int:
     from .errors import InputError
     from .oil.describe import list_oils, show_oil
@@ -90,13 +104,15 @@ def _run(arguments) -> int:
     from .scene_file import load_scene
     from .sweep import stribeck
 
-    scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    if arguments.accept:
+        scene = scene.with_(numerics={"accept": True})
     if scene.transient is not None:
         from .unsteady.command import run_history
 
         return run_history(scene, arguments.out, arguments.animation, say)
-    speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
+    speeds = _speeds("--speeds", arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    chosen = _speeds("--fields", arguments.fields) or [scene.motion.entrainment_speed]
     speeds, chosen = _with_chosen(speeds, chosen)
     out = _folder(arguments.out)
     begun = time.perf_counter()
@@ -116,14 +132,20 @@ def _run(arguments) -> int:
         write_fields(out / "fields.npz", model, points)
         plot_contact(out / "contact.png", model, points[0])
         written += ["fields.npz", "contact.png"]
-    for text in sorted({caution.text for p in curve.points if p is not None for caution in p.cautions}):
+    for text in curve.validity:
         say(text)
+    if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
+        say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
     say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if curve.errors:
-        raise ConvergenceError(
-            f"{len(curve.errors)} of {curve.speed.size} speeds failed; first: {curve.errors[min(curve.errors)]}",
-            curve.report,
-        )
+        failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
+        counts = [f"{failed} of {curve.speed.size} speeds failed"] if failed else []
+        if len(curve.errors) > failed:
+            counts.append(
+                f"{len(curve.errors) - failed} of {curve.speed.size} speeds refused (--accept keeps them, marked)"
+            )
+        first = curve.errors[min(curve.errors)]
+        raise ConvergenceError(f"{', '.join(counts)}; first: {first}", curve.report)
     return 0
 
 
@@ -137,7 +159,11 @@ def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
 
-    print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
+    print(
+        describe_scene(
+            load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+        )
+    )
     return 0
 
 
@@ -158,21 +184,28 @@ def _plot(arguments) -> int:
     return 0
 
 
-def _speeds(text: str | None) -> list[float]:
+def _speeds(option: str, text: str | None) -> list[float]:
     """'a,b,c' or 'low:high:count' (geometric), in m/s."""
     import numpy as np
 
     from .errors import InputError
+    from .validate import number, shown
 
-    if not text:
+    if text is None:
         return []
+    ways = f"{option} {shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, 1 <= count, in m/s"
     try:
-        if ":" in text:
-            low, high, count = text.split(":")
-            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
-        return [float(u) for u in text.split(",")]
+        words = [float(word) for word in text.replace(":", ",").split(",")]
+        for speed in words[: 2 if ":" in text else None]:
+            number(option, speed, "m/s", minimum=-1e6, maximum=1e6)
+        if ":" not in text:
+            return words
+        low, high, count = words
+        if "," in text or not (0 < low < high and 1 <= count <= MOST_SPEEDS and count == int(count)):
+            raise InputError(ways)
     except ValueError:
-        raise InputError(f"speeds = {text!r}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low, in m/s") from None
+        raise InputError(ways) from None
+    return [float(u) for u in np.geomspace(low, high, int(count))]
 
 
 def _with_chosen(speeds, chosen):
@@ -201,7 +234,9 @@ def _folder(path: Path) -> Path:
 
 def _progress(done, total, speed, outcome) -> None:
     if isinstance(outcome, Exception):
-        say(f"[{done}/{total}] U = {speed:.4g} m/s failed: {outcome}")
+        say(
+            f"[{done}/{total}] U = {speed:.4g} m/s {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
+        )
     else:
         say(
             f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "

@@ -14,11 +14,15 @@ from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
 from .validate import shown
+from .validity.beforehand import beforehand
+from .validity.entry import Validity
 
 
 @dataclass(frozen=True)
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
+
+    known: assumptions that bodies and map do not meet.
 
     Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes.
     """
@@ -27,6 +31,7 @@ class Model:
     surface: Surface
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
+    known: tuple[Validity, ...] = ()
 
 
 def prepare(
@@ -61,7 +66,8 @@ def prepare(
         surface = surface.periodic("mirror", axes=(True, False))
     levels = tuple(film_levels)
     _check_levels(scene, levels)
-    return Model(scene, surface, rough_contact(scene, surface) if contact is None else contact, levels)
+    made = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, made, levels, beforehand(scene, surface))
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -102,7 +108,8 @@ def _another(scene: Scene, like: Model) -> Model:
     if not like.contact.nominally_flat:
         check_grid(scene, like.surface)
     _check_levels(scene, like.film_levels)
-    return Model(scene, like.surface, like.contact.again(scene, old), like.film_levels)
+    contact = like.contact.again(scene, old)
+    return Model(scene, like.surface, contact, like.film_levels, beforehand(scene, like.surface))
 
 
 def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:

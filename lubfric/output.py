@@ -6,6 +6,7 @@ import csv
 import json
 import math
 import platform
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -54,25 +55,27 @@ def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) 
         "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
+        "validity": list(curve.validity),
         "points": [_point(curve, i) for i in range(curve.speed.size)],
     }
     path.write_text(json.dumps(_plain(record), indent=1, allow_nan=False))
 
 
 def write_csv(path: Path, curve: StribeckResult) -> None:
-    """One row a speed, one column a quantity, the unit in the heading."""
+    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold there."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow([f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES])
-        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES)))
+        writer.writerow([*(f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES), "validity"])
+        texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES), texts))
 
 
 def read_csv(path: Path) -> dict[str, np.ndarray]:
     """The columns that `write_csv` wrote, by name."""
     with Path(path).open() as file:
         heading, *rows = list(csv.reader(file))
-    columns = np.array(rows, float).reshape(len(rows), len(heading)).T
-    return {name.split(" [")[0]: column for name, column in zip(heading, columns)}
+    columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+    return {name: np.array(column, str if name == "validity" else float) for name, column in columns.items()}
 
 
 def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None:
@@ -108,10 +111,11 @@ def _statistics(surface) -> dict:
 
 
 def _point(curve: StribeckResult, index: int) -> dict:
+    told = {"validity": [asdict(entry) for entry in curve.entries(index)]}
     if curve.points[index] is None:
-        return {"speed": curve.speed[index], "error": str(curve.errors[index])}
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     point = curve.points[index]
-    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()}
+    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
 
 
 def _plain(value):

@@ -54,7 +54,13 @@ USUAL = {
     "surface.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
     "contact.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
 }
-NOUGHT = ("bodies.boundary_friction_coefficient", "motion.entrainment_speed", "motion.slide_roll_ratio", "surface.sq")
+NOUGHT = (
+    "lubricant.pressure_viscosity_coefficient",
+    "bodies.boundary_friction_coefficient",
+    "motion.entrainment_speed",
+    "motion.slide_roll_ratio",
+    "surface.sq",
+)
 
 
 def slip(name: str, value) -> str | None:
@@ -73,18 +79,33 @@ def slip(name: str, value) -> str | None:
     return ""
 
 
-def doubts(scene) -> tuple[str, ...]:
-    """A sentence for each value of a scene outside its usual range, with the likely slip."""
+@dataclass(frozen=True)
+class Doubt:
+    """A value [unit] of a key outside its usual range, the bound it is beyond, and what it may have been meant as ("")."""
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    meant: str
+
+    @property
+    def text(self) -> str:
+        """One sentence."""
+        return f"{self.name} = {self.value:g} {self.unit} is unusual{self.meant and '; ' + self.meant}"
+
+
+def doubts(scene) -> tuple[Doubt, ...]:
+    """The values of a scene outside their usual range."""
     found = []
     for name, usual in USUAL.items():
         section, key = name.split(".")
         value = getattr(getattr(scene, section), key, None)
-        meant = None if value is None else slip(name, value)
-        if meant is None or (name.endswith("pressure_viscosity_coefficient") and value == 0):
-            continue
-        shown = f"{value:g}" if isinstance(value, (int, float)) else str(value)
-        usually = f"usually {usual.low:g} to {usual.high:g}"
-        found.append(f"{name} = {shown} {usual.unit} is unusual ({usually}){'; ' + meant if meant else ''}")
+        for one in value if isinstance(value, (list, tuple)) else (value,):
+            meant = None if one is None else slip(name, one)
+            if meant is not None:
+                limit = usual.high if abs(one) > usual.high else usual.low
+                found.append(Doubt(name, float(one), limit, usual.unit, meant))
     return tuple(found)
 
 

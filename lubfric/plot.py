@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
     top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
     top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    _mark(figure, top, speed, c)
     top.set_ylabel("friction coefficient (-)")
     top.set_ylim(bottom=min(0, 1.1 * c["coefficient"].min()))
     top.set_title(title)
@@ -52,6 +54,24 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     bottom.yaxis.set_minor_formatter(NullFormatter())
     bottom.set_xlabel("entrainment speed U (m/s)")
     figure.savefig(path, dpi=150)
+
+
+def _mark(figure, axes, speed, columns) -> None:
+    """Ring the points at which an assumption fails, cross out those that it makes meaningless, and say which below."""
+    told = columns.get("validity")
+    if told is None or not any(told):
+        return
+    severe = np.array(["not valid: " in text for text in told])
+    minor = np.array([bool(text) for text in told]) & ~severe
+    for chosen, marker, color, label in (
+        (minor, "o", GREY, "with cautions"),
+        (severe, "x", RED, "no answer (accepted)"),
+    ):
+        if chosen.any():
+            axes.plot(speed[chosen], columns["coefficient"][chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    heads = dict.fromkeys(entry.split(": ")[1] for text in told for entry in text.split(" | ") if entry)
+    names = list(dict.fromkeys(re.split(r" [-\d.]+(?:e[+-]?\d+)?(?: \S+)?, ", head)[0] for head in heads))
+    figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
 
 
 def plot_contact(path: Path, model, point) -> None:

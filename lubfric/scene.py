@@ -166,7 +166,8 @@ class Numerics:
     of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid. film_level, contact_level, grid: a level given by name instead.
+    scene's own grid. film_level, contact_level, grid: a level given by name instead. accept: results outside the range of
+    the model are returned, marked, instead of refused.
     """
 
     tolerance: float = 0.01
@@ -181,6 +182,7 @@ class Numerics:
     film_level: str = "auto"
     contact_level: str = "auto"
     grid: str = "auto"
+    accept: bool = False
 
     def __post_init__(self):
         for name, options in (
@@ -205,6 +207,7 @@ class Numerics:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
         validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
+        validate.boolean("numerics.accept", self.accept)
 
     @property
     def forced_film_level(self) -> str:

@@ -11,10 +11,11 @@ from .errors import InputError
 from .model import Model, at_tolerance
 from .point.adapt import Solved, solved
 from .point.balance import Balance
-from .point.cautions import Caution, cautions
 from .point.decision import Decision
+from .point.judge import judged_validity
 from .report import Report
 from .scene import FASTEST, Scene
+from .validity.entry import Validity, refused
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,8 @@ class FrictionResult:
     (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
     (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
-    (``decision.text`` in words); ``cautions``: the limits of the model that the result has passed.
+    (``decision.text`` in words); ``validity``: the assumptions that do not hold
+    (`lubfric.Validity`); a severe one is there only where it was accepted.
     """
 
     speed: float
@@ -51,7 +53,7 @@ class FrictionResult:
     report: Report
     balance: Balance | None = None
     decision: Decision | None = None
-    cautions: tuple[Caution, ...] = ()
+    validity: tuple[Validity, ...] = ()
 
 
 def friction(
@@ -76,7 +78,8 @@ def friction(
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
-    not converge (``raise_on_failure=False`` returns the unconverged balance, but a failed film or contact always raises).
+    not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
+    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always raises).
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
@@ -93,6 +96,7 @@ def friction(
         )
     if raise_on_failure:
         result.report.raise_if_failed(result)
+        refused(result.validity, ready.scene.numerics.accept, result)
     return result
 
 
@@ -101,8 +105,8 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
     contact, film = balance.contact, balance.film
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = cautions(scene, balance, found.shear)
-    notes = (*balance.report.notes, point.decision.text, *(caution.text for caution in passed))
+    passed = judged_validity(model, speed, balance, found)
+    notes = (*balance.report.notes, point.decision.text, *(entry.text for entry in passed))
     sq = model.surface.sq
     return FrictionResult(
         speed=speed,
@@ -126,5 +130,5 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
         report=replace(balance.report, notes=notes),
         balance=balance,
         decision=point.decision,
-        cautions=passed,
+        validity=passed,
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..lubricant import Lubricant, shear_stress
+from ..validity.stress import carried_stress
 
 
 @dataclass(frozen=True)
@@ -18,13 +19,16 @@ class ShearForce:
     total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sums that they are, from two rules; it is
     large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of what
     rising and falling pressure contribute to the rolling force, which is their small difference at high pressure: an error
-    of the film reaches it by that much more.
+    of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above what oils carry
+    (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float
     rolling: float
     quadrature: float = 0.0
     rolling_parts: float = 0.0
+    excess: float = 0.0
+    stress_ratio: float = 0.0
 
     @property
     def total(self) -> float:
@@ -61,6 +65,9 @@ def shear_force(
     middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
     quadrature += _rolling_error(p, h)
+    carried = carried_stress(p)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
     rolling += 6 * lubricant.viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
@@ -74,6 +81,8 @@ def shear_force(
         float(width * sense * rolling),
         float(width * quadrature),
         float(width * parts),
+        float(width * excess),
+        float(np.max(np.abs(tau) / carried)),
     )
 
 

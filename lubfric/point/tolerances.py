@@ -10,6 +10,7 @@ from ..film.contract import Film, LeftOut
 from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import ContactState
 from ..scene import Numerics
+from ..validity.stress import meaningless
 from .balance import Balance
 from .forces import Forces, forces
 from .operating_point import OperatingPoint, Settings
@@ -83,8 +84,9 @@ def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
 
 
 def least_cells(numerics: Numerics, settings: Settings, found: Forces, film: Film) -> int:
-    """Least number of cells of the film: twice as many where the sum of its shear stress is not good enough."""
-    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance
+    """Least number of cells of the film: twice as many where the sum of its shear stress is not good enough, unless that
+    sum is one of stresses that no oil carries."""
+    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if not settings.level.numerical or numerics.ehl_tolerance is not None or resolved:
         return settings.film_cells
     return min(2 * film.cells, max(budget.MOST_CELLS, settings.film_cells))

@@ -27,7 +27,7 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
 
 def test_a_value_that_no_unit_explains_is_still_told():
     told = doubts(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
-    assert told and "bodies.radius = 900 m" in told[0]
+    assert told and "bodies.radius = 900 m" in told[0].text
 
 
 def test_the_error_about_a_value_names_the_unit():

@@ -194,13 +194,23 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
     assert (tmp_path / "o" / "stribeck.png").stat().st_size > 10_000
 
 
-def test_cautions_and_failures_are_said(tmp_path, capsys):
-    (tmp_path / "heavy.toml").write_text(
-        SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
-    )
-    assert main(["run", str(tmp_path / "heavy.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.01"]) == 0
+def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
+    heavy = SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
+    (tmp_path / "heavy.toml").write_text(heavy)
+    command = ["run", str(tmp_path / "heavy.toml"), "--speeds", "0.001", "--fields", "0.001", "--out"]
+    assert main([*command, str(tmp_path / "o")]) == 1
     said = capsys.readouterr().err
-    assert "caution: Newtonian" in said and "scaled" in said
+    assert "Newtonian shear asks" in said and "eyring_stress" in said and "--accept" in said
+    record = json.loads((tmp_path / "o" / "result.json").read_text())
+    assert record["points"][0]["validity"][0]["severe"] in (True, False) and "not valid" in record["points"][0]["error"]
+    assert "not valid" in (tmp_path / "o" / "stribeck.csv").read_text()
+    assert main([*command, str(tmp_path / "a"), "--accept"]) == 0
+    assert "accepted although" in capsys.readouterr().err
+    accepted = json.loads((tmp_path / "a" / "result.json").read_text())
+    assert accepted["points"][0]["coefficient"] > 0 and accepted["scene"]["numerics"]["accept"] is True
+    assert any("not valid" in text for text in accepted["validity"])
+    assert (tmp_path / "a" / "stribeck.png").stat().st_size > 10_000
+    assert main(["plot", str(tmp_path / "a")]) == 0
 
 
 def test_nothing_of_an_earlier_run_stays(tmp_path, capsys):

@@ -1,0 +1,43 @@
+"""Is a solution an answer? The model's assumptions, checked on one operating point."""
+
+from __future__ import annotations
+
+import math
+
+from ..model import Model
+from ..validity.bodies import of_motion
+from ..validity.entry import Validity
+from ..validity.film import of_deflection, of_pressure, of_thickness
+from ..validity.stress import of_shear
+from .balance import Balance
+from .forces import Forces
+
+STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
+
+
+def judged_validity(model: Model, speed: float, balance: Balance, found: Forces) -> tuple[Validity, ...]:
+    """Entries for all that does not hold at ``balance``; those of bodies and map (`Model.known`) first."""
+    scene, film = model.scene, balance.film
+    thickness = film.central_film if film is not None else math.nan
+    entries = [*model.known, *of_motion(scene, speed, thickness)]
+    if film is not None:
+        entries += of_pressure(scene.lubricant, float(film.pressure.max()))
+        entries += of_thickness(scene.bodies, thickness)
+        entries += _of_shear(scene, balance, found)
+        entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
+    return tuple(entries)
+
+
+def strip_rise(scene, balance: Balance) -> float:
+    """Mean rise b²/(6R) of the undeformed cylinder over the Hertz strip, over the mean gap, where the film is deflected by its
+    own pressure alone; 0 elsewhere and without contact."""
+    if scene.numerics.film_deflection != "hydrodynamic" or balance.contact_load == 0:
+        return 0.0
+    return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
+
+
+def _of_shear(scene, balance: Balance, found: Forces) -> list[Validity]:
+    lubricant = scene.lubricant
+    newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
+    force = abs(found.coefficient) * scene.bodies.load
+    return of_shear(found.shear, balance.film_load, force, scene.numerics.tolerance, newtonian)

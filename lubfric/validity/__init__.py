@@ -1,0 +1,6 @@
+"""Is a result an answer? The model's assumptions, checked on the scene before and on the solution after."""
+
+from .entry import Validity, refused
+from .gather import gathered
+
+__all__ = ["Validity", "gathered", "refused"]

@@ -1,0 +1,45 @@
+"""The film of a solution: pressure, thickness, and what deflects it."""
+
+from __future__ import annotations
+
+from .entry import Validity
+
+ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
+BARUS_LIMIT = 3e8  # Pa
+THICK = 0.1  # of the radius
+
+
+def of_pressure(lubricant, peak: float) -> list[Validity]:
+    """``peak``: highest film pressure [Pa]."""
+    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(lubricant.viscosity_law)
+    if limit is None or peak <= limit:
+        return []
+    return [
+        Validity(
+            "film pressure", peak / 1e9, limit / 1e9, "GPa", f"the {lubricant.viscosity_law} viscosity law is an extrapolation there",
+            "the film's friction rests on it: a measured limiting stress is safer",
+        )
+    ]  # fmt: skip
+
+
+def of_thickness(bodies, film: float) -> list[Validity]:
+    """``film``: central film thickness [m]."""
+    if not film > THICK * bodies.radius:
+        return []
+    return [
+        Validity("film over radius", film / bodies.radius, THICK, "", "the film is not thin against the cylinder",
+                 "check bodies.radius, viscosity and speed")
+    ]  # fmt: skip
+
+
+def of_deflection(change: float, limit: float) -> list[Validity]:
+    """``change``: of the film's share by which a film deflected by its own pressure alone may be wrong [-]."""
+    if not change > limit:
+        return []
+    return [
+        Validity(
+            "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,", change, limit, "",
+            "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
+            "numerics.film_deflection = 'scaled' or 'total' (or 'auto', which chooses)",
+        )
+    ]  # fmt: skip

@@ -1,0 +1,47 @@
+"""Shear stress: what a film is asked to carry against what oils carry."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .entry import Validity
+
+CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
+SHARE = 0.2  # of f: excess above which f is no answer
+FRICTION = 0.2  # of the film
+
+
+def carried_stress(pressure):
+    """What an oil carries at most [Pa] at ``pressure`` [Pa]: 5 MPa + 0.12 p."""
+    return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)
+
+
+def meaningless(shear) -> bool:
+    """Most of the force of ``shear`` (`ShearForce`) is from stresses that no oil carries."""
+    return not shear.excess <= 0.5 * abs(shear.couette)
+
+
+def of_shear(shear, film_load: float, friction_force: float, tolerance: float, newtonian: bool) -> list[Validity]:
+    """``shear``: `ShearForce` of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N], of which a share above
+    ``tolerance`` that no oil carries is told, above 0.2 refused."""
+    if not friction_force > 0:
+        return []
+    share = shear.excess / friction_force if shear.excess < np.inf else 1.0
+    found, friction = [], abs(shear.couette) / max(film_load, 1e-300)
+    law = "Newtonian shear" if newtonian else "the shear law"
+    remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
+    if share > tolerance:
+        severe = share > SHARE
+        found.append(
+            Validity(
+                "share of f from shear stresses that no oil carries", share, SHARE if severe else tolerance, "",
+                f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a friction coefficient of "
+                f"{friction:.2g}", remedy, severe,
+            )
+        )  # fmt: skip
+    elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
+        found.append(
+            Validity("friction coefficient of the film", friction, FRICTION, "",
+                     "more than any lubricant gives", remedy)
+        )  # fmt: skip
+    return found
