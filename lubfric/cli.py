@@ -179,8 +179,12 @@ def _plot(arguments) -> int:
     for needed in (source, arguments.folder / "result.json"):
         if not needed.is_file():
             raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
-    record = json.loads((arguments.folder / "result.json").read_text())
-    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
+    record = arguments.folder / "result.json"
+    try:
+        name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
+    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
+    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), str(name))
     return 0
 
 

@@ -13,7 +13,7 @@ from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
-from .validate import shown
+from .validate import instance
 from .validity.beforehand import beforehand
 from .validity.entry import Validity
 
@@ -50,17 +50,13 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
-    if not isinstance(scene, Scene):
-        raise InputError(
-            f"scene = {shown(scene)} is a {type(scene).__name__}; allowed: a Scene, such as lubfric.load_scene returns"
-        )
+    instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if like is not None:
         return _another(scene, like)
     if surface is None:
         surface = contact_map(scene)
-    elif not isinstance(surface, Surface):
-        raise InputError(f"surface = {shown(surface)} is a {type(surface).__name__}; allowed: a lubfric.Surface")
     else:
+        instance("surface", surface, Surface, "a lubfric.Surface")
         check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
         surface = surface.periodic("mirror", axes=(True, False))
@@ -74,11 +70,7 @@ def scene_of(scene: Scene | Model) -> Scene:
     """The scene of a model, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Model):
         return scene.scene
-    if not isinstance(scene, Scene):
-        raise InputError(
-            f"scene = {shown(scene)} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
-            "lubfric.prepare returned"
-        )
+    instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
     return scene
 
 
@@ -93,8 +85,7 @@ def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | Non
 
 def _another(scene: Scene, like: Model) -> Model:
     """The model of another scene on the map and contact of ``like``."""
-    if not isinstance(like, Model):
-        raise InputError(f"like = {shown(like)} is a {type(like).__name__}; allowed: what lubfric.prepare returned")
+    instance("like", like, Model, "what lubfric.prepare returned")
     old = like.scene
     for name, a, b in (
         ("surface", scene.surface, old.surface),

@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from . import __version__
+from .errors import InputError
 from .model import Model
 from .scene import scene_as_dict
 from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
+from .validate import shown
 
 UNITS = {
     "speed": "m/s",
@@ -70,12 +72,24 @@ def write_csv(path: Path, curve: StribeckResult) -> None:
         writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES), texts))
 
 
-def read_csv(path: Path) -> dict[str, np.ndarray]:
-    """The columns that `write_csv` wrote, by name."""
-    with Path(path).open() as file:
-        heading, *rows = list(csv.reader(file))
-    columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-    return {name: np.array(column, str if name == "validity" else float) for name, column in columns.items()}
+class Columns(dict):
+    """Columns of a table by name; one that is not there is an `InputError`."""
+
+    def __missing__(self, name: str):
+        raise InputError(f"the table has no column {name!r}; allowed: a table written by 'lubfric run', which has one")
+
+
+def read_csv(path: Path) -> Columns:
+    """The columns that `write_csv` wrote, by name. Raises `InputError` for a table that is torn or another one."""
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            heading, *rows = list(csv.reader(file))
+        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+        return Columns({n: np.array(c, str if n == "validity" else float) for n, c in columns.items()})
+    except (ValueError, IndexError, csv.Error) as problem:
+        raise InputError(
+            f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"
+        ) from None
 
 
 def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None:

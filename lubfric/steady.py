@@ -86,8 +86,8 @@ def friction(
     if speed is None:
         speed = ready.scene.motion.entrainment_speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    if start is not None and not isinstance(start, FrictionResult):
-        raise InputError(f"start = {validate.shown(start)}; allowed: what lubfric.friction returned, or None")
+    if start is not None:
+        validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
     result = _result(ready, speed, solved(ready, speed, start.balance if start else None, given_grid=fields), begun)
     if not math.isfinite(result.coefficient):
         raise InputError(

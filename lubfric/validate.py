@@ -26,6 +26,8 @@ SANE = {  # unit: least and largest magnitude of a quantity given; far beyond wh
     "1/Pa": (1e-30, 1e6),
     "s": (1e-18, 1e12),
     "Hz": (1e-12, 1e18),
+    "1/K": (1e-30, 1e6),
+    "(-)": (1e-60, 1e60),
 }
 NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
@@ -110,6 +112,12 @@ def boolean(name: str, value: Any) -> bool:
     return bool(value)
 
 
+def instance(name: str, value: Any, kind: type, allowed: str) -> None:
+    """``value`` is of ``kind``; ``allowed``: where such a value comes from, in words."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name} = {shown(value)} is a {type(value).__name__}; allowed: {allowed}")
+
+
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """A non-empty array of finite floats with ``ndim`` axes: ``value`` itself where it is one.
 
@@ -130,6 +138,9 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         raise InputError(
             f"{name} has {bad} of {a.size} values that are NaN or infinite; allowed: finite values in {unit}"
         )
+    most = SANE.get(unit, (LEAST, LARGEST))[1]
+    if max(a.max(), -a.min()) > most:
+        raise InputError(f"{name} reaches {max(a.max(), -a.min()):g} {unit}; allowed: up to {most:g} {unit}")
     return a
 
 

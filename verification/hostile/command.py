@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +16,11 @@ GROUPS = {"scene": scenes, "file": files, "call": calls, "command": commands}
 COUNTS = {"scene": 1500, "file": 500, "call": 900, "command": 300}
 
 
-def cases(seed: int, share: float = 1.0) -> Iterator[Case]:
-    """About ``share`` of all cases of ``seed``, chosen at random."""
+def cases(seed: int, share: float = 1.0, groups: Sequence[str] = tuple(GROUPS)) -> Iterator[Case]:
+    """About ``share`` of all cases of ``seed`` in ``groups``, chosen at random."""
     for number, (group, module) in enumerate(GROUPS.items()):
+        if group not in groups:
+            continue
         rng = np.random.default_rng([seed, number])
         chosen = np.random.default_rng([seed, number, 1])
         for case in module.cases(rng, COUNTS[group]):
@@ -26,9 +28,9 @@ def cases(seed: int, share: float = 1.0) -> Iterator[Case]:
                 yield case
 
 
-def outcomes(seed: int, share: float = 1.0) -> Iterator[Outcome]:
+def outcomes(seed: int, share: float = 1.0, groups: Sequence[str] = tuple(GROUPS)) -> Iterator[Outcome]:
     """Each case in a folder of its own."""
-    for case in cases(seed, share):
+    for case in cases(seed, share, groups):
         with tempfile.TemporaryDirectory() as folder:
             yield judge(case, Path(folder))
 

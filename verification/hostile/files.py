@@ -57,7 +57,6 @@ HOSTILE_POINTS = (
     "nan 0 1\n0 1 1\n1 0 1\n1 1 1\n",
     "0 0 inf\n0 1 1\n1 0 1\n1 1 1\n",
     "0 0 1\n0 1e9 1\n1e9 0 1\n1 1 1\n0.001 0.001 1\n",
-    "5e-324 0 1\n0 1 1\n1 0 1\n1 1 1\n",
 )
 HOSTILE_HISTORIES = (
     "",
