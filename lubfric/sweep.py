@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
@@ -12,7 +12,10 @@ from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .scene import Scene
-from .steady import FrictionResult, friction
+from .steady import FrictionResult
+from .store import fingerprint
+from .studies.chain import Chain, make_chain
+from .studies.solve import solve_chains
 from .validity.entry import Validity
 from .validity.gather import gathered
 
@@ -75,19 +78,22 @@ def stribeck(
     tolerance: float | None = None,
     model: str | None = None,
     fields=False,
+    store=None,
     on_point=None,
     raise_on_failure: bool = True,
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs. ``on_point(done, total,
-    speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an exception. ``tolerance``, ``model``: as
-    in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own contact grid, of every point (True) or of
-    the speeds listed.
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
+    again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
+    exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own
+    contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
+    the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole curve
-    as its ``result`` (``raise_on_failure=False`` returns it).
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
+    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
+    as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
@@ -99,20 +105,18 @@ def stribeck(
     speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
-    order = np.argsort(-np.abs(speeds), kind="stable")
-    runs = [order] if executor is None else np.array_split(order, min(order.size, 8))
     points, errors = [None] * speeds.size, {}
 
-    def keep(outcomes):
-        for index, outcome in outcomes:
-            (errors if isinstance(outcome, Exception) else points)[index] = outcome
-            if on_point:
-                on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
+    def keep(index, outcome):
+        (errors if isinstance(outcome, Exception) else points)[index] = outcome
+        if on_point:
+            on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
-    if executor is None:
-        keep(_run(model, [(int(i), float(speeds[i])) for i in order], kept))
-    else:
-        _spread(executor, model, speeds, runs, kept, keep)
+    try:
+        solve_chains(model, sweep_chains(model, speeds, kept, executor is not None), executor, store, keep)
+    except BaseException as fault:
+        fault.result = _collect(speeds, points, errors)
+        raise
     result = _collect(speeds, points, errors)
     refused = [error for error in errors.values() if isinstance(error, ValidityError)]
     if raise_on_failure and errors and len(refused) == len(errors):
@@ -122,38 +126,12 @@ def stribeck(
     return result
 
 
-def _run(model, cases, fields):
-    """Yield (index, FrictionResult or exception) along neighbouring speeds."""
-    start = None
-    for index, speed in cases:
-        try:
-            start = friction(model, speed, start=start, fields=speed in fields)
-        except ValidityError as error:
-            start = error.result if error.result.balance.film is not None else None
-            yield index, ValidityError(error.message, error.entries, replace(error.result, balance=None))
-        except Exception as error:  # kept in ``errors``; raised once every point is done
-            start = None
-            yield index, error
-        else:
-            yield index, start if speed in fields else replace(start, balance=None)
-            start = start if start.balance.film is not None else None
-
-
-def _run_list(model, cases, fields):
-    return list(_run(model, cases, fields))
-
-
-def _spread(executor, model, speeds, runs, fields, keep) -> None:
-    from concurrent.futures import as_completed
-
-    futures = {
-        executor.submit(_run_list, model, [(int(i), float(speeds[i])) for i in run], fields): run for run in runs
-    }
-    for future in as_completed(futures):
-        try:
-            keep(future.result())
-        except Exception as error:  # a lost worker fails its own speeds, not the sweep
-            keep([(int(i), error) for i in futures[future]])
+def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
+    """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
+    order = np.argsort(-np.abs(speeds), kind="stable")
+    runs = np.array_split(order, min(order.size, 8)) if spread else [order]
+    whole = fingerprint(model)
+    return [(make_chain(whole, speeds[run], np.isin(speeds[run], kept)), run) for run in runs]
 
 
 def _collect(speeds, points, errors) -> StribeckResult:

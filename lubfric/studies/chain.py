@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from ..errors import LubfricError
+from ..errors import LubfricError, ValidityError
 from ..model import Model
 from ..steady import FrictionResult, friction
 from ..store import digest
-from .journal import Journal
+from .journal import Journal, without_fields
 
 
 @dataclass(frozen=True)
@@ -57,22 +57,20 @@ def run_chain(
         done += len(caught_up)
     for index in range(done, len(chain.speeds)):
         outcome = _solved(model, chain, index, start)
-        start = outcome if continues(outcome) else None
+        start = start_from(outcome)
         if os.getppid() != parent:  # who asked for it is dead, and may have been started again
             return
         if journal is not None:
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
-        yield (
-            index,
-            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
-        )
+        yield index, outcome if chain.fields[index] else without_fields(outcome)
     if journal is not None:
         journal.end(chain.name)
 
 
-def continues(outcome) -> bool:
-    """A neighbour can start from it."""
-    return isinstance(outcome, FrictionResult) and outcome.balance is not None and outcome.balance.film is not None
+def start_from(outcome) -> FrictionResult | None:
+    """The result, refused or not, from which a neighbour can start."""
+    result = outcome.result if isinstance(outcome, ValidityError) else outcome
+    return result if isinstance(result, FrictionResult) and result.balance and result.balance.film is not None else None
 
 
 def _solved(model, chain, index, start):
@@ -92,5 +90,5 @@ def _start(model, chain, journal, done) -> tuple[FrictionResult | None, list]:
     elif key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
         outcome = None
         for index in range(done):
-            outcome = _solved(model, chain, index, outcome if continues(outcome) else None)
-    return (outcome if continues(outcome) else None), caught_up
+            outcome = _solved(model, chain, index, start_from(outcome))
+    return start_from(outcome), caught_up
