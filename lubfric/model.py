@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .deterministic.takes import check_scene
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
@@ -51,6 +52,8 @@ def prepare(
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
+    if scene.numerics.model == "deterministic":
+        check_scene(scene)
     if like is not None:
         return _another(scene, like)
     if surface is None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import validate
 from .console import keeping, say
+from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .model import prepare
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
@@ -82,6 +83,11 @@ def _write(folder: RunFolder, model, curve, chosen) -> None:
         points.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", fields_bytes(model, points))
         folder.draw("contact.png", plot_contact, model, points[0])
+    whole = [p for p in curve.points if p is not None and p.deterministic is not None]
+    if whole:
+        whole.sort(key=lambda p: chosen.index(p.speed))
+        folder.write("fields.npz", deterministic_bytes([p.deterministic.result for p in whole]))
+        folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, model.scene.bodies.half_width)
 
 
 def parse_speeds(option: str, text: str | None) -> list[float]:

@@ -7,6 +7,8 @@ import time
 from dataclasses import dataclass, replace
 
 from . import validate
+from .deterministic import point as deterministic
+from .deterministic.refine import Refined
 from .errors import InputError
 from .model import Model, at_tolerance
 from .oil.describe import estimate_in_words
@@ -60,6 +62,16 @@ class FrictionResult:
     balance: Balance | None = None
     decision: Decision | None = None
     validity: tuple[Validity, ...] = ()
+    deterministic: Refined | None = None
+
+    @property
+    def starts(self) -> bool:
+        """A neighbouring speed can start from it: it has its fields, and a film."""
+        return self.deterministic is not None or (self.balance is not None and self.balance.film is not None)
+
+    def without_fields(self) -> FrictionResult:
+        """Its numbers alone."""
+        return replace(self, balance=None, deterministic=None)
 
 
 def friction(
@@ -79,7 +91,8 @@ def friction(
     entrainment the contact carries everything; when the film clears the summits no contact is solved.
 
     ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid.
+    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``: no
+    load is shared, one pressure carries it (docs/deterministic.md).
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
@@ -94,7 +107,14 @@ def friction(
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
         validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
-    result = _result(ready, speed, solved(ready, speed, start.balance if start else None, given_grid=fields), begun)
+    if ready.scene.numerics.model == "deterministic" and speed != 0:
+        found = deterministic.deterministic_point(
+            ready.scene, ready.surface, speed, start.deterministic if start else None
+        )
+        result = _deterministic_result(ready, speed, found, begun)
+    else:
+        point = solved(ready, speed, start.balance if start else None, given_grid=fields)
+        result = _result(ready, speed, point, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and stresses "
@@ -142,4 +162,48 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
         balance=balance,
         decision=point.decision,
         validity=passed,
+    )
+
+
+def _deterministic_result(model: Model, speed: float, found: Refined, begun: float) -> FrictionResult:
+    scene, result = model.scene, found.result
+    bodies, width = scene.bodies, scene.bodies.width
+    decision = Decision(
+        film="deterministic",
+        contact="asperity spots",
+        tolerance=scene.numerics.tolerance,
+        film_words=deterministic.words(found),
+        forced=("grid",) if scene.numerics.grid == "given" else (),
+        notes=deterministic.notes(found),
+    )
+    passed = deterministic.validity(model, speed, found)
+    contact_load = result.split.spots * width
+    dx, dy = result.spacing
+    across = result.pressure.shape[1] * dy
+    return FrictionResult(
+        speed=speed,
+        coefficient=result.coefficient,
+        contact_load=contact_load,
+        film_load=bodies.load - contact_load,
+        shear_force=(result.couette + result.rolling) * width,
+        couette_force=result.couette * width,
+        rolling_force=result.rolling * width,
+        boundary_force=result.boundary * width,
+        real_contact_area_fraction=result.spot_fraction,
+        real_contact_area=float(result.spots.sum()) * dx * dy * width / across,
+        plastic_area_fraction=result.plastic_fraction,
+        min_film=result.min_gap,
+        central_film=result.central_gap,
+        mean_gap=result.mean_gap,
+        film_to_roughness_ratio=result.central_gap / model.surface.sq if model.surface.sq > 0 else math.inf,
+        inlet_film_factor=1.0,
+        flash_temperature_rise=0.0,
+        film_temperature_rise=0.0,
+        load_residual=result.report.residuals["load"],
+        volume_residual=math.nan,
+        seconds=time.perf_counter() - begun,
+        report=replace(result.report, notes=(decision.text, *(entry.text for entry in passed))),
+        decision=decision,
+        validity=passed,
+        deterministic=found,
     )

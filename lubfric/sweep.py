@@ -19,7 +19,7 @@ from .studies.solve import solve_chains
 from .validity.entry import Validity
 from .validity.gather import gathered
 
-NOT_NUMBERS = ("report", "balance", "decision", "validity")
+NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 

@@ -1,4 +1,4 @@
-"""Ten ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
+"""Ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
 
 A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A
 place that no longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never
@@ -20,13 +20,14 @@ from lubfric.contact.residual import length_scale
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mistake: ``name``, ``what`` it is in a sentence, and for each place "module:attribute" its
-    replacement.
+    """A mistake: ``name``, ``what`` it is in a sentence, for each place "module:attribute" its replacement, and the
+    studies that are asked to catch it.
     """
 
     name: str
     what: str
     places: dict[str, Callable]
+    suite: tuple[str, ...] = ("contact_grid", "ehl_grid", "friction", "load_sharing")
 
 
 @contextlib.contextmanager

@@ -70,7 +70,7 @@ def run_chain(
 def start_from(outcome) -> FrictionResult | None:
     """The result, refused or not, from which a neighbour can start."""
     result = outcome.result if isinstance(outcome, ValidityError) else outcome
-    return result if isinstance(result, FrictionResult) and result.balance and result.balance.film is not None else None
+    return result if isinstance(result, FrictionResult) and result.starts else None
 
 
 def _solved(model, chain, index, start):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
@@ -83,11 +83,11 @@ def outcome_of(record: dict):
 
 
 def without_fields(outcome):
-    """A result, or the result of a refusal, without its balance; any other outcome as it is."""
+    """A result, or the result of a refusal, without its fields; any other outcome as it is."""
     if isinstance(outcome, FrictionResult):
-        return replace(outcome, balance=None)
+        return outcome.without_fields()
     if isinstance(outcome, ValidityError) and outcome.result is not None:
-        return ValidityError(outcome.message, outcome.entries, replace(outcome.result, balance=None))
+        return ValidityError(outcome.message, outcome.entries, outcome.result.without_fields())
     return outcome
 
 
