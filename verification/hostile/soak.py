@@ -24,7 +24,7 @@ RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
     "sq": (1e-8, 1e-6),
     "ratio": (0.02, 2.0),
 }
-WIDTH, E_PRIME = 1e-2, 231e9
+WIDTH, E_PRIME, EYRING = 1e-2, 231e9, 5e6
 
 
 @dataclass
@@ -56,7 +56,7 @@ def random_scene(rng: np.random.Generator) -> lubfric.Scene:
             "hardness": None,
             "boundary_friction_coefficient": float(rng.uniform(0.05, 0.15)),
         },
-        lubricant={"viscosity": v["viscosity"], "pressure_viscosity_coefficient": v["alpha"]},
+        lubricant={"viscosity": v["viscosity"], "pressure_viscosity_coefficient": v["alpha"], "eyring_stress": EYRING},
         motion={
             "entrainment_speed": v["speed"] * rng.choice((-1.0, 1.0)),
             "slide_roll_ratio": v["ratio"],
