@@ -31,7 +31,7 @@ _HOME = {
     "friction": "steady",
     "prepare": "model",
     "Model": "model",
-    "FrictionResult": "steady",
+    "FrictionResult": "result",
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",
     "Transient": "history.plan",

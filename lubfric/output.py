@@ -14,8 +14,8 @@ import numpy as np
 from . import __version__
 from .errors import InputError
 from .model import Model
+from .result import FrictionResult
 from .scene import scene_as_dict
-from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 from .validate import shown

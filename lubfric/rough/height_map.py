@@ -10,31 +10,38 @@ from ..roughness import Roughness, named
 from ..scene import Patch, Scene
 from ..surface import Surface, generate_surface, read_surface, rms_slope
 from ..surface.outliers import outliers
+from .strip import TOO_SHORT, check_strip
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
-TOO_SHORT = (
-    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness spread "
-    "over the strip)"
-)
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 
 
-def contact_map(scene: Scene) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``: those of both bodies as one map.
+def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
+    """Generate, or read, turn, scale, cut and close the heights of ``scene``, those of both bodies as one map; or take those
+    of ``surface`` as they are.
 
     A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
     it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
     Everything done is in the notes of the surface.
     """
+    if surface is None:
+        surface = _of_the_scene(scene)
+    validate.instance("surface", surface, Surface, "a lubfric.Surface")
+    check_grid(scene, surface)
+    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
+        surface = surface.periodic("mirror", axes=(True, False))
+    return surface
+
+
+def _of_the_scene(scene: Scene) -> Surface:
     bodies = [(scene.surface, "surface")]
     if scene.counterface is not None:
         bodies.append((scene.counterface, "counterface"))
     maps = [_of_one_body(scene, rough, name) for rough, name in bodies]
     surface = maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
-    if any(rough.file is not None for rough, _ in bodies):
-        surface = _cut_to_contact(scene, surface, any(rough.extension == "mirror" for rough, _ in bodies))
-    check_grid(scene, surface)
-    return surface
+    if all(rough.file is None for rough, _ in bodies):
+        return surface
+    return _cut_to_contact(scene, surface, any(rough.extension == "mirror" for rough, _ in bodies))
 
 
 def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
@@ -53,20 +60,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
         )
     if scene.contact.geometry == "flat":
         return
-    half_width, step = scene.bodies.half_width, surface.spacing[0]
-    if step > half_width:
-        raise InputError(
-            f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
-            f"its half-width {half_width:.3g} m"
-        )
-    if surface.size[0] < 2 * half_width:
-        ways = "a larger contact.shape"
-        if scene.surface.file is not None:
-            ways = f"a longer map, {TOO_SHORT}"
-        raise InputError(
-            f"the patch is {surface.size[0]:.3g} m long in x (contact.shape x contact.spacing); allowed: at "
-            f"least the Hertz strip, {2 * half_width:.3g} m: {ways}"
-        )
+    check_strip(scene, surface.spacing[0], surface.size[0])
 
 
 def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surface:
