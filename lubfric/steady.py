@@ -10,7 +10,7 @@ from .deterministic.answer import deterministic_result
 from .deterministic.point import deterministic_point
 from .errors import InputError
 from .model import Model, at_tolerance
-from .point.adapt import solved
+from .point.deflection import solved_as_deflected
 from .result import FrictionResult, result_of
 from .scene import FASTEST, Scene
 from .validity.entry import refused
@@ -53,8 +53,8 @@ def friction(
         found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
         result = deterministic_result(ready, speed, found, begun)
     else:
-        point = solved(ready, speed, start.balance if start else None, given_grid=fields)
-        result = result_of(ready, speed, point, begun)
+        chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
+        result = result_of(chosen, speed, point, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and stresses "

@@ -106,10 +106,10 @@ class OperatingPoint:
         adds its own share itself.
         """
         thickness, way = film.film_at(contact.x), self.scene.numerics.film_deflection
-        if way == "hydrodynamic":
-            return thickness, thickness
         if way == "total":
             return thickness, thickness - film.imposed_deflection(contact.x)
+        if way != "scaled":
+            return thickness, thickness
         parabola = contact.x**2 / (2 * film.radius)
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
 
