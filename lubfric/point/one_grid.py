@@ -9,7 +9,7 @@ from .. import budget
 from ..film.contract import LeftOut
 from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
-from .balance import Balance, balanced
+from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
 from .tolerances import allowed_left_out, contact_tolerance, film_tolerance, least_cells, volume_tolerance
 
@@ -21,7 +21,7 @@ class Stage:
     """A point, its balance, and what its film leaves out."""
 
     point: OperatingPoint
-    balance: Balance
+    balance: Lubricated
     left_out: LeftOut
 
 

@@ -26,7 +26,6 @@ class HalfSpaceContact(HalfSpaceGrid):
     width: float
     hardness: float | None
     tolerance: float
-    name: str = "semi-periodic"
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """The surface loaded under the film's shape: `lubfric.solve_contact`."""
@@ -64,6 +63,11 @@ class HalfSpaceContact(HalfSpaceGrid):
         )
         load = found.mean_pressure * self.width * self.x.size * self.spacing[0]
         return load, self._state(film, found.gap, found if load > 0 else None)
+
+    @property
+    def name(self) -> str:
+        """As in ``numerics.contact_level``."""
+        return "semi-periodic"
 
     @property
     def adjustable_tolerance(self) -> float:

@@ -79,7 +79,7 @@ def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surf
     if rough.oversize == 1:
         return surface
     surface = surface.cropped(patch.shape).periodic("mirror", axes=(patch.geometry == "flat", True))
-    return surface.scaled(sq=rough.sq)
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
 def _other_seed(seed: int) -> int:
