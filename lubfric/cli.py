@@ -42,6 +42,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
     )
+    run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
     run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
     run.add_argument(
         "--animation",
@@ -92,6 +93,10 @@ def _run(arguments) -> int:
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
+    if arguments.ratios and scene.transient is None:
+        from .curves.command import run_traction
+
+        return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
         from .unsteady.command import run_history
 

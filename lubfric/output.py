@@ -13,8 +13,8 @@ import numpy as np
 
 from . import __version__
 from .model import Model
+from .result import FrictionResult
 from .scene import scene_as_dict
-from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
@@ -95,8 +95,9 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
         "spacing": np.array(model.surface.spacing),
         "contact_x": model.contact.x,
     }
-    for i, point in enumerate(points):
-        film, contact = point.balance.film, point.balance.contact.fields
+    balances = [point.balance for point in points if point.balance is not None]
+    for i, balance in enumerate(balances):
+        film, contact = balance.film, balance.contact.fields
         if film is not None:
             arrays |= {
                 f"film_x_{i}": film.x,
@@ -111,7 +112,7 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
     """``arrays`` as a compressed ``.npz`` file."""
     file = io.BytesIO()
-    np.savez_compressed(file, **arrays)
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return file.getvalue()
 
 
@@ -128,9 +129,9 @@ def _statistics(surface) -> dict:
 
 def _point(curve: StribeckResult, index: int) -> dict:
     told = {"validity": [asdict(entry) for entry in curve.entries(index)]}
-    if curve.points[index] is None:
-        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     point = curve.points[index]
+    if point is None:
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
 
 

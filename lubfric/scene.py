@@ -23,7 +23,7 @@ CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 HEATS = ("auto", "on", "off")
 CLOSURES = ("load", "separation")
-FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
+FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
@@ -198,7 +198,8 @@ class Numerics:
 
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total"); "auto": the first
+    where that changes f by less than its share of the tolerance, else the second.
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
     scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
@@ -214,7 +215,7 @@ class Numerics:
     cavitated_shear: str = "none"
     workers: int = 1
     closure: str = "load"
-    film_deflection: str = "hydrodynamic"
+    film_deflection: str = "auto"
     model: str = "auto"
     film_level: str = "auto"
     contact_level: str = "auto"

@@ -14,8 +14,8 @@ from .curve.span import span
 from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
+from .result import FrictionResult
 from .scene import Scene
-from .steady import FrictionResult
 from .store import fingerprint
 from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
 from .studies.chain import Chain, make_chain

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from ..errors import LubfricError, ValidityError
 from ..model import Model
-from ..steady import FrictionResult, friction
+from ..result import FrictionResult
+from ..steady import friction
 from ..store import digest
 from .journal import Journal, without_fields
 
