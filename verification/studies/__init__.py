@@ -53,6 +53,11 @@ STUDIES: tuple[Study, ...] = (
         "load_sharing", "verification.studies.load_sharing:load_sharing", "Load sharing, both halves by finite elements"
     ),
     Study(
+        "deterministic",
+        "verification.studies.deterministic:deterministic",
+        "One gap, one pressure: limits, and the film in the same gap by finite elements",
+    ),
+    Study(
         "formulations",
         "verification.studies.formulations:formulations",
         "Contact formulations of the paper against the default",
