@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from numbers import Real
 
 import numpy as np
 
 from . import validate
+from .curve.choose import next_speed
+from .curve.interpolate import Interpolant, knee_of
+from .curve.span import span
 from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
+from .result import FrictionResult
 from .scene import Scene
-from .steady import FrictionResult
 from .store import fingerprint
+from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
 from .studies.chain import Chain, make_chain
+from .studies.journal import Journal
 from .studies.solve import solve_chains
 from .validity.entry import Validity
 from .validity.gather import gathered
 
+AUTO = "auto"
 NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
@@ -63,6 +71,32 @@ class StribeckResult:
             return error.result.validity
         return () if point is None else point.validity
 
+    def at(self, speed) -> np.ndarray:
+        """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        curve = self._interpolant
+        known = curve.samples.speed
+        at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
+        if at.min() < known[0] * (1 - 1e-9) or at.max() > known[-1] * (1 + 1e-9):
+            raise InputError(
+                f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
+            )
+        return curve.at(at).reshape(np.shape(speed))
+
+    @property
+    def lift_off(self) -> float | None:
+        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach it."""
+        return self._interpolant.lift_off
+
+    @cached_property
+    def _interpolant(self) -> Interpolant:
+        points = [p for p in self.points if p is not None and p.speed != 0]
+        if len(points) < FEWEST or len({abs(p.speed) for p in points}) < len(points):
+            raise InputError(
+                f"{len(points)} speeds are solved; allowed for a curve between them: {FEWEST} different ones"
+            )
+        samples = samples_of(points)
+        return Interpolant(samples, knee_of(samples))
+
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold somewhere."""
@@ -83,6 +117,9 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
+    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on f
+    everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication
+    to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other.
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
     `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
     again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
@@ -95,11 +132,15 @@ def stribeck(
     as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
+    if isinstance(speeds, str) and speeds == AUTO:
+        return _auto(at_tolerance(scene, tolerance, model), fields, store, on_point, raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points, errors = [None] * speeds.size, {}
@@ -114,13 +155,53 @@ def stribeck(
     except BaseException as fault:
         fault.result = _collect(speeds, points, errors)
         raise
-    result = _collect(speeds, points, errors)
+    return _judged(_collect(speeds, points, errors), raise_on_failure)
+
+
+def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
+    """``result``, or the exception that says what failed in it."""
+    errors = result.errors
     refused = [error for error in errors.values() if isinstance(error, ValidityError)]
     if raise_on_failure and errors and len(refused) == len(errors):
         raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
     if raise_on_failure and errors:
         raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
     return result
+
+
+def _auto(model: Model, fields, store, on_point, raise_on_failure) -> StribeckResult:
+    """The curve at speeds of its own choice."""
+    if fields is True:
+        raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
+    low, high = span(model)
+    wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
+    search = Search(low, high, model.scene.numerics.tolerance, wanted, fingerprint(model))
+    journal, found = (None if store is None else Journal(store)), {}
+    try:
+        for speed, outcome in run_adaptive(model, search, journal):
+            found[speed] = outcome
+            if on_point:
+                on_point(len(found), len(found), speed, outcome)
+    finally:
+        if journal is not None:
+            journal.close()
+    speeds = np.array(sorted(found))
+    outcomes = dict(enumerate(found[u] for u in speeds))
+    errors = {i: o for i, o in outcomes.items() if isinstance(o, Exception)}
+    result = _collect(speeds, [None if i in errors else o for i, o in outcomes.items()], errors)
+    if len(speeds) - len(errors) >= FEWEST:
+        result = replace(result, report=_with_interpolation(result, search.tolerance))
+    return _judged(result, raise_on_failure)
+
+
+def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
+    """The report of an adaptive curve: its residual is the estimated error between the points."""
+    error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
+    status = result.report.status if error <= tolerance else ITERATION_LIMIT
+    residuals = {"interpolation": error, "points": result.report.residual}
+    return replace(result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals)
 
 
 def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:

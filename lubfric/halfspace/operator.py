@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import fft
@@ -48,6 +49,11 @@ class HalfSpace(FrozenArrays):
     def astype(self, dtype) -> HalfSpace:
         """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""
         return replace(self, symbol=self.symbol.astype(dtype))
+
+    @cached_property
+    def single(self) -> HalfSpace:
+        """The same operator in single precision, made once."""
+        return self.astype(np.float32)
 
     def coarsened(self, factors) -> HalfSpace:
         """The operator on cells ``factors`` (fx, fy) times as long, from the low frequencies of this one.
@@ -110,9 +116,10 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
     shape = _grid_shape(shape)
     spacing = validate.spacing("spacing", spacing)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
-    boundary = tuple(boundary) if not isinstance(boundary, str) else (boundary, boundary)
-    if len(boundary) != 2:
-        raise InputError(f"boundary = {boundary!r} must name two axes, each 'periodic' or 'free'")
+    boundary = (boundary, boundary) if isinstance(boundary, str) else boundary
+    if not isinstance(boundary, (tuple, list)) or len(boundary) != 2:
+        raise InputError(f"boundary = {validate.shown(boundary)} must name two axes, each 'periodic' or 'free'")
+    boundary = tuple(boundary)
     for axis, kind in enumerate(boundary):
         validate.choice(f"boundary[{axis}]", kind, KINDS)
     if workers is not None:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 from .. import budget
 from ..film.contract import LeftOut
+from ..model import Model
+from ..scene import Numerics
+from .one_grid import Stage
 
 
 @dataclass(frozen=True)
@@ -16,7 +20,8 @@ class Decision:
     friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
     [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
     in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
-    tolerance: asked, on f; heat: what of it was modelled, in words ("": not known); forced: what was not chosen but given.
+    tolerance: asked, on f; deflection:
+    what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not chosen but given.
     """
 
     film: str
@@ -30,6 +35,7 @@ class Decision:
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
+    deflection: str = ""
     heat: str = ""
     forced: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -37,7 +43,7 @@ class Decision:
     @property
     def text(self) -> str:
         """In words, the number beside its budget."""
-        parts = (self.film_text, self._contact(), self._grid(), self.heat, *self.notes)
+        parts = (self.film_text, self._contact(), self._grid(), self.deflection, self.heat, *self.notes)
         return "; ".join(part for part in parts if part)
 
     @property
@@ -81,3 +87,63 @@ class Decision:
 
 def _percent(value: float) -> str:
     return f"{100 * value:.2g} %"
+
+
+def dry(model: Model) -> Decision:
+    """Of a contact without film, on its own grid."""
+    grid, numerics = model.contact.grid, model.scene.numerics
+    return Decision(
+        film="none",
+        contact=model.contact.name,
+        tolerance=numerics.tolerance,
+        shape=None if grid is None else grid.cells,
+        forced=_forced(numerics),
+    )
+
+
+def alone(stage: Stage) -> Decision:
+    """Of a film with the whole load."""
+    state, sq = stage.balance.contact, stage.point.model.surface.sq
+    return replace(_film(stage), contact="none", clearance=(state.mean_film - state.mean_gap) / max(sq, 1e-12))
+
+
+def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
+    """Of film and contact, on a grid of estimated ``error`` of f; ``finest``: the map's own."""
+    model, grid, own = stage.point.model, stage.point.contact.grid, stage.point.model.contact.grid
+    decision = replace(_film(stage), contact=model.contact.name, grid_error=None if finest else error)
+    if grid is not None and own is not None:
+        dx, dy = (round(a / b) for a, b in zip(grid.spacing, own.spacing))
+        decision = replace(decision, shape=grid.cells, coarsening=(dx, dy))
+    if finest and decision.tolerance < error < math.inf:
+        note = (
+            f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
+        )
+        decision = replace(decision, notes=(*decision.notes, note))
+    return decision
+
+
+def _film(stage: Stage) -> Decision:
+    numerics, settings, found = stage.point.scene.numerics, stage.point.settings, stage.balance.forces
+    notes: tuple[str, ...] = ()
+    if settings.level.numerical and found.quadrature > budget.SHEAR_SUM * numerics.tolerance:
+        notes = (
+            f"the film's friction is not resolved (a pressure spike?): estimated error "
+            f"{100 * found.quadrature:.1g} % of f",
+        )
+    return Decision(
+        film=settings.level.name,
+        contact="",
+        tolerance=numerics.tolerance,
+        film_words=settings.level.words,
+        left_out=stage.left_out,
+        sensitivity=found.sensitivity,
+        film_tolerance=settings.film_tolerance if settings.level.numerical else 0.0,
+        heat=found.heat.text(numerics.tolerance),
+        forced=_forced(numerics),
+        notes=notes,
+    )
+
+
+def _forced(numerics: Numerics) -> tuple[str, ...]:
+    full = numerics.model == "full"
+    return tuple(name for name in ("film_level", "contact_level", "grid") if full or getattr(numerics, name) != "auto")

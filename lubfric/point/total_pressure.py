@@ -13,14 +13,15 @@ Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
-from .operating_point import OperatingPoint, Trial
+from ..scene import Scene
+from .operating_point import OperatingPoint, Start, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
 MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
@@ -45,7 +46,7 @@ class Ellipse:
         return x, p * (self.line_load / np.trapezoid(p, x))
 
 
-def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Trial) -> Trial:
+def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Start) -> Trial:
     """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
 
     ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
@@ -54,14 +55,14 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     scene = point.scene
     line_load, half_width = contact_load / scene.bodies.width, scene.bodies.half_width
     if point.contact.nominally_flat:
-        found = point.with_film(film_load, last, Ellipse(line_load, 0.0, half_width).nodes)
-        return point.with_contact(contact_load, found)
-    used, found = _first(last.film, line_load, half_width), last
+        return point.trial(film_load, contact_load, last, Ellipse(line_load, 0.0, half_width).nodes)
+    used = _first(last.film, line_load, half_width)
     tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
     history: list[float] = []
     steps: list[tuple[Ellipse, np.ndarray]] = []
     while len(history) < MOST:
-        found = point.with_contact(contact_load, point.with_film(film_load, found, used.nodes))
+        found = point.trial(film_load, contact_load, last, used.nodes)
+        last = found
         spread = spread_of(scene, found.contact, line_load)
         apart = deflection(scene, *spread.nodes) - deflection(scene, *used.nodes)
         history.append(float(np.max(np.abs(apart))) / found.contact.mean_film)
@@ -82,18 +83,20 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     raise ConvergenceError(report.message, report, (found.film, found.contact))
 
 
-def told(scene, balance):
-    """``balance`` with `mismatch` among the residuals of its report, and `departure` among its notes."""
-    report, line_load = balance.report, balance.contact_load / scene.bodies.width
-    apart = {"deflection": mismatch(scene, balance.film, balance.contact)}
-    notes = report.notes
-    if balance.contact.fields is not None:
-        left_out = 100 * departure(scene, balance.contact, line_load)
-        notes += (
-            f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
-            "mean film more than its semi-ellipse does",
-        )
-    return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
+def residuals(scene: Scene, found: Trial) -> dict[str, float]:
+    """`mismatch`, for the report of a balance."""
+    return {"deflection": mismatch(scene, found.film, found.contact)}
+
+
+def notes(scene: Scene, found: Trial) -> tuple[str, ...]:
+    """`departure` in words, for the report of a balance."""
+    if found.contact.fields is None:
+        return ()
+    left_out = 100 * departure(scene, found.contact, found.contact_load / scene.bodies.width)
+    return (
+        f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
+        "mean film more than its semi-ellipse does",
+    )
 
 
 def mismatch(scene, film, contact) -> float:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from ..errors import LubfricError, ValidityError
 from ..model import Model
-from ..steady import FrictionResult, friction
+from ..result import FrictionResult
+from ..steady import friction
 from ..store import digest
 from .journal import Journal, without_fields
 
@@ -28,7 +29,7 @@ class Chain:
     @property
     def name(self) -> str:
         """Of its state in a journal."""
-        return self.keys[-1]
+        return self.keys[0]
 
 
 def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
@@ -52,11 +53,12 @@ def run_chain(
     """
     start, parent = None, os.getppid()
     if journal is not None and done:
-        start, caught_up = _start(model, chain, journal, done)
-        yield from caught_up
-        done += len(caught_up)
+        start, caught_up = resumed(model, chain, journal, done)
+        if caught_up is not None:
+            yield done, caught_up if chain.fields[done] else without_fields(caught_up)
+            done += 1
     for index in range(done, len(chain.speeds)):
-        outcome = _solved(model, chain, index, start)
+        outcome = solved(model, chain, index, start)
         start = start_from(outcome)
         if os.getppid() != parent:  # who asked for it is dead, and may have been started again
             return
@@ -73,22 +75,22 @@ def start_from(outcome) -> FrictionResult | None:
     return result if isinstance(result, FrictionResult) and result.starts else None
 
 
-def _solved(model, chain, index, start):
+def solved(model: Model, chain: Chain, index: int, start: FrictionResult | None):
+    """The result or error of one point."""
     try:
         return friction(model, chain.speeds[index], start=start, fields=chain.fields[index])
     except LubfricError as error:
         return error
 
 
-def _start(model, chain, journal, done) -> tuple[FrictionResult | None, list]:
-    """The start of the next point, and the point whose record a kill had left out, if there was one."""
+def resumed(model: Model, chain: Chain, journal: Journal, done: int):
+    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done`` points."""
     key, outcome = journal.state(chain.name)
-    caught_up = []
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])
-        caught_up.append((done, outcome))
-    elif key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
+        return start_from(outcome), outcome
+    if key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
         outcome = None
         for index in range(done):
-            outcome = _solved(model, chain, index, start_from(outcome))
-    return start_from(outcome), caught_up
+            outcome = solved(model, chain, index, start_from(outcome))
+    return start_from(outcome), None

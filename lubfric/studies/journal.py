@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
-from ..steady import FrictionResult
+from ..result import FrictionResult
 from ..store import Records, decode, encode, read_checked, write_checked
 from ..store.codec import from_plain, to_plain
 from ..validity.entry import Validity

@@ -1,1 +1,41 @@
-"""Stability maps: where methods work, where they say that they do not, and where they would fool their user."""
+"""``python -m verification stability``: map where methods fail, and prove that the default ones say so.
+
+Exit code 1: a cell of a default method is silently wrong, one inside the promised range failed, a bad input was not refused
+in words, or one of many random scenes was answered wrongly.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+
+from ..check import Item
+from ..frame import Command
+from ..frame import main as run
+from ..studies import Study
+
+MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing"}
+LEVELS = ("full", "quick")
+
+
+def main(argv: list[str]) -> int:
+    """The command."""
+    studies = tuple(
+        Study(name, "verification.stability:stability_map", title, LEVELS, {"name": name})
+        for name, title in MAPS.items()
+    )
+    studies += (
+        Study("bad-inputs", "verification.hostile.study:bad_inputs", "Bad input", LEVELS),
+        Study("soak", "verification.hostile.study:soak", "Random scenes in one process", LEVELS),
+    )
+    return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1), argv)
+
+
+def stability_map(level: str, name: str) -> Iterator[Item]:
+    """Every cell of one map, judged without asking the solver; then their counts and their picture."""
+    from .draw import draw, table
+
+    cells = list(importlib.import_module(f"verification.stability.{name}_map").cells(level))
+    yield from cells
+    yield table(name, cells)
+    yield draw(name, cells)

@@ -23,13 +23,14 @@ from lubfric import (
 )
 from lubfric.model import Model, prepare
 
-from .cell import Cell, Condition, judged
+from ..check import Check
+from .cell import Condition, judged
 from .film_check import viscosity_ratio
 
 ALLOWED = {"friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 
 
-def cells(level: str) -> Iterator[Cell]:
+def cells(level: str) -> Iterator[Check]:
     """All load-sharing cells of ``level`` ("quick" or "full")."""
     quick = level == "quick"
     yield from curves("flat", quick)
@@ -182,7 +183,7 @@ def judge_contact(model: Model, load: float, film) -> Sides:
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
-    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian film before rupture, the far inlet in closed form."""
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in closed form."""
     bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -195,9 +196,12 @@ def own_friction(scene, film, contact: Sides, contact_load: float, speed: float)
     slide = ratio * abs(speed)
     free = 1 - np.interp(sign * x, contact.x, contact.touching, 0.0, 0.0)
     rate = free * slide / h
-    couette = np.sum(
-        np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])
-    ) + oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
+    if oil.eyring_stress is None:
+        couette = np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1]))
+    else:
+        tau = free * oil.eyring_stress * np.arcsinh(eta * slide / (h * oil.eyring_stress))
+        couette = np.sum(np.diff(x) * 0.5 * (tau[1:] + tau[:-1]))
+    couette += oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
     rolling = np.sum(0.25 * (free[1:] + free[:-1]) * (h[1:] + h[:-1]) * np.diff(p)) / 2
     rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
@@ -210,7 +214,7 @@ def _log_mean(eta) -> np.ndarray:
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))
 
 
-def curves(name: str, quick: bool) -> Iterator[Cell]:
+def curves(name: str, quick: bool) -> Iterator[Check]:
     """Lambda 0.01 to 10 by roughness 1 nm to 2 um, both closures; the paper's closure is not the default."""
     roughness = [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5)
     ratios = np.geomspace(0.01, 10, 3 if quick else 10)
@@ -231,7 +235,7 @@ def curves(name: str, quick: bool) -> Iterator[Cell]:
                 )
 
 
-def special_speeds(quick: bool) -> Iterator[Cell]:
+def special_speeds(quick: bool) -> Iterator[Check]:
     """Nearly all film, nearly all contact, no entrainment, reversed entrainment."""
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
@@ -248,7 +252,7 @@ def special_speeds(quick: bool) -> Iterator[Cell]:
         yield from shares(model, name, quick)
 
 
-def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
+def shares(model: Model, name: str, quick: bool) -> Iterator[Check]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
     for share in (
