@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
+from ..rough.height_map import rough_bodies
+from ..roughness import Roughness
 from ..scene import Scene
 from ..surface import Surface, generate_surface
+from ..validate import spacing as checked_spacing
 from .cells import Cells, cells_of_a_box, choose_cells, reach_of
 
 LINE, PAIR = 0, 1  # streams of seeds
@@ -49,37 +52,38 @@ class GeneratedLines:
         return GeneratedLines(self.scene, self.cells.halved(), self.lengths)
 
     def _piece(self, stream, cells: Cells, length: float, columns: int | None = None) -> Surface:
-        rough = self.scene.surface
-        columns = columns or cells.columns(length)
-        surface = generate_surface(
-            (cells.count * rough.oversize, columns),
-            cells.coarse,
-            sq=rough.sq,
-            correlation_length=rough.correlation_length,
-            acf=rough.acf,
-            decay_level=rough.decay_level,
-            seed=seed_of(rough.seed, *stream),
-        )
-        if rough.oversize == 1:
-            return surface
-        return surface.cropped((cells.count, columns)).scaled(sq=rough.sq)
+        shape = cells.count, columns or cells.columns(length)
+        maps = [_one_body(rough, name, stream, cells, shape) for rough, name in rough_bodies(self.scene)]
+        return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+
+
+def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surface:
+    surface = generate_surface(
+        (shape[0] * rough.oversize, shape[1]),
+        cells.coarse,
+        sq=rough.sq,
+        correlation_length=rough.correlation_length,
+        acf=rough.acf,
+        decay_level=rough.decay_level,
+        seed=seed_of(rough.seed, *stream, *(() if name == "surface" else (1,))),
+    )
+    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq)
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
-    """Lines of the generated surface of ``scene``, as long in x as its patch or, unless that is the area A, as the contact
-    is, if it is longer."""
-    from ..validate import spacing as checked_spacing
-
-    rough, patch = scene.surface, scene.contact
+    """Lines of the generated surface of ``scene``, the sum of both bodies', as long in x as its patch or, unless that is the
+    area A, as the contact is, if it is longer."""
+    patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
-    spacing = checked_spacing("contact.spacing", patch.spacing)
-    lengths = lengths_of(rough)
-    half_width = scene.bodies.half_width
+    spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    lengths = tuple(min(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
+    blocks = tuple(max(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
     if patch.region == "box":
-        return GeneratedLines(scene, cells_of_a_box(spacing, lengths, half_width, patch.shape[0]), lengths)
-    reach = max(patch.shape[0] * spacing[0], reach_of(scene, rough.sq))
-    return GeneratedLines(scene, choose_cells(spacing, lengths, half_width, reach), lengths)
+        return GeneratedLines(scene, cells_of_a_box(spacing, lengths, half_width, patch.shape[0]), blocks)
+    sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
+    reach = max(patch.shape[0] * spacing[0], reach_of(scene, sq))
+    return GeneratedLines(scene, choose_cells(spacing, lengths, half_width, reach), blocks)
 
 
 def lengths_of(rough) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..rough.half_space import HalfSpaceContact
-from ..rough.height_map import measured_map
+from ..rough.height_map import measured, rough_bodies, whole_map
 from ..scene import Scene
 from ..surface import Surface
 from .generated import generated_lines
@@ -16,15 +16,17 @@ from .windows import measured_lines
 def takes_line(scene: Scene) -> bool:
     """A rough half-space under a cylinder, its sampling not given as one patch and nothing but the tolerances to decide
     what is modelled."""
-    numerics, contact, rough = scene.numerics, scene.contact, scene.surface
+    numerics, contact = scene.numerics, scene.contact
     levels = numerics.model == "auto" and numerics.contact_level == "auto"
     modelled = contact.geometry == "cylinder" and contact.model == "half-space"
-    return numerics.sampling == "line" and levels and modelled and rough.sq != 0.0
+    return (
+        numerics.sampling == "line" and levels and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
+    )
 
 
 def lines_of(scene: Scene) -> Lines:
     """Lines of the scene's surface, generated or measured; on the scene's own cells where ``numerics.grid`` is given."""
-    found = generated_lines(scene) if scene.surface.file is None else measured_lines(scene, measured_map(scene))
+    found = measured_lines(scene, whole_map(scene)) if measured(scene) else generated_lines(scene)
     if scene.numerics.grid == "given":
         while found.cells.factors != (1, 1):
             found = found.halved()

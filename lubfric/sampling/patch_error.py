@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..point.adapt import Solved
+from ..rough.height_map import measured, rough_bodies
 from .estimate import (
     AREAS,
     ORDER,
@@ -131,7 +132,7 @@ def _mirrored(model) -> bool:
 
 def _correlation_length(model) -> float:
     """Along y [m], at 1/e: that of the scene, or of the map itself."""
-    rough = model.scene.surface
-    if rough.file is None and not model.given:
-        return lengths_of(rough)[1]
+    scene = model.scene
+    if not measured(scene) and not model.given:
+        return max(lengths_of(rough)[1] for rough, _ in rough_bodies(scene))
     return length_or_half(model.surface, 1)

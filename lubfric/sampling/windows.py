@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
+from ..rough.height_map import extended
 from ..scene import Scene
 from ..surface import Surface, correlation_length
 from .cells import Cells, choose_cells, reach_of
@@ -107,9 +108,13 @@ def stack(pieces, blend: int) -> np.ndarray:
 def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredLines:
     """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``; its correlation
     ``lengths`` [m] along x and y, where they are known."""
+    if scene.contact.spacing is not None:
+        surface = surface.resampled(spacing=scene.contact.spacing)
+    reach = reach_of(scene, surface.sq)
+    if extended(scene):
+        surface = surface.continued(reach)
     half_width, (dx, _) = scene.bodies.half_width, surface.spacing
     lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
-    reach = reach_of(scene, surface.sq)
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
     cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
