@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--sampling-tolerance",
         type=float,
-        help="relative standard error of f that the finite length of rough surface may leave (default: the scene's, 0.02)",
+        help="relative standard error of f that a finite rough surface may leave (default: of the scene, 0.02)",
     )
     run.add_argument(
         "--animation",

@@ -25,7 +25,8 @@ from .validity.entry import Validity
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that bodies
+    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
+    bodies
     and map do not meet; lines: where ``surface`` is a line of the scene's roughness, more of it; given: it was given to
     `prepare`, and is all there is.
     """
@@ -75,7 +76,8 @@ def prepare(
 
 
 def _another(scene: Scene, like: Model) -> Model:
-    """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other cells."""
+    """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other
+    cells."""
     lines = None
     if not like.given and (like.lines is not None or takes_line(scene)):
         lines = like.lines.again(scene) if like.lines is not None and takes_line(scene) else None

@@ -36,8 +36,8 @@ class FrictionResult:
 
     ``uncertainty``: of the coefficient, from solvers and grids and because a finite surface stands for all of it (an
     `Uncertainty`: docs/uncertainty.md); ``errors``: relative, of every other number (`FieldErrors`), as
-    ``errors.contact_load``. ``line``: what the long line of a scene leaves for a neighbouring speed to start from; ``balance``
-    then has the fields of its first 180 correlation lengths, and forces and areas are those of all of it.
+    ``errors.contact_load``. ``line``: what the long line of a scene leaves for a neighbouring speed to start from;
+    ``balance`` then has the fields of its first 180 correlation lengths, and forces and areas are those of all of it.
     """
 
     speed: float

@@ -38,8 +38,8 @@ class StribeckResult:
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
     results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
     range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
-    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity: its relative
-    errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
+    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity:
+    its relative errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
     """
 
     speed: np.ndarray

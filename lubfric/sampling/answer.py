@@ -13,8 +13,8 @@ from .patch_error import of_patch
 
 
 def answered(model: Model, speed: float, start: FrictionResult | None, fields: bool, begun: float) -> FrictionResult:
-    """``model`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring speed,
-    ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
+    """``model`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
+    speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
     if model.lines is not None:
         chosen, line = line_friction(model, speed, None if start is None else start.line)
         result, (uncertainty, errors) = result_of(chosen, speed, line.point, begun), of_line(chosen.scene, line)

@@ -31,7 +31,8 @@ def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -
 
 
 def quantities(point: OperatingPoint, balance: Lubricated) -> dict[str, float]:
-    """What is reported of a balance, by the names of `FrictionResult`; mean_gap is the mean film over A, which fills it."""
+    """What is reported of a balance, by the names of `FrictionResult`; mean_gap is the mean film over A, which fills
+    it."""
     film, found = balance.film, balance.forces
     return {
         "coefficient": found.coefficient,

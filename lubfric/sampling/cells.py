@@ -44,8 +44,8 @@ class Cells:
 
 
 def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
-    """At least four cells in each of the correlation ``lengths`` [m], two in the half-width of the strip: powers of two of
-    ``spacing`` [m]; over ``reach`` [m] of x at least."""
+    """At least four cells in each of the correlation ``lengths`` [m], two in the half-width of the strip: powers of
+    two of ``spacing`` [m]; over ``reach`` [m] of x at least."""
     fx, fy = _factors(spacing, lengths, half_width)
     return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
 

@@ -24,8 +24,8 @@ ORDER = 30  # degrees of freedom given to an error that is not counted from bloc
 @dataclass(frozen=True)
 class Numerical:
     """What solvers and grids leave open: film, relative; gap [m], equivalent error of the mean gap at given load (the
-    closing of the volume, the grid of the contact); shear: of the sum of the film's shear stress, relative to f; area: of the
-    contact area, relative (NaN: cannot be told)."""
+    closing of the volume, the grid of the contact); shear: of the sum of the film's shear stress, relative to f;
+    area: of the contact area, relative (NaN: cannot be told)."""
 
     film: float
     gap: float
@@ -34,8 +34,8 @@ class Numerical:
 
 
 def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, area: float) -> Numerical:
-    """Of a balance closed to ``volume_residual``: ``grid_gap`` [m] what the contact grid may still change of the mean gap,
-    ``area`` of the contact area, relative."""
+    """Of a balance closed to ``volume_residual``: ``grid_gap`` [m] what the contact grid may still change of the mean
+    gap, ``area`` of the contact area, relative."""
     balance = point.balance
     volume = 2 * abs(volume_residual) * balance.contact.mean_film if balance.contact_load > 0 else 0.0
     return Numerical(film_error(point), volume + grid_gap, point.balance.forces.quadrature, area)
@@ -108,7 +108,8 @@ def uncertainty_of(
     area_needed=1.0,
     notes=(),
 ) -> Uncertainty:
-    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in its text."""
+    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in
+    its text."""
     asked, notes = scene.numerics.sampling_tolerance, [*notes]
     if sampling > asked and area_needed > 1:
         notes.append(
@@ -119,8 +120,8 @@ def uncertainty_of(
     few = 0 < together.participation < FEW and sampling > 0.25 * asked
     if few:
         notes.append(
-            f"few spots carry the load (participation {together.participation:.2g}, below {FEW:g}): the interval is too "
-            "narrow more often than it says"
+            f"few spots carry the load (participation {together.participation:.2g}, below {FEW:g}): the interval "
+            "is too narrow more often than it says"
         )
     width = scene.bodies.width
     return Uncertainty(

@@ -71,8 +71,8 @@ def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surfa
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
-    """Lines of the generated surface of ``scene``, the sum of both bodies', as long in x as its patch or, unless that is the
-    area A, as the contact is, if it is longer."""
+    """Lines of the generated surface of ``scene``, the sum of both bodies', as long in x as its patch or, unless that
+    is the area A, as the contact is, if it is longer."""
     patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")

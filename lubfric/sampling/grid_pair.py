@@ -1,4 +1,5 @@
-"""What the coarse cells of a line change: the same piece of surface on its own cells and on every so-manieth of them."""
+"""What the coarse cells of a line change: the same piece of surface on its own cells and on every so-manieth of
+them."""
 
 from __future__ import annotations
 
@@ -21,10 +22,12 @@ MOST_CELLS = 300_000  # of a piece, where a coarser one would do
 class GridStep:
     """Changes when the cells of a line become finer, at the line's film and ``contact_load`` [N].
 
-    gap [m]: of the mean gap; error: its standard error; rest [m]: estimated change still to come on the scene's own cells
-    (0: they were reached). area: factor on the contact area, area_error: its relative standard error and the rest; plastic: to be added
-    to the plastic area fraction. beyond [m]: estimated change on cells half as long as the scene's own (NaN: own cells not
-    reached).
+    gap [m]: of the mean gap; error: its standard error; rest [m]: estimated change still to come on the scene's own
+    cells
+    (0: they were reached). area: factor on the contact area, area_error: its relative standard error and the rest;
+    plastic: to be added
+    to the plastic area fraction. beyond [m]: estimated change on cells half as long as the scene's own (NaN: own
+    cells not reached).
     """
 
     gap: float
@@ -39,7 +42,8 @@ class GridStep:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Of every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact; plastic share of A."""
+    """Of every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact; plastic
+    share of A."""
 
     gap: np.ndarray
     touching: np.ndarray
@@ -64,8 +68,8 @@ def grid_step(
     gap_slope: float,
     enough: float,
 ) -> GridStep:
-    """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no further than
-    until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
+    """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no
+    further than until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
 
     ``point``, ``film`` and ``contact_load`` [N] are the line's; gap_slope dG/dP [m²/N]. The change is averaged over
     blocks along y, each with its influence on the mean gap (`influence`).
@@ -122,7 +126,8 @@ def mean_of(steps, name: str, without: float) -> float:
 
 
 def remaining(changes) -> float:
-    """What further halving changes: the rest of a geometric series from the last two changes, ratio 1/4 to 3/4 (1/2 from one)."""
+    """What further halving changes: the rest of a geometric series from the last two changes, ratio 1/4 to 3/4 (1/2
+    from one)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
     ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5

@@ -27,7 +27,8 @@ class BlockError:
 
 
 def strip_gap(contact, state) -> np.ndarray:
-    """G(y) [m] (ny,): mean over the strip A of the gap at every place along the line, of a `ContactState` with fields."""
+    """G(y) [m] (ny,): mean over the strip A of the gap at every place along the line, of a `ContactState` with
+    fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
 
 

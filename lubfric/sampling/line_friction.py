@@ -25,7 +25,8 @@ LIGHT = 0.1  # of the load on the contact: it touches for sure
 
 @dataclass(frozen=True)
 class Used:
-    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again) and the state it was left in."""
+    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again) and the state it
+    was left in."""
 
     length: float
     contact: HalfSpaceContact | None
@@ -50,7 +51,8 @@ class LineFound:
     """The balance that all lines together and the grid ask for, and what is known of its error.
 
     first: the balance of the pilot line as it is; used: the further lines.
-    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed: what contact
+    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed:
+    what contact
     that lines without any have missed by chance would add to f, relative; map_ends: no longer line could be had.
     """
 
@@ -72,8 +74,8 @@ class LineFound:
 
 def line_friction(model: Model, speed: float, start: LineStart | None = None) -> tuple[Model, LineFound]:
     """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
-    ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found of the same
-    model at a neighbouring speed."""
+    ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found
+    of the same model at a neighbouring speed."""
     before = start.grid if start else ()
     model, first = solved_as_deflected(model, speed, start.first if start else None, given_grid=True)
     sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
@@ -91,8 +93,8 @@ def line_friction(model: Model, speed: float, start: LineStart | None = None) ->
 
 
 def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
-    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring speed, if
-    it is long enough, or a new one of ``length``."""
+    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring
+    speed, if it is long enough, or a new one of ``length``."""
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
         there = start.used[index]
         return there.length, there.contact or _line(sample.model, index, there.length), there.state
@@ -107,8 +109,8 @@ def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     """Balance on one more line from where the lines so far have theirs, with the film's level and grid of the anchor.
 
-    The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response gives,
-    to first order.
+    The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response
+    gives, to first order.
     """
     anchor, scene = sample.anchor, sample.model.scene
     there = anchor.point.balance

@@ -56,8 +56,8 @@ def record(
     windows: int = 1,
     rows: slice = slice(None),
 ) -> LineRecord:
-    """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map that
-    follow each other along y; ``rows`` along y that count, where others only mirror them.
+    """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map
+    that follow each other along y; ``rows`` along y that count, where others only mirror them.
 
     The standard error is the larger of those from blocks along y and, of three and more, from windows: a surface that
     differs from place to place shows it there.
@@ -109,8 +109,8 @@ class Pooled:
 
 
 def pooled(records) -> Pooled:
-    """The mean over ``records``; their errors add as independent ones do. A line without contact is as uncertain, for its
-    length, as those with it."""
+    """The mean over ``records``; their errors add as independent ones do. A line without contact is as uncertain, for
+    its length, as those with it."""
     length = sum(r.length for r in records)
 
     def mean(name):

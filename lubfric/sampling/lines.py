@@ -12,7 +12,8 @@ from .cells import Cells
 class Lines(Protocol):
     """Lines of one rough surface, each a `Surface` periodic along y; see `generated` and `windows`.
 
-    scene: whose they are; cells: of every line; lengths: correlation lengths [m] at 1/e along x and y; available [m]: the longest line
+    scene: whose they are; cells: of every line; lengths: correlation lengths [m] at 1/e along x and y; available [m]:
+    the longest line
     there is (infinite where more can be made); nested: a longer line holds the shorter ones, so that it takes their
     place, or is another place of the surface, so that it joins them.
     """
@@ -32,7 +33,8 @@ class Lines(Protocol):
         """Line number ``index``, about ``length`` [m] long."""
 
     def pair(self, index: int, length: float) -> Surface:
-        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long: a whole number of those of a line."""
+        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long: a whole number of those of a
+        line."""
 
     def windows(self, length: float) -> int:
         """Of how many separate stretches of the surface a line of ``length`` [m] is made."""

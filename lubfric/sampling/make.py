@@ -25,7 +25,8 @@ def takes_line(scene: Scene) -> bool:
 
 
 def lines_of(scene: Scene) -> Lines:
-    """Lines of the scene's surface, generated or measured; on the scene's own cells where ``numerics.grid`` is given."""
+    """Lines of the scene's surface, generated or measured; on the scene's own cells where ``numerics.grid`` is
+    given."""
     found = measured_lines(scene, whole_map(scene)) if measured(scene) else generated_lines(scene)
     if scene.numerics.grid == "given":
         while found.cells.factors != (1, 1):

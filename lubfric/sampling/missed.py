@@ -29,7 +29,8 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
 
     The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, fitted by its first two
     moments: of what lies below zero, exp(-...) blocks in number and its scale a in height, each carries as much as a
-    sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5 1.33.
+    sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5
+    1.33.
     An order of magnitude, and no more.
     """
     height, step = heights - film[:, None], spacing[1]

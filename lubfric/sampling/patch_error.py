@@ -1,4 +1,5 @@
-"""What is known of the error where one patch stands for the surface: of a scene that asks for it, or of a map that was given."""
+"""What is known of the error where one patch stands for the surface: of a scene that asks for it, or of a map that
+was given."""
 
 from __future__ import annotations
 
@@ -36,8 +37,8 @@ UNKNOWN = "not known: {}"
 def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a point on one patch.
 
-    The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half of a
-    mirrored map counts. Nothing more is made of the surface: it is all there is.
+    The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half
+    of a mirrored map counts. Nothing more is made of the surface: it is all there is.
     """
     balance = point.balance
     length = model.surface.size[1] / (2 if _mirrored(model) else 1)

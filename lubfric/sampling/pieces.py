@@ -17,7 +17,8 @@ def line_contact(scene, surface: Surface) -> HalfSpaceContact:
 
 
 def thinned(scene, surface: Surface, cells: Cells, factors: tuple[int, int]) -> HalfSpaceContact:
-    """Every ``factors``-th cell of a fine ``surface``, the coarsest of them being the columns of a line of ``cells``."""
+    """Every ``factors``-th cell of a fine ``surface``, the coarsest of them being the columns of a line of
+    ``cells``."""
     fx, fy = factors
     first = cells.factors[0] // 2 % fx
     x = cells.axis()[0] + (np.arange(surface.shape[0]) - cells.factors[0] // 2) * cells.spacing[0]

@@ -26,7 +26,8 @@ class Slopes:
 class Response:
     """Linear answers of a balance.
 
-    slopes: of its contact. split: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at given load; rates:
+    slopes: of its contact. split: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at given load;
+    rates:
     d ln q/ds of the reported quantities q along the balance of load, by name. Without a film the split is what it is.
     """
 
@@ -52,8 +53,8 @@ def slopes_of(state: ContactState, load: float, width: float, close: Callable[[f
 def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[float], dict[str, float]]) -> Response:
     """`Response` of a balance in contact with a film.
 
-    ``at_split(s)`` gives the quantities by name, "mean_gap" the mean film among them, at another division of the load (no contact
-    is solved). The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), dP/ds = -P F_H/F_T.
+    ``at_split(s)`` gives the quantities by name, "mean_gap" the mean film among them, at another division of the load
+    (no contact is solved). The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), dP/ds = -P F_H/F_T.
     """
     low, high = at_split(balance.split - STEP), at_split(balance.split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)

@@ -63,8 +63,8 @@ class Sample:
 
     @property
     def missed(self) -> float:
-        """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and the length
-        of all."""
+        """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and
+        the length of all."""
         model, first = self.model, self.first
         found = missed_share(model, first.balance.film, first.balance.forces, model.lines.lengths[1])
         found = found if math.isfinite(found) else 0.0
@@ -89,8 +89,8 @@ class Sample:
         return so_far + more if lines.nested else more
 
     def with_line(self, contact, point: Solved, before: tuple[GridStep, ...] = ()) -> Sample:
-        """The same with one more line; a longer one of a measured map takes the place of the shorter. ``before``: what was found
-        of the grid at a neighbouring speed."""
+        """The same with one more line; a longer one of a measured map takes the place of the shorter. ``before``:
+        what was found of the grid at a neighbouring speed."""
         lines, balance, length = self.model.lines, point.balance, length_of(contact)
         kept = () if lines.nested else self.records
         if balance.contact_load == 0:

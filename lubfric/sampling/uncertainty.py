@@ -19,7 +19,8 @@ class Uncertainty:
     length of rough surface stands for all of it (NaN: cannot be told, ``text`` says why); interval: f at 95 %, from
     both, by Student's t of ``freedom`` degrees; line_scatter: relative standard deviation of f between lines as wide as
     that of the scene, another place on the surface each; participation: number of equally loaded spots that would
-    carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed (1: enough).
+    carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed
+    (1: enough).
     """
 
     numerical: float = math.nan

@@ -43,7 +43,8 @@ class MeasuredLines:
         return len(self.starts) * self.window
 
     def line(self, index: int, length: float) -> Surface:
-        """The shortest line of whole windows that is at least ``length`` [m] long, or of all; ``index`` tells nothing."""
+        """The shortest line of whole windows that is at least ``length`` [m] long, or of all; ``index`` tells
+        nothing."""
         count = min(len(self.starts), max(1, math.ceil(length / self.window * (1 - 1e-9))))
         fx, fy = self.cells.factors
         pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
@@ -93,8 +94,8 @@ class MeasuredLines:
 
 
 def stack(pieces, blend: int) -> np.ndarray:
-    """Arrays (nx, ny) one after the other along y, the last joined to the first: the last ``blend`` cells of each are laid
-    over the first of the next with weights cos and sin, whose squares add to 1, about the mean of all."""
+    """Arrays (nx, ny) one after the other along y, the last joined to the first: the last ``blend`` cells of each are
+    laid over the first of the next with weights cos and sin, whose squares add to 1, about the mean of all."""
     mean = float(np.mean([p.mean() for p in pieces]))
     angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
     out = []

@@ -177,7 +177,9 @@ import numpy as np
 import lubfric
 from lubfric.history import Harmonic
 from lubfric.history.plan import Transient
-scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
+scene = lubfric.load_scene("paper").with_(
+    numerics={"sampling": "patch"},
+    contact={"shape": (64, 64), "spacing": 0.8e-6},
     surface={"correlation_length": 5e-6},
     transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))
 folder, die = sys.argv[1], len(sys.argv) > 3

@@ -1,4 +1,5 @@
-"""``python -m verification sampling``: does the interval cover the friction of an endless line, and what does it cost?"""
+"""``python -m verification sampling``: does the interval cover the friction of an endless line, and what does it
+cost?"""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from pathlib import Path
 def main(argv: list[str]) -> int:
     """Solve every case many times with seeds of its own, count how often the interval covers, draw the charts.
 
-    Exit code 0: coverage, reported error over scatter and bias of every case within its bounds (`verification.sampling.verdict`).
+    Exit code 0: coverage, reported error over scatter and bias of every case within its bounds
+    (`verification.sampling.verdict`).
     """
     from . import cases, charts, cost, lengths, measure, pieces, verdict
 

@@ -14,7 +14,8 @@ CELL = 1.8e-6
 
 
 def run(trials: int, seed: int, out: Path, tell) -> dict:
-    """{speed: (lengths [m], mean f, standard deviation, truth)} of ``trials`` patches of each length, on cells of 1.8 µm."""
+    """{speed: (lengths [m], mean f, standard deviation, truth)} of ``trials`` patches of each length, on cells of 1.8
+    µm."""
     found = {}
     for speed in SPEEDS:
         truth = _line(speed, seed)

@@ -27,9 +27,7 @@ def run(maps: int, seed: int, out: Path, tell) -> list[dict]:
             for j in range(CUTS):
                 np.save(out / "piece.npy", whole[i * size : (i + 1) * size, j * size : (j + 1) * size])
                 rows.append({**_solve(out / "piece.npy"), "whole": truth["f"], "map": k, "piece": [i, j]})
-        tell(
-            f"map {k}: f = {truth['f']:.5g} of the whole, {[round(r['f'], 5) for r in rows[-CUTS * CUTS :]]} of its pieces"
-        )
+        tell(f"map {k}: f = {truth['f']:.5g} ; pieces {[round(r['f'], 5) for r in rows[-CUTS * CUTS :]]}")
     (out / f"pieces-{seed}.jsonl").write_text("\n".join(json.dumps(r) for r in rows) + "\n")
     return rows
 
