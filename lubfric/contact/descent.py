@@ -217,11 +217,18 @@ class Descent:
         base = np.negative(self.lower, dtype=float)
         limit = self.hardness / self.unit
         pressure = with_load(base + aim, self.target + float(base.sum()), limit)
-        return self._within((pressure - base).astype(np.float32))
+        return self._rounded(pressure, base, np.s_[:])
 
     def _within(self, values) -> np.ndarray:
         np.maximum(values, self.lower, out=values)
         return values if self.upper is None else np.minimum(values, self.upper, out=values)
+
+    def _rounded(self, pressure, base, cells) -> np.ndarray:
+        """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
+        change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
+        if self.upper is not None:
+            change = np.where(pressure >= self.hardness / self.unit, self.upper[cells], change)
+        return change
 
     def _move_carefully(self, free, residue) -> None:
         """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
@@ -239,10 +246,9 @@ class Descent:
             new = with_load(new, share, limit)
         else:
             np.clip(new, 0.0, limit, out=new)
-        way = np.zeros_like(self.change)
-        way[free] = (new - base).astype(np.float32) - self.change[free]
-        self.change += way
-        self._within(self.change)
+        way = np.negative(self.change)
+        self.change[free] = self._rounded(new, base, free)
+        way += self.change
         self.gap += self._answer(way)
         self.known[:] = self.change
 
