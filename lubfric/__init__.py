@@ -35,6 +35,10 @@ _HOME = {
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",
     "Transient": "history.plan",
+    "fit": "fitting",
+    "read_measured": "fitting",
+    "Measured": "fitting",
+    "FitResult": "fitting",
     "study": "studies",
     "plan_study": "studies",
     "open_study": "studies",
@@ -43,6 +47,8 @@ _HOME = {
     "StudyPlan": "studies",
     "StudyResult": "studies",
     "stribeck": "sweep",
+    "traction": "curves",
+    "TractionResult": "curves",
     "StribeckResult": "sweep",
 }
 _PACKAGES = ("oil",)
