@@ -10,8 +10,10 @@ DENSE = 0.8  # share of the cells from which all are taken: gathering costs more
 
 
 class Cells:
-    """Cells ``index`` (flat; None: all) of the ``rows`` of a patch (``whole``: its shape); ``operator``: their deflection
-    under pressure on them, in single precision."""
+    """Cells ``index`` (flat; None: all) of the ``rows`` of a patch (``whole``: its shape).
+
+    ``operator``: their deflection under pressure on them, in single precision.
+    """
 
     def __init__(self, operator, index, rows: slice, whole: tuple[int, int]):
         self.operator, self.index, self.rows, self.whole, self.shape = operator, index, rows, whole, operator.shape
@@ -19,8 +21,8 @@ class Cells:
 
     @staticmethod
     def flagged(operator, flags) -> Cells:
-        """Cells whose ``flags`` are set, or all around them where that is most. Of a free axis x beside a periodic y only
-        the rows that hold some."""
+        """Cells whose ``flags`` are set, or all where that is most; of a free axis x beside a periodic y only the rows
+        that hold some."""
         whole, rows = flags.shape, slice(None)
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))

@@ -63,8 +63,10 @@ class HalfSpace(FrozenArrays):
         return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
 
     def window(self, count: int) -> Strip:
-        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y, in the same gauge; made once
-        for every count."""
+        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y, made once for every count.
+
+        An exact part of this one, in the same gauge.
+        """
         return self._strip(count, count, count - 1)
 
     def _strip(self, count: int, rows: int, farthest: int) -> Strip:
@@ -101,8 +103,10 @@ class HalfSpace(FrozenArrays):
         return fast
 
     def coarsened(self, factors) -> HalfSpace:
-        """The operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once. ``padded`` must be even
-        multiples of the factors."""
+        """The operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once.
+
+        ``padded`` must be even multiples of the factors.
+        """
         key = tuple(int(f) for f in factors)
         if key not in self._made:
             self._made[key] = self._coarsened(key)

@@ -54,8 +54,10 @@ class Strip:
 
 
 def strip(kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=None) -> Strip:
-    """`Strip` of ``count`` rows that deflect ``rows``, at most ``farthest`` rows apart; ``kernel`` [m/Pa] (lags along the
-    free axis, waves along the periodic one)."""
+    """`Strip` of ``count`` rows that deflect ``rows``, at most ``farthest`` rows apart.
+
+    ``kernel`` [m/Pa]: lags along the free axis, waves along the periodic one.
+    """
     reaches, groups, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)], farthest), [], 0
     beyond = 0 if rows == count else 1
     while begin < reaches.size:
