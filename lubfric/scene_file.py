@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from copy import deepcopy
 from dataclasses import MISSING, fields
 from importlib import resources
 from pathlib import Path
@@ -46,14 +47,20 @@ HISTORIES = {
 
 
 def load_scene(source, *, surface_file=None) -> Scene:
-    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+    """The scene in a TOML file, in a dict of its tables, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
 
     ``surface_file``: a height map to use instead of the scene's own surface; in place of a generated one it keeps its
     own grid.
 
     Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
-    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
+    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder,
+    that of a dict to the working folder.
     """
+    if isinstance(source, dict):
+        table = deepcopy(source)
+        if surface_file is not None:
+            _put_surface(table, Path(surface_file))
+        return scene_from_table(table, Path(), "unnamed")
     text, folder, name = _text(source)
     try:
         table = tomllib.loads(text)

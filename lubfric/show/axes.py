@@ -27,10 +27,12 @@ def curve_axes(curve, ax=None, **style):
         fine = np.geomspace(speed[0], speed[-1], 400)
         axes.plot(fine, curve.at(fine), **style)
         axes.plot(speed, curve.coefficient[order], "o", ms=4, color=style["color"])
+        contact, film = curve.parts_at(fine)
     else:
+        fine, contact, film = speed, curve.boundary_force[order] / total, curve.shear_force[order] / total
         axes.plot(speed, curve.coefficient[order], "o-", ms=4, **style)
-    axes.plot(speed, (curve.boundary_force[order]) / total, "--", color=RED, lw=1, label="from the contact spots")
-    axes.plot(speed, curve.shear_force[order] / total, "--", color=GREEN, lw=1, label="from the film")
+    axes.plot(fine, contact, "--", color=RED, lw=1, label="from the contact spots")
+    axes.plot(fine, film, "--", color=GREEN, lw=1, label="from the film")
     axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
     axes.set_ylim(bottom=min(0.0, 1.1 * float(curve.coefficient[order].min(initial=0.0))))
     axes.legend(frameon=False)
@@ -60,13 +62,25 @@ def history_axes(history, ax=None):
     """Friction over time of a `lubfric.TransientResult`, with its parts."""
     axes = axes_or_new(ax)
     sense = np.where(history.sliding_speed < 0, -1.0, 1.0)
-    axes.plot(history.time, history.coefficient, color=BLUE, label="friction coefficient")
-    axes.plot(history.time, history.boundary_force * sense / history.load, "--", color=RED, lw=1, label="from the contact spots")
+    scale, unit = time_scale(float(history.time[-1]))
+    time, contact = history.time * scale, history.boundary_force * sense / history.load
+    axes.plot(time, history.coefficient, color=BLUE, label="friction coefficient")
+    axes.plot(time, contact, "--", color=RED, lw=1, label="from the contact spots")
     film = (history.couette_force + history.rolling_force) * sense / history.load
-    axes.plot(history.time, film, "--", color=GREEN, lw=1, label="from the film")
-    axes.set(xlabel="time (s)", ylabel="friction coefficient (-)")
-    axes.legend(frameon=False)
+    axes.plot(time, film, "--", color=GREEN, lw=1, label="from the film")
+    axes.set(xlabel=f"time ({unit})", ylabel="friction coefficient (-)")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.15 * (high - low))
+    axes.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
     return axes
+
+
+def time_scale(longest: float) -> tuple[float, str]:
+    """(factor, unit) that shows times up to ``longest`` [s] as numbers above one."""
+    for scale, unit in ((1.0, "s"), (1e3, "ms")):
+        if longest * scale >= 1.0:
+            return scale, unit
+    return 1e6, "µs"
 
 
 def loop_axes(history, ax=None):

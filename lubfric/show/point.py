@@ -52,16 +52,25 @@ class PointShown(Shown):
 
     def _grid(self, name: str) -> np.ndarray:
         if self.deterministic is not None:
-            return getattr(self.deterministic.result, name)
+            result = self.deterministic.result
+            return result.x if name == "x" else np.arange(result.pressure.shape[1]) * result.spacing[1]
         found = None if self.balance is None else getattr(self.balance.contact, name)
         if found is None:
-            raise InputError(f"this point keeps no {name}; allowed: lubfric.friction(..., fields=True) under a cylinder")
+            raise InputError(
+                f"this point keeps no {name}; allowed: lubfric.friction(..., fields=True) under a cylinder"
+            )
         return found
 
     def _field(self, name: str) -> np.ndarray:
         if self.deterministic is not None:
             return getattr(self.deterministic.result, name)
         if self.balance is None or self.balance.contact.fields is None:
-            why = "it is separated" if self.contact_load == 0 else "its fields were not kept, or come from a contact curve"
-            raise InputError(f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True")
+            why = (
+                "it is separated"
+                if self.contact_load == 0
+                else "its fields were not kept, or come from a contact curve"
+            )
+            raise InputError(
+                f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True"
+            )
         return getattr(self.balance.contact.fields, name)

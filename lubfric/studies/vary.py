@@ -10,6 +10,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..scene import Scene
+from ..short_forms import short_keys
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
@@ -106,7 +107,7 @@ def _check_key(scene: Scene, key, seen: set) -> None:
         raise InputError(
             f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
         )
-    fields = getattr(scene, section).__dataclass_fields__
+    fields = (*getattr(scene, section).__dataclass_fields__, *short_keys(section))
     if field and field not in fields:
         raise InputError(
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
