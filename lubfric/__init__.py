@@ -53,6 +53,8 @@ _HOME = {
     "StudyPlan": "studies",
     "StudyResult": "studies",
     "stribeck": "sweep",
+    "traction": "curves",
+    "TractionResult": "curves",
     "StribeckResult": "sweep",
 }
 _PACKAGES = ("oil",)

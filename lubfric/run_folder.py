@@ -19,6 +19,8 @@ OUTPUTS = (  # of sweeps and of runs in time; the result, which says that a fold
     "stribeck.csv",
     "stribeck.png",
     "contact.png",
+    "traction.csv",
+    "traction.png",
     "history.csv",
     "history.png",
     "animation.gif",

@@ -11,7 +11,7 @@ from .history.kinds import History
 from .history.read import KINDS
 from .oil.oil import Oil
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "contact", "numerics", "transient")
+SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")
 
 
 def scene_as_toml(scene) -> str:
@@ -33,7 +33,7 @@ def scene_as_toml(scene) -> str:
             if isinstance(value, Oil):
                 lines.append("# the oil's numbers at its temperature")
                 continue
-            if (section, field.name) == ("surface", "file"):
+            if field.name == "file":
                 value = str(Path(value).absolute())
             lines.append(f"{field.name} = {_text(value)}")
     return "\n".join(lines) + "\n"

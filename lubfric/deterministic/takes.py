@@ -31,7 +31,7 @@ def check_scene(scene: Scene) -> None:
     """Raise `InputError` for what a deterministic film does not take."""
     for section, key, allowed in TAKEN:
         value = getattr(getattr(scene, section), key)
-        if value != allowed:
+        if value not in (allowed, "auto"):
             raise InputError(
                 f"{section}.{key} = {value!r} does not go with numerics.model = 'deterministic'; "
                 f"allowed: {allowed!r}{WHY.get(key, '')}, or numerics.model = 'auto'"

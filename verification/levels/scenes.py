@@ -73,7 +73,7 @@ def scene(values: dict, index: int) -> Scene:
         Motion(values["speed"]),
         Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
         Patch(shape=shape, spacing=(across, cell)),
-        Numerics(),
+        Numerics(film_deflection="hydrodynamic"),
         name=f"scene {index}",
     )
 
