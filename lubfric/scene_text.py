@@ -12,10 +12,11 @@ from .history.read import KINDS
 from .oil.oil import Oil
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")
+ROUGH = ("surface", "counterface")  # of which keys that do not apply are refused: defaults are left out
 
 
 def scene_as_toml(scene) -> str:
-    """All of ``scene``, defaults included; what is None is left out. A ``surface.file`` is written with its whole path. An oil
+    """All of ``scene``, defaults included but for those of a roughness; what is None is left out. A ``surface.file`` is written with its whole path. An oil
     becomes the numbers that it has at its temperature.
 
     Raises `InputError` for a history that is none of the kinds of scene files.
@@ -28,7 +29,7 @@ def scene_as_toml(scene) -> str:
         lines += ["", f"[{section}]"]
         for field in fields(part):
             value = getattr(part, field.name)
-            if value is None or value == ():
+            if value is None or value == () or (section in ROUGH and value == field.default):
                 continue
             if isinstance(value, Oil):
                 lines.append("# the oil's numbers at its temperature")

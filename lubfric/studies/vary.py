@@ -51,8 +51,7 @@ class Axis:
         sections = {}
         for key, value in zip(self.keys, self.values[index]):
             section, _, field = key.partition(".")
-            part = value if field == "" else {field: value}
-            sections[section] = sections.get(section, {}) | part
+            sections[section] = sections.get(section, {}) | {field: value} if field else value
         return scene.with_(**sections)
 
 
