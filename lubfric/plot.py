@@ -78,8 +78,8 @@ def plot_contact(path: Path, model, point) -> None:
     """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
     ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
-    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in which
-    u has zero mean over the section.
+    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in
+    which u has zero mean over the section.
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)

@@ -27,8 +27,8 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -
     """Compute and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
 
     The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run has
-    is written, then `ConvergenceError` raised.
+    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run
+    has is written, then `ConvergenceError` raised.
     """
     asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     asked, chosen = _with_chosen(asked, parse_speeds("--fields", fields) or [scene.motion.entrainment_speed])

@@ -36,8 +36,9 @@ class StribeckResult(Shown):
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the range
-    of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the speeds.
+    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
+    range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
+    speeds.
     """
 
     speed: np.ndarray
@@ -90,7 +91,8 @@ class StribeckResult(Shown):
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach it."""
+        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach
+        it."""
         return self._interpolant.lift_off
 
     @cached_property
@@ -141,19 +143,19 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on f
-    everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication
-    to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other.
-    Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
-    again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
-    exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own
-    contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
-    the same call goes on from there, to the same bits (the folder is the caller's to remove).
+    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on
+    f everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary
+    lubrication to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the
+    other. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
+    solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
+    or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
+    scene's own contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every
+    point as it ends; the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
-    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
-    as it is, with the points so far as its ``result``.
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the
+    whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes
+    through as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")

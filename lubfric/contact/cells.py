@@ -8,8 +8,8 @@ DENSE = 0.8  # share of the cells from which all are taken: gathering costs more
 
 
 class Cells:
-    """``index``: flat, within the part of the patch with ``shape`` that ``operator`` (single precision) is for; None: all
-    its cells."""
+    """``index``: flat, within the part of the patch with ``shape`` that ``operator`` (single precision) is for; None:
+    all its cells."""
 
     def __init__(self, operator, index):
         self.operator, self.shape, self.index = operator, operator.shape, index

@@ -74,7 +74,8 @@ class Descent:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
-        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit`` times."""
+        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit``
+        times."""
         best, waiting = math.inf, 0
         while True:
             free, weight, residue, worst = self._look()
