@@ -50,7 +50,7 @@ HISTORIES = {
 
 
 def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
-    """The scene in a TOML file, in a dict of its tables, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+    """The scene in a TOML file, in a dict of its tables, or built in: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
 
     ``surface_file``, ``counterface_file``: height maps to use instead of the scene's own; in place of a generated
     surface a map keeps its own grid.

@@ -16,9 +16,9 @@ ROUGH = ("surface", "counterface")  # of which keys that do not apply are refuse
 
 
 def scene_as_toml(scene) -> str:
-    """All of ``scene``, defaults included but for those of a roughness; what is None is left out. A ``surface.file`` is written with its whole path. An oil
-    becomes the numbers that it has at its temperature.
+    """All of ``scene``, defaults included but for those of a roughness; what is None is left out.
 
+    A ``surface.file`` is written with its whole path. An oil becomes the numbers that it has at its temperature.
     Raises `InputError` for a history that is none of the kinds of scene files.
     """
     lines = [f"name = {json.dumps(scene.name)}"]

@@ -106,7 +106,7 @@ class StribeckResult(Shown):
         return Interpolant(samples, knee_of(samples))
 
     def plot(self, ax=None, **style):
-        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line of f."""
+        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
         from .show.axes import curve_axes
 
         return curve_axes(self, ax, **style)

@@ -17,7 +17,7 @@ def axes_or_new(ax, size=(7, 4.5)):
 
 
 def curve_axes(curve, ax=None, **style):
-    """Friction over speed of a `lubfric.StribeckResult`, with its parts; between the points of a chosen curve as interpolated."""
+    """Friction over speed of a `lubfric.StribeckResult`, with its parts; where it chose its speeds, as interpolated."""
     axes = axes_or_new(ax)
     good = np.isfinite(curve.coefficient) & (curve.speed != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]
@@ -84,7 +84,7 @@ def time_scale(longest: float) -> tuple[float, str]:
 
 
 def loop_axes(history, ax=None):
-    """Friction over entrainment speed of a `lubfric.TransientResult`: its hysteresis loop, the start of the run marked."""
+    """Friction over entrainment speed of a `lubfric.TransientResult`: its hysteresis loop, the start marked."""
     axes = axes_or_new(ax)
     axes.plot(history.entrainment_speed, history.coefficient, color=BLUE)
     axes.plot(history.entrainment_speed[:1], history.coefficient[:1], "o", color=GREY, label="start")

@@ -25,6 +25,11 @@ class PointShown(Shown):
         return facts
 
     @property
+    def shows_contact(self) -> bool:
+        """Whether `pressure` and `gap` are there."""
+        return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
+
+    @property
     def x(self) -> np.ndarray:
         """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
         return self._grid("x")
