@@ -28,7 +28,17 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic", "uncertainty", "errors", "line")
+NOT_NUMBERS = (
+    "report",
+    "balance",
+    "decision",
+    "validity",
+    "deterministic",
+    "one_way",
+    "uncertainty",
+    "errors",
+    "line",
+)
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 

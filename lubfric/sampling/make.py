@@ -17,7 +17,7 @@ def takes_line(scene: Scene) -> bool:
     """A rough half-space under a cylinder, its sampling not given as one patch and nothing but the tolerances to decide
     what is modelled."""
     numerics, contact = scene.numerics, scene.contact
-    levels = numerics.model == "auto" and numerics.contact_level == "auto"
+    levels = numerics.model == "auto" and numerics.contact_level == "auto" and numerics.closure != "one-way"
     modelled = contact.geometry == "cylinder" and contact.model == "half-space"
     return (
         numerics.sampling == "line" and levels and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
