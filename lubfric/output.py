@@ -66,7 +66,8 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold there."""
+    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold
+    there."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
     texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
     return table_bytes(columns | {"validity": np.array(texts, dtype=object)})

@@ -38,7 +38,8 @@ class Bodies:
     radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
     e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
     contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
-    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away (steel).
+    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away
+    (steel).
     """
 
     radius: float
@@ -164,14 +165,14 @@ class Numerics:
 
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total"); "auto": the first
-    where that changes f by less than its share of the tolerance, else the second.
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total");
+    "auto": the first where that changes f by less than its share of the tolerance, else the second.
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
-    contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it matters and
-    the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
-    the model are returned, marked, instead of refused.
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md).
+    film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
+    matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
+    the range of the model are returned, marked, instead of refused.
     """
 
     tolerance: float = 0.01
@@ -242,7 +243,8 @@ class Numerics:
 class Scene:
     """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
 
-    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in contact.
+    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in
+    contact.
     """
 
     bodies: Bodies
@@ -258,7 +260,8 @@ class Scene:
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an oil (lubricant.grade, "
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an "
+                "oil (lubricant.grade, "
                 "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
             )
 
@@ -275,6 +278,12 @@ class Scene:
                 )
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from .scene_text import scene_as_toml
+
+        return scene_as_toml(self)
 
 
 def _changed(section: str, old, values):

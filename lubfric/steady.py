@@ -33,14 +33,15 @@ def friction(
     entrainment the contact carries everything; when the film clears the summits no contact is solved.
 
     ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``: no
-    load is shared, one pressure carries it (docs/deterministic.md).
+    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``:
+    no load is shared, one pressure carries it (docs/deterministic.md).
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
     not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
-    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always raises).
+    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always
+    raises).
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
@@ -57,7 +58,8 @@ def friction(
         result = result_of(chosen, speed, point, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
-            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and stresses "
+            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "
+            "viscosities and stresses "
             "of a lubricated contact"
         )
     if raise_on_failure:

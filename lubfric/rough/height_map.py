@@ -17,8 +17,8 @@ STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the sa
 
 
 def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``, those of both bodies as one map; or take those
-    of ``surface`` as they are.
+    """Generate, or read, turn, scale, cut and close the heights of ``scene``, those of both bodies as one map; or take
+    those of ``surface`` as they are.
 
     A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
     it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
@@ -51,7 +51,8 @@ def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
 
 
 def check_grid(scene: Scene, surface: Surface) -> None:
-    """Raise `InputError` for slopes no surface has, a strip that the cells do not resolve, a patch that does not hold it."""
+    """Raise `InputError` for slopes no surface has, a strip that the cells do not resolve, a patch that does not hold
+    it."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
         raise InputError(
@@ -109,14 +110,17 @@ def measured_map(rough: Roughness) -> Surface:
 
 
 def refuse_outliers(surface: Surface) -> None:
-    """Raise `InputError` for points that stand alone above their neighbours: they, and no roughness, would carry the load."""
+    """Raise `InputError` for points that stand alone above their neighbours: they, and no roughness, would carry the
+    load."""
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:
         z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
         raise InputError(
-            f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours and would carry "
-            f"the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; allowed: surface.outliers = 'mask' to take them "
+            f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours "
+            "and would carry "
+            f"the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; allowed: surface.outliers = 'mask' "
+            "to take them "
             "for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
         )
 

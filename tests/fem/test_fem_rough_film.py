@@ -1,4 +1,5 @@
-"""The finite-element film in a given gap: the rigid cylinder in closed form, and a prescribed part of its own pressure."""
+"""The finite-element film in a given gap: the rigid cylinder in closed form, and a prescribed part of its own
+pressure."""
 
 from dataclasses import replace
 

@@ -366,8 +366,8 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
 
 
 def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
-    """Step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, none on held ones, shortened where viscosity would run
-    away."""
+    """Step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, none on held ones, shortened where viscosity would
+    run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

@@ -1,4 +1,5 @@
-"""The film in a rough gap that is given on cells: Reynolds by finite elements on triangles, fine where the gap is narrow.
+"""The film in a rough gap that is given on cells: Reynolds by finite elements on triangles, fine where the gap is
+narrow.
 
 The gap comes as numbers at the centres of cells (x along the motion, y periodic and symmetric about its ends and its
 middle), is linear between them, and goes on upstream as a parabola. Spots of contact may come with their pressure,
@@ -24,8 +25,8 @@ SYMMETRY = 1e-6
 
 @dataclass(frozen=True)
 class GivenGap:
-    """x (nx,) [m], spacing dy [m], gap and pressure (nx, ny) [m], [Pa]; contact (nx, ny): where the pressure is prescribed;
-    radius [m] and log [m]: of h = h_first + (x² - x_first²)/(2R) - log ln(x/x_first) upstream."""
+    """x (nx,) [m], spacing dy [m], gap and pressure (nx, ny) [m], [Pa]; contact (nx, ny): where the pressure is
+    prescribed; radius [m] and log [m]: of h = h_first + (x² - x_first²)/(2R) - log ln(x/x_first) upstream."""
 
     x: np.ndarray
     dy: float
@@ -76,8 +77,8 @@ class GivenGap:
 
 
 def mesh_of(given: GivenGap, cells: int, refinements: int) -> skfem.MeshTri:
-    """Triangles of about the period over ``cells`` across; where the gap is narrower than half its mean over the section,
-    or the pressure above a tenth of its largest, halved ``refinements`` times."""
+    """Triangles of about the period over ``cells`` across; where the gap is narrower than half its mean over the
+    section, or the pressure above a tenth of its largest, halved ``refinements`` times."""
     step = 2 * given.width / cells
     first, last = given.x[0], given.x[-1]
     inner = np.linspace(first, last, int(round((last - first) / step)) + 1)
@@ -95,8 +96,8 @@ def mesh_of(given: GivenGap, cells: int, refinements: int) -> skfem.MeshTri:
 
 @dataclass(frozen=True)
 class RoughFilm:
-    """The finite-element film: load upstream of the given cells [N/m] and flow [m²/s], per width; pressure [Pa] (nx, ny/2)
-    at the centres of the given cells in the half that was meshed; and the solution."""
+    """The finite-element film: load upstream of the given cells [N/m] and flow [m²/s], per width; pressure [Pa] (nx,
+    ny/2) at the centres of the given cells in the half that was meshed; and the solution."""
 
     upstream: float
     flow: float

@@ -183,7 +183,8 @@ def judge_contact(model: Model, load: float, film) -> Sides:
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
-    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in closed form."""
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in
+    closed form."""
     bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)

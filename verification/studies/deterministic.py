@@ -30,12 +30,12 @@ CASES = {  # cells over 90 µm and speeds [m/s]
 
 
 def deterministic(level: str):
-    """One pressure for film and contact: the smooth film of `solve_ehl`, the dry contact of `solve_contact`, and the film
-    in the rough gap by finite elements.
+    """One pressure for film and contact: the smooth film of `solve_ehl`, the dry contact of `solve_contact`, and the
+    film in the rough gap by finite elements.
 
     The gap of a deterministic solution is handed to a finite-element Reynolds solver on triangles, with the pressure of
-    the spots above 100 MPa, as what one would call contact; flow and load of the film around them must come out again. In
-    a thin film under such pressures the gap does not determine the pressure well enough to be given. The surface
+    the spots above 100 MPa, as what one would call contact; flow and load of the film around them must come out again.
+    In a thin film under such pressures the gap does not determine the pressure well enough to be given. The surface
     is its own mirror image, so that half of it can be meshed.
     """
     yield from smooth()
@@ -128,7 +128,8 @@ def refinement():
     for seed in range(1, 6):
         for speed in (0.03, 0.01, 0.003):
             grids = [(n, round(n * 100 / 256) * 2) for n in (128, 256, 512)]
-            found = solve_refined(lambda shape: problem(shape[0], speed, seed), grids, tolerance=0.0, least=3)  # noqa: B023
+            # noqa: B023
+            found = solve_refined(lambda shape: problem(shape[0], speed, seed), grids, tolerance=0.0, least=3)
             f = [r.coefficient for r in found.results]
             order = np.log2(abs(f[1] - f[0]) / max(abs(f[2] - f[1]), 1e-300))
             rows.append((seed, speed, *f, order, found.error))
