@@ -28,7 +28,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
 
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
-    c = {k: v[order] for k, v in columns.items()}
+    c = type(columns)((k, v[order]) for k, v in columns.items())
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
     figure = _figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
@@ -78,8 +78,8 @@ def plot_contact(path: Path, model, point) -> None:
     """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
     ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
-    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in which
-    u has zero mean over the section.
+    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in
+    which u has zero mean over the section.
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)

@@ -23,13 +23,13 @@ class FrictionResult:
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
     carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
-    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the film, by the
-    heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and (mean across) of the film above
-    them (1, 0, 0 where heat is left out). The residuals are relative: load
+    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the
+    film, by the heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and
+    (mean across) of the film above them (1, 0, 0 where heat is left out). The residuals are relative: load
     (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
-    (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
-    (``decision.text`` in words); ``validity``: the assumptions that do not hold
+    (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged
+    by (``decision.text`` in words); ``validity``: the assumptions that do not hold
     (`lubfric.Validity`); a severe one is there only where it was accepted.
     """
 

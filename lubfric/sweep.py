@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 
@@ -34,8 +35,9 @@ class StribeckResult:
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the range
-    of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the speeds.
+    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
+    range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
+    speeds.
     """
 
     speed: np.ndarray
@@ -83,7 +85,8 @@ class StribeckResult:
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach it."""
+        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach
+        it."""
         return self._interpolant.lift_off
 
     @cached_property
@@ -116,28 +119,30 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on f
-    everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication
-    to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other.
-    Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
-    again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
-    exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own
-    contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
-    the same call goes on from there, to the same bits (the folder is the caller's to remove).
+    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on
+    f everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary
+    lubrication to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the
+    other. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
+    solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
+    or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
+    scene's own contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every
+    point as it ends; the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
-    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
-    as it is, with the points so far as its ``result``.
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the
+    whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes
+    through as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
         return _auto(at_tolerance(scene, tolerance, model), fields, store, on_point, raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points, errors = [None] * speeds.size, {}

@@ -38,6 +38,7 @@ def check_scene(scene: Scene) -> None:
             )
     if scene.numerics.heat not in HEAT:
         raise InputError(
-            f"numerics.heat = {scene.numerics.heat!r} does not go with numerics.model = 'deterministic', which is isothermal; "
+            f"numerics.heat = {scene.numerics.heat!r} does not go with numerics.model = 'deterministic', which "
+            "is isothermal; "
             f"allowed: {', '.join(map(repr, HEAT))}"
         )

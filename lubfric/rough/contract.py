@@ -1,7 +1,8 @@
 """What every rough contact under a film answers: all that an implementer needs to know.
 
-`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which is
-always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of it.
+`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which
+is always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of
+it.
 """
 
 from __future__ import annotations
@@ -55,8 +56,8 @@ class ContactState:
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
 
     def touching(self, x) -> np.ndarray:
-        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either way:
-        the columns of the contact are finer than the cells of a film, and vary from one to the next."""
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
+        way: the columns of the contact are finer than the cells of a film, and vary from one to the next."""
         step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
         edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
         touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
@@ -73,8 +74,8 @@ class Grid(NamedTuple):
 class RoughContact:
     """A rough contact under a film, immutable; loads in N on the whole width of the line.
 
-    name: a property, in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight (nx,): part of
-    each of them inside the area A of Eq. (8).
+    name: a property, in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight
+    (nx,): part of each of them inside the area A of Eq. (8).
     """
 
     x: np.ndarray

@@ -74,7 +74,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
-    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies together:
+    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies
+    together:
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
 

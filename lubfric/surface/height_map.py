@@ -113,17 +113,18 @@ class Surface(FrozenArrays):
             found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
             if not found.any():
                 break
-            mask = mask & ~found
+            mask = mask & (found == 0)
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
         return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
-        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this order.
+        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this
+        order.
 
         S-filter: waves shorter than ``s`` are taken out; L-filter: waves longer than ``l``. Level first (F-operation:
-        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells or
-        longer than the map, and for s >= l.
+        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells
+        or longer than the map, and for s >= l.
         """
         s, l = filters.checked_indices(self, s, l)
         new = self
@@ -231,7 +232,8 @@ class Surface(FrozenArrays):
         return pair.combined(self, other)
 
     def continued(self, length: float) -> Surface:
-        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x then."""
+        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x
+        then."""
         if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
         new = self.periodic("mirror", axes=(True, False))

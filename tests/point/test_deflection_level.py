@@ -1,4 +1,5 @@
-"""Which pressure deflects the film, chosen by a number: its estimate bounds the change, the limits are right, and it is told."""
+"""Which pressure deflects the film, chosen by a number: its estimate bounds the change, the limits are right, and it is
+told."""
 
 import numpy as np
 import pytest

@@ -68,8 +68,8 @@ def load_sharing(level: str):
     section with waves along the line, active set and dense algebra, against lubfric's Bessel kernel and
     conjugate gradient. *Balance and friction*: own root finder, own integrals. Both sides get the same
     heights on the same cells and the same meaning of a displacement, its mean over a cell: lubfric's own, at cell
-    centres, is averaged over parts of the cells by its own kernel (`cell_mean`). What is left is the error of the finite
-    elements.
+    centres, is averaged over parts of the cells by its own kernel (`cell_mean`). What is left is the error of the
+    finite elements.
     """
     options, points = LEVELS[level], []
     for cells in options.grids:
@@ -158,8 +158,9 @@ def averaged(model: Model) -> Model:
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """Displacements averaged over ``PARTS`` parts of each cell along x, under the same uniform pressure of cells: lubfric's
-    own coefficients on a grid of parts, summed over those of the source and averaged over those of the target."""
+    """Displacements averaged over ``PARTS`` parts of each cell along x, under the same uniform pressure of cells:
+    lubfric's own coefficients on a grid of parts, summed over those of the source and averaged over those of the
+    target."""
     (nx, ny), (dx, dy) = operator.shape, operator.spacing
     parts = semiperiodic_coefficients((nx * PARTS, ny), (dx / PARTS, dy), operator.e_prime)
     away = np.arange(nx)[:, None] * PARTS + np.arange(1 - PARTS, PARTS)

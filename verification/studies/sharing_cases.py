@@ -1,4 +1,5 @@
-"""Load sharing by finite elements beyond the paper's corner: oils, sliding, yielding, the flat contact, a measured map."""
+"""Load sharing by finite elements beyond the paper's corner: oils, sliding, yielding, the flat contact, a measured
+map."""
 
 from __future__ import annotations
 
@@ -70,8 +71,8 @@ def sharing_cases(level: str):
     """What `load_sharing` does at one corner, at others: f, both loads, gap and shear force of `lubfric.friction`.
 
     Eyring's law with a limiting shear stress, a compressible oil, Barus' law, nearly pure rolling and the other surface
-    sliding, a hardness at which cells do yield; then a measured map that has to be turned, scaled and mirrored, on cells
-    that are not square, and the nominally flat contact, whose patch is pressed on an elastic layer of bricks.
+    sliding, a hardness at which cells do yield; then a measured map that has to be turned, scaled and mirrored, on
+    cells that are not square, and the nominally flat contact, whose patch is pressed on an elastic layer of bricks.
     """
     asked, refinements = TOLERANCE[level], REFINEMENTS[level]
     body, heights = strip(LENGTH / CELLS), rough(CELLS, CELLS)
@@ -133,7 +134,8 @@ def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model
 
 
 def measured_map(allowed, refinements: int):
-    """A ground surface in a file: lines of an axis that is not that of motion, other cells along it, tilted, too rough."""
+    """A ground surface in a file: lines of an axis that is not that of motion, other cells along it, tilted, too
+    rough."""
     across = 1.1e-6
     case = Case("measured map", 0.01)
     with tempfile.TemporaryDirectory() as folder:
