@@ -1,4 +1,4 @@
-"""Options lost on their way to the number: each function still works, but something that was asked for does not arrive."""
+"""Options lost on their way to the number: each function works, but something that was asked for does not arrive."""
 
 from __future__ import annotations
 
@@ -218,7 +218,7 @@ MUTANTS = (
     Mutant(
         "subsampled_grids",
         "coarse grids take every other height instead of means",
-        {"lubfric.rough.half_space:coarsened": subsampled},
+        {"lubfric.rough.half_space_grid:HalfSpaceGrid.coarsened": subsampled},
         CONTACT,
     ),
     Mutant("motion_axis", "motion_axis = 'y' ignored", {"lubfric.surface.height_map:Surface.transposed": itself}, MAPS),

@@ -18,8 +18,11 @@ STRIP = "pressures of the strip that was found, summed anew"
 
 
 def wiring_contact(level: str) -> Iterator[Check]:
-    """At rest the contact carries everything, so that hardness and area can be seen on it alone: the flat curve against one
-    dry contact at its pressure, asperities that all yield against load over hardness, the cylinder against its hardness."""
+    """At rest the contact carries everything, so that hardness and area can be seen on it alone.
+
+    The flat curve against one dry contact at its pressure, asperities that all yield against load over hardness, the
+    cylinder against its hardness; then coarse grids, and what part of the width is touched.
+    """
     yield from flat()
     yield from asperities()
     yield from cylinder()

@@ -29,8 +29,8 @@ SHEARED = {
 
 
 def wiring_film(level: str) -> Iterator[Check]:
-    """Laws of the oil in the film of `friction`, against another discretisation called with plain numbers; its shear force,
-    with each law of shear, against an own integral with the columns in contact taken out."""
+    """Laws of the oil in the film of `friction`, against another discretisation called with plain numbers; its shear
+    force, with each law of shear, against an own integral with the columns in contact taken out."""
     for name, oil in LAWS.items():
         yield from film(name, oil)
     for name, (oil, motion) in SHEARED.items():

@@ -20,8 +20,8 @@ SIZE = (56, 40)
 
 
 def wiring_maps(level: str) -> Iterator[Check]:
-    """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy; of a generated
-    map its height and lengths."""
+    """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy; of a
+    generated map its height and lengths."""
     with tempfile.TemporaryDirectory() as folder:
         yield from measured(Path(folder))
     yield from generated()
