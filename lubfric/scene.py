@@ -23,7 +23,7 @@ CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 HEATS = ("auto", "on", "off")
-CLOSURES = ("load", "separation")
+CLOSURES = ("load", "separation", "one-way")
 FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
@@ -278,6 +278,12 @@ class Scene:
                 )
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from .scene_text import scene_as_toml
+
+        return scene_as_toml(self)
 
 
 def _changed(section: str, old, values):
