@@ -27,7 +27,7 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
+NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic", "one_way")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 

@@ -67,6 +67,8 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     base = scene.scene if isinstance(scene, Model) else scene
     if base.numerics.model == "deterministic":
         raise InputError("numerics.model = 'deterministic' is steady; allowed for a transient: 'auto', 'full'")
+    if base.numerics.closure == "one-way":
+        raise InputError("numerics.closure = 'one-way' is steady; allowed for a transient: 'load', 'separation'")
     if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
             "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), "
