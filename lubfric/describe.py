@@ -14,7 +14,7 @@ from .sampling.outlook import in_words
 from .scene import Scene
 from .surface import correlation_length, rms_slope
 
-SOLVE_FIELDS = 12  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
+SOLVE_FIELDS = 14  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 12.5)
 
 
 def describe_scene(scene: Scene) -> str:

@@ -11,6 +11,7 @@ from .lines import Lines
 
 CELL_SECONDS = 2.5e-6  # processor time of a cell of a line in balance, about
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
+RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 
@@ -31,7 +32,7 @@ def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float
     film = line.moes_film
     if film > CLEAR * sq:
         return 0.0, pilot
-    gap = max(GAP * sq, film)
+    gap = GAP * sq + RISE * film
     share = min(film / gap, 1.0)
     scatter = sq * math.sqrt(math.pi * lx * ly / (pilot * (2 * bodies.half_width + math.sqrt(math.pi) * lx)))
     error = scatter / gap * share / (1 - share + FLOOR)
