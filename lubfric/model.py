@@ -13,14 +13,15 @@ from .rough.contract import RoughContact
 from .rough.height_map import contact_map
 from .rough.make import rough_contact
 from .scene import Scene
+from .show import Shown
 from .surface import Surface
 from .validate import instance
 from .validity.beforehand import beforehand
 from .validity.entry import Validity
 
 
-@dataclass(frozen=True)
-class Model:
+@dataclass(frozen=True, repr=False)
+class Model(Shown):
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
     known: assumptions that bodies and map do not meet.
@@ -33,6 +34,9 @@ class Model:
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
     known: tuple[Validity, ...] = ()
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.scene.name, "map": self.surface.describe()}
 
 
 def prepare(

@@ -48,6 +48,8 @@ def test_every_result_is_one_line_and_one_table(point, curve, history):
         "21 times": history,
         "48 x 48 points": MODEL.surface,
         "48 x 48 cells": point.balance.contact.fields,
+        "nodes, M": lubfric.friction(MODEL, 0.05, model="full").balance.film,
+        "paper, map": MODEL,
     }
     for words, result in results.items():
         assert words in repr(result) and "\n" not in repr(result) and len(repr(result)) < 250, repr(result)
