@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .deterministic.takes import check_scene
+from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
@@ -56,7 +56,7 @@ def prepare(
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
-    if scene.numerics.model == "deterministic":
+    if whole(scene):
         check_scene(scene)
     if like is not None:
         instance("like", like, Model, "what lubfric.prepare returned")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from .deterministic.refine import Refined
 from .model import Model
 from .oil.describe import estimate_in_words
+from .one_way.point import OneWay
 from .point.adapt import Solved
 from .point.balance import Balance
 from .point.decision import Decision
@@ -60,15 +61,17 @@ class FrictionResult(PointShown):
     decision: Decision | None = None
     validity: tuple[Validity, ...] = ()
     deterministic: Refined | None = None
+    one_way: tuple[OneWay, ...] = ()
 
     @property
     def starts(self) -> bool:
         """A neighbouring speed can start from it: it has its fields, and a film."""
-        return self.deterministic is not None or (self.balance is not None and self.balance.film is not None)
+        whole = self.deterministic is not None or bool(self.one_way)
+        return whole or (self.balance is not None and self.balance.film is not None)
 
     def without_fields(self) -> FrictionResult:
         """Its numbers alone."""
-        return replace(self, balance=None, deterministic=None)
+        return replace(self, balance=None, deterministic=None, one_way=())
 
 
 def result_of(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:

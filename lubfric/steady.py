@@ -10,6 +10,7 @@ from .deterministic.answer import deterministic_result
 from .deterministic.point import deterministic_point
 from .errors import InputError
 from .model import Model, at_tolerance
+from .one_way.answer import one_way_point, one_way_result
 from .point.deflection import solved_as_deflected
 from .result import FrictionResult, result_of
 from .scene import FASTEST, Scene
@@ -53,6 +54,9 @@ def friction(
     if ready.scene.numerics.model == "deterministic" and speed != 0:
         found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
         result = deterministic_result(ready, speed, found, begun)
+    elif ready.scene.numerics.closure == "one-way" and speed != 0:
+        shared = one_way_point(ready.scene, ready.surface, speed, start.one_way if start else ())
+        result = one_way_result(ready, speed, shared, begun)
     else:
         chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
         result = result_of(chosen, speed, point, begun)

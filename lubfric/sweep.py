@@ -28,7 +28,7 @@ from .validity.gather import gathered
 
 AUTO = "auto"
 FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
+NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic", "one_way")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
