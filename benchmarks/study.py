@@ -2,9 +2,9 @@
 
     python benchmarks/study.py [--points 10000] [--workers 2] [--out FOLDER]
 
-Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; ten curves of it are
-run again in this process, whose processor time a point is the serial reference, so that a busy machine does not blur the
-comparison. Prints one table.
+Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; ten curves of it
+are run in this process too, whose processor time a point is the serial reference, so that a busy machine does not blur
+the comparison. Prints one table.
 """
 
 import os
