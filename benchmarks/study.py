@@ -26,7 +26,9 @@ import lubfric
 
 def plan(points: int, curves: int | None = None):
     """5 loads x 5 viscosities x 4 maps x speeds; with ``curves``: only so many of them."""
-    scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.9e-6})
+    scene = lubfric.load_scene("paper").with_(
+        contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"sampling": "patch"}
+    )
     vary = {
         "bodies.load": np.linspace(2.0, 6.0, 5),
         "lubricant.viscosity": np.geomspace(0.05, 0.4, 5),

@@ -12,7 +12,7 @@ from lubfric.history import Harmonic, Ramp, Table
 from lubfric.scene_file import builtin_scenes
 
 SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 MODEL = lubfric.prepare(SCENE)
 HISTORY = lubfric.Transient(0.01, outputs=20, speed=Harmonic(mean=0.05, amplitude=0.04, frequency=100.0))

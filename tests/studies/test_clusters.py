@@ -16,7 +16,7 @@ import lubfric
 
 ROOT = Path(__file__).parents[2]
 SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 VARY, SPEEDS = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}, tuple(np.geomspace(0.003, 0.3, 8))
 
@@ -82,7 +82,8 @@ from mpi4py.futures import MPIPoolExecutor
 
 if __name__ == "__main__":
     scene = lubfric.load_scene("paper").with_(
-        contact={{"shape": (48, 48), "spacing": 1.1e-6}}, surface={{"correlation_length": 4e-6}})
+        contact={{"shape": (48, 48), "spacing": 1.1e-6}}, surface={{"correlation_length": 4e-6}},
+        numerics={{"sampling": "patch"}})
     vary = {{"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}}
     with MPIPoolExecutor() as executor:
         lubfric.study(scene, vary, tuple(np.geomspace(0.003, 0.3, 8)), executor=executor, store=sys.argv[1])
