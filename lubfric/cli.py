@@ -1,4 +1,4 @@
-"""The ``lubfric`` command: run, info, plot, oils."""
+"""The ``lubfric`` command: run, info, plot, init, oils."""
 
 from __future__ import annotations
 
@@ -70,11 +70,22 @@ def _parser() -> argparse.ArgumentParser:
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.set_defaults(command=_plot)
+    init = commands.add_parser("init", help="write a commented scene to start from")
+    init.add_argument("file", type=Path, nargs="?", default=Path("scene.toml"), help="(default: scene.toml)")
+    init.set_defaults(command=_init)
     oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
     oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
     oils.add_argument("name", nargs="?", help="its name")
     oils.set_defaults(command=_oils)
     return parser
+
+
+def _init(arguments) -> int:
+    from .template import write_template
+
+    write_template(arguments.file)
+    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
+    return 0
 
 
 def _oils(arguments) -> int:
