@@ -24,6 +24,9 @@ def main(argv=None) -> int:
     except LubfricError as error:
         say(f"lubfric: {error}")
         return 2
+    except OSError as error:  # a folder that cannot be written, a disk that is full
+        say(f"lubfric: {error}")
+        return 2
     except Interrupted as error:
         say(f"lubfric: {error}")
         return error.code
@@ -43,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
         "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
     )
     run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
-    run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    _add_maps(run)
     run.add_argument(
         "--animation",
         action="store_true",
@@ -57,7 +60,7 @@ def _parser() -> argparse.ArgumentParser:
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
-    info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    _add_maps(info)
     info.set_defaults(command=_info)
     study = commands.add_parser("study", help="vary anything in a scene: many points, kept as they end")
     study.add_argument("study", help="TOML file that says what is varied")
@@ -88,6 +91,11 @@ def _init(arguments) -> int:
     return 0
 
 
+def _add_maps(command: argparse.ArgumentParser) -> None:
+    for body in ("surface", "counterface"):
+        command.add_argument(f"--{body}", metavar="FILE", help=f"height map to use instead of the scene's {body}")
+
+
 def _oils(arguments) -> int:
     from .errors import InputError
     from .oil.describe import list_oils, show_oil
@@ -101,7 +109,7 @@ def _oils(arguments) -> int:
 def _run(arguments) -> int:
     from .scene_file import load_scene
 
-    scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
     if arguments.ratios and scene.transient is None:
@@ -127,7 +135,8 @@ def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
 
-    put(sys.stdout, describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)) + "\n")
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    put(sys.stdout, describe_scene(scene) + "\n")
     return 0
 
 
@@ -143,6 +152,10 @@ def _plot(arguments) -> int:
     for needed in (source, arguments.folder / "result.json"):
         if not needed.is_file():
             raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
-    record = json.loads((arguments.folder / "result.json").read_text())
-    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
+    record = arguments.folder / "result.json"
+    try:
+        name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
+    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
+    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), str(name))
     return 0

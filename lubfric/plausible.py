@@ -67,8 +67,8 @@ def slip(name: str, value) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant as, or None: usual, or nothing fits."""
     usual = USUAL.get(name)
     numbers = value if isinstance(value, (list, tuple)) else (value,)
-    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool)]
-    strange = [v for v in numbers if usual and v == v and abs(v) != float("inf") and not usual.holds(v)]
+    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
+    strange = [v for v in numbers if usual and not usual.holds(v)]
     if not strange or (strange[0] == 0 and name in NOUGHT):
         return None
     v = strange[0]

@@ -28,7 +28,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
 
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
-    c = {k: v[order] for k, v in columns.items()}
+    c = type(columns)((k, v[order]) for k, v in columns.items())
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
     figure = _figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})

@@ -77,8 +77,8 @@ def result_of(model: Model, speed: float, point: Solved, begun: float) -> Fricti
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
     passed = judged_validity(model, speed, balance)
-    oil = scene.lubricant.oil
-    known = (estimate_in_words(oil, scene.lubricant.temperature),) if oil else ()
+    oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
+    known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
     sq = model.surface.sq
     return FrictionResult(

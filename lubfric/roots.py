@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -53,13 +54,13 @@ class _Search:
     def __init__(self, f, tolerance: float, max_evaluations: int, first):
         self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
         self.points: list[tuple[float, float]] = []
-        self.best: tuple[float, float, Any] | None = None
+        self.best: tuple[float, float, Any] = (math.nan, math.inf, None)
 
     def at(self, x: float) -> tuple[float, float]:
         """(x, f(x))."""
         value, self.last = self.f(x, self.last)
         self.points.append((x, value))
-        if self.best is None or abs(value) < abs(self.best[1]):
+        if len(self.points) == 1 or abs(value) < abs(self.best[1]):
             self.best = (x, value, self.last)
         return x, value
 
@@ -71,7 +72,8 @@ class _Search:
     def root(self) -> Root:
         """What was found."""
         status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
-        return Root(*self.best, tuple(abs(value) for _, value in self.points), status, self._slope())
+        x, value, payload = self.best
+        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, self._slope())
 
     def _slope(self) -> float | None:
         if len(self.points) < 2:

@@ -16,7 +16,7 @@ from .model import prepare
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import plot_contact, plot_stribeck
 from .run_folder import RunFolder, run_folder
-from .scene import Scene
+from .scene import FASTEST, Scene
 from .store import fingerprint
 from .sweep import stribeck
 
@@ -30,8 +30,8 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -
     this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run has
     is written, then `ConvergenceError` raised.
     """
-    asked = parse_speeds(speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    asked, chosen = _with_chosen(asked, parse_speeds(fields) or [scene.motion.entrainment_speed])
+    asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    asked, chosen = _with_chosen(asked, parse_speeds("--fields", fields) or [scene.motion.entrainment_speed])
     validate.array("speeds", asked, "m/s", ndim=1)
     begun, counted = time.perf_counter(), [0]
     say(f"{scene.name}: preparing the height map and the contact")
@@ -90,22 +90,26 @@ def _write(folder: RunFolder, model, curve, chosen) -> None:
         folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, model.scene.bodies.half_width)
 
 
-def parse_speeds(text: str | None) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
-    if not text:
+def parse_speeds(option: str, text: str | None) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in m/s, of a command's ``option``."""
+    if text is None:
         return []
-    allowed = f"allowed: '0.001,0.01' or 'low:high:count' with 0 < low, 1 <= count <= {MOST}, in m/s"
+    refusal = InputError(
+        f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
+        f"1 <= count <= {MOST}, in m/s"
+    )
+    ranged = ":" in text
     try:
-        if ":" in text:
-            low, high, count = text.split(":")
-            if not 1 <= int(count) <= MOST:
-                raise InputError(f"speeds = {text!r} with a count of {count}; {allowed}")
-            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
-        return [float(u) for u in text.split(",")]
-    except (ValueError, FloatingPointError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"speeds = {text!r}; {allowed}") from None
+        numbers = [float(word) for word in text.split(":" if ranged else ",")]
+    except ValueError:
+        raise refusal from None
+    for speed in numbers[:2] if ranged else numbers:
+        validate.number(option, speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    if not ranged:
+        return numbers
+    if len(numbers) != 3 or not (0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST and numbers[2] % 1 == 0):
+        raise refusal
+    return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
 
 
 def _with_chosen(speeds, chosen):

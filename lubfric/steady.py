@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 from . import validate
 from .deterministic.answer import deterministic_result
 from .deterministic.point import deterministic_point
+from .errors import InputError
 from .model import Model, at_tolerance
 from .point.deflection import solved_as_deflected
 from .result import FrictionResult, result_of
-from .scene import Scene
+from .scene import FASTEST, Scene
 from .validity.entry import refused
 
 
@@ -42,13 +44,22 @@ def friction(
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
-    speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
+    if speed is None:
+        speed = ready.scene.motion.entrainment_speed
+    speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    if start is not None:
+        validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
     if ready.scene.numerics.model == "deterministic" and speed != 0:
         found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
         result = deterministic_result(ready, speed, found, begun)
     else:
         chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
         result = result_of(chosen, speed, point, begun)
+    if not math.isfinite(result.coefficient):
+        raise InputError(
+            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and stresses "
+            "of a lubricated contact"
+        )
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, ready.scene.numerics.accept, result)

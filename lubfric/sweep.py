@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 
@@ -131,13 +132,15 @@ def stribeck(
     as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
         return _auto(at_tolerance(scene, tolerance, model), fields, store, on_point, raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points, errors = [None] * speeds.size, {}

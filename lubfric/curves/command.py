@@ -27,7 +27,7 @@ from .traction import TractionResult, traction
 def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     """Solve, write traction.csv, traction.png and, last, result.json to ``out``, and say what does not hold."""
     begun = time.perf_counter()
-    model, asked = prepare(scene), parse_speeds(ratios)
+    model, asked = prepare(scene), parse_speeds("--ratios", ratios)
     say(model.surface.describe())
     with run_folder(out, fingerprint(model, asked, "traction")) as folder:
         found = traction(model, asked, on_point=_progress, raise_on_failure=False)

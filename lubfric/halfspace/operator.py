@@ -116,9 +116,10 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
     shape = _grid_shape(shape)
     spacing = validate.spacing("spacing", spacing)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
-    boundary = tuple(boundary) if not isinstance(boundary, str) else (boundary, boundary)
-    if len(boundary) != 2:
-        raise InputError(f"boundary = {boundary!r} must name two axes, each 'periodic' or 'free'")
+    boundary = (boundary, boundary) if isinstance(boundary, str) else boundary
+    if not isinstance(boundary, (tuple, list)) or len(boundary) != 2:
+        raise InputError(f"boundary = {validate.shown(boundary)} must name two axes, each 'periodic' or 'free'")
+    boundary = tuple(boundary)
     for axis, kind in enumerate(boundary):
         validate.choice(f"boundary[{axis}]", kind, KINDS)
     if workers is not None:

@@ -9,7 +9,7 @@ from .. import budget
 from ..film.contract import LeftOut
 from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
-from .balance import Balance, balanced
+from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
 from .tolerances import allowed_left_out, contact_tolerance, film_tolerance, least_cells, volume_tolerance
 
@@ -21,7 +21,7 @@ class Stage:
     """A point, its balance, and what its film leaves out."""
 
     point: OperatingPoint
-    balance: Balance
+    balance: Lubricated
     left_out: LeftOut
 
 
@@ -41,7 +41,6 @@ def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -
         if settings is None:
             break
         point, start = replace(point, settings=settings), balance
-    whole.check(stage.balance.contact)
     return stage
 
 

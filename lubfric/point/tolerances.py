@@ -6,7 +6,7 @@ from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
 from ..validity.stress import meaningless
-from .balance import Balance
+from .balance import Lubricated
 from .operating_point import OperatingPoint, Settings
 
 
@@ -43,7 +43,7 @@ def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
     return min(budget.FILM_LEVEL * numerics.tolerance / max(sensitivity, 1e-12), budget.LARGEST_LEFT_OUT)
 
 
-def least_cells(numerics: Numerics, settings: Settings, balance: Balance) -> int:
+def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> int:
     """Of the film: twice as many as it has where the sum of its shear stress is not good enough, unless that sum is one of
     stresses that no oil carries."""
     found = balance.forces

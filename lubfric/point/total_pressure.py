@@ -21,7 +21,7 @@ from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
 from ..scene import Scene
-from .operating_point import OperatingPoint, Trial
+from .operating_point import OperatingPoint, Start, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
 MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
@@ -46,7 +46,7 @@ class Ellipse:
         return x, p * (self.line_load / np.trapezoid(p, x))
 
 
-def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Trial) -> Trial:
+def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Start) -> Trial:
     """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
 
     ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
@@ -55,14 +55,14 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     scene = point.scene
     line_load, half_width = contact_load / scene.bodies.width, scene.bodies.half_width
     if point.contact.nominally_flat:
-        found = point.with_film(film_load, last, Ellipse(line_load, 0.0, half_width).nodes)
-        return point.with_contact(contact_load, found)
-    used, found = _first(last.film, line_load, half_width), last
+        return point.trial(film_load, contact_load, last, Ellipse(line_load, 0.0, half_width).nodes)
+    used = _first(last.film, line_load, half_width)
     tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
     history: list[float] = []
     steps: list[tuple[Ellipse, np.ndarray]] = []
     while len(history) < MOST:
-        found = point.with_contact(contact_load, point.with_film(film_load, found, used.nodes))
+        found = point.trial(film_load, contact_load, last, used.nodes)
+        last = found
         spread = spread_of(scene, found.contact, line_load)
         apart = deflection(scene, *spread.nodes) - deflection(scene, *used.nodes)
         history.append(float(np.max(np.abs(apart))) / found.contact.mean_film)

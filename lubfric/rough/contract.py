@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..contact import ContactResult
+from ..errors import InputError
 from ..scene import Scene
 
 
@@ -47,6 +48,8 @@ class ContactState:
     def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
         """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal stretches of the width;
         of a contact with ``fields``, of a number of cells along y that ``stretches`` divides."""
+        if self.fields is None:
+            raise InputError("a contact without fields has nothing along y; allowed: fields of a half-space contact")
         load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
         gap = weight @ gap / np.sum(weight)
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
@@ -70,13 +73,17 @@ class Grid(NamedTuple):
 class RoughContact:
     """A rough contact under a film, immutable; loads in N on the whole width of the line.
 
-    name: in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight (nx,): part of
+    name: a property, in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight (nx,): part of
     each of them inside the area A of Eq. (8).
     """
 
-    name: str
     x: np.ndarray
     weight: np.ndarray
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
         """The contact loaded with ``load`` [N], 0 included (first touch), under ``film`` [m] (nx,).

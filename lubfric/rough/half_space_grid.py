@@ -68,7 +68,7 @@ class HalfSpaceGrid(RoughContact):
             return self
         used = np.flatnonzero(state.pressure.any(axis=1) | (found_on.weight > 0))
         low, high = found_on.x[used[0]], found_on.x[used[-1]]
-        margin = MARGIN * (high - low) + MARGIN_CELLS * found_on.grid.spacing[0]
+        margin = MARGIN * (high - low) + MARGIN_CELLS * _step(found_on)
         return self.between(float(low - margin), float(high + margin))
 
     def between(self, low: float, high: float) -> Self:
@@ -91,7 +91,7 @@ class HalfSpaceGrid(RoughContact):
         """No cell outside the part is touched: one convolution of the contact found on it."""
         if state.fields is None or part is self:
             return True
-        first = int(np.searchsorted(self.x, part.x[0] - 0.5 * part.grid.spacing[0]))
+        first = int(np.searchsorted(self.x, part.x[0] - 0.5 * _step(part)))
         pressure = np.zeros(self.heights.shape)
         pressure[first : first + part.x.size] = state.fields.pressure
         gap = self.operator.apply(pressure) + shape[:, None] - self.heights - state.fields.approach
@@ -111,3 +111,8 @@ class HalfSpaceGrid(RoughContact):
         inside = (row >= 0) & (row < state.x.size)
         moved = np.where(inside[:, None], pressure[np.clip(row, 0, state.x.size - 1)][:, column], 0.0)
         return moved if moved.any() else None
+
+
+def _step(contact: RoughContact) -> float:
+    """Length [m] of a cell along x."""
+    return contact.x[1] - contact.x[0] if contact.grid is None else contact.grid.spacing[0]

@@ -9,6 +9,7 @@ from ..errors import InputError
 from .pairs import only_one, pair
 
 KEYS = ("surface_speeds", "slip_percent", "speed_range")
+MOST_SPEEDS = 100_000
 
 
 def resolve(given: dict, old) -> dict:
@@ -34,8 +35,10 @@ def resolve(given: dict, old) -> dict:
 
 def _speeds(value) -> tuple[float, ...]:
     if not isinstance(value, (list, tuple)) or len(value) != 3:
-        raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
+        raise InputError(
+            f"motion.speed_range = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)"
+        )
     low = validate.positive("motion.speed_range lowest", value[0], "m/s")
     high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
-    count = validate.integer("motion.speed_range count", value[2], minimum=1)
+    count = validate.integer("motion.speed_range count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

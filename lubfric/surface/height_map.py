@@ -113,7 +113,7 @@ class Surface(FrozenArrays):
             found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
             if not found.any():
                 break
-            mask = mask & ~found
+            mask = mask & (found == 0)
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
         return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))

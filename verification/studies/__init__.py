@@ -55,6 +55,11 @@ STUDIES: tuple[Study, ...] = (
         "load_sharing", "verification.studies.load_sharing:load_sharing", "Load sharing, both halves by finite elements"
     ),
     Study(
+        "sharing_cases",
+        "verification.studies.sharing_cases:sharing_cases",
+        "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map",
+    ),
+    Study(
         "formulations",
         "verification.studies.formulations:formulations",
         "Contact formulations of the paper against the default",
