@@ -17,6 +17,7 @@ from .balance import Balance
 
 PER_SENSITIVITY, AT_MOST = 2.2, 1.2
 CERTAIN = 3.0  # times the limit: a neighbour's error beyond which this point's is not looked at
+LOOSE = {"film_deflection": "hydrodynamic", "tolerance": 0.1, "model": "auto", "grid": "auto", "heat": "off"}
 SENSIBLE = 0.3  # above it the estimate is no number to quote
 
 
@@ -42,6 +43,8 @@ def solved_as_deflected(
     limit, error, option = budget.DEFLECTION * model.scene.numerics.tolerance, 0.0, "hydrodynamic"
     if start is not None and start.film is not None and start.film.e_prime < model.scene.bodies.e_prime:
         error = own_pressure_error(model.scene, start)
+    elif speed != 0:
+        error = own_pressure_error(model.scene, solved(_loose(model), speed).balance)
     if error <= CERTAIN * limit:
         chosen = deflected_by(model, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
@@ -52,6 +55,11 @@ def solved_as_deflected(
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
     return chosen, replace(found, decision=replace(found.decision, deflection=told))
+
+
+def _loose(model: Model) -> Model:
+    """``model`` by its film's own pressure, to a tolerance at which a solve costs little and tells whether it will do."""
+    return replace(model, scene=model.scene.with_(numerics=LOOSE))
 
 
 def deflected_by(model: Model, option: str) -> Model:

@@ -75,3 +75,20 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     assert main(["init", str(path)]) == 2
     assert "exists" in capsys.readouterr().err
     assert main(["init", str(tmp_path / "nowhere" / "x.toml")]) == 2
+
+
+def test_the_roller_of_the_examples_is_an_answer():
+    """One scene of 25 lines, one command, on a measured map that is not shipped."""
+    import os
+    from pathlib import Path
+
+    scene = Path(__file__).parents[2] / "docs" / "examples" / "roller.toml"
+    assert len(scene.read_text().splitlines()) <= 25
+    folder = Path(os.environ.get("LUBFRIC_SURFACES", Path(__file__).resolve().parents[3] / "shared" / "surfaces"))
+    if not (folder / "ground-77nm.x3p").is_file():
+        pytest.skip("the measured map ground-77nm.x3p is not here (LUBFRIC_SURFACES)")
+    loaded = lubfric.load_scene(scene, surface_file=folder / "ground-77nm.x3p")
+    curve = lubfric.stribeck(loaded, [1.0, 1e-2, 1e-4])
+    assert 0.03 < curve.coefficient[0] < 0.04 and not any("not valid" in text for text in curve.validity)
+    assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
+    assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
