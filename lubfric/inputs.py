@@ -24,14 +24,21 @@ def _section(name: str, rows) -> list[str]:
 def _bodies(scene: Scene):
     bodies = scene.bodies
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
-    yield f"reduced radius R = {bodies.radius:.4g} m ({bodies.radius * 1e3:.4g} mm), line length B = {bodies.width:.4g} m ({bodies.width * 1e3:.4g} mm)"
-    yield f"load F_T = {bodies.load:.4g} N ({bodies.load / bodies.width / 1e3:.4g} N/mm), reduced modulus E' = {bodies.e_prime / 1e9:.4g} GPa"
     yield (
-        f"Hertz: half-width {bodies.half_width * 1e6:.3f} um, mean pressure {bodies.mean_hertz_pressure / 1e6:.1f} MPa, "
-        f"peak {peak / 1e6:.1f} MPa"
+        f"reduced radius R = {bodies.radius:.4g} m ({bodies.radius * 1e3:.4g} mm), "
+        f"line length B = {bodies.width:.4g} m ({bodies.width * 1e3:.4g} mm)"
+    )
+    yield (
+        f"load F_T = {bodies.load:.4g} N ({bodies.load / bodies.width / 1e3:.4g} N/mm), "
+        f"reduced modulus E' = {bodies.e_prime / 1e9:.4g} GPa"
+    )
+    yield (
+        f"Hertz: half-width {bodies.half_width * 1e6:.3f} um, "
+        f"mean pressure {bodies.mean_hertz_pressure / 1e6:.1f} MPa, peak {peak / 1e6:.1f} MPa"
     )
     limit = "none (elastic)" if bodies.hardness is None else f"{bodies.hardness / 1e9:.3g} GPa"
-    yield f"plastic limit of the contact spots: {limit}; their friction coefficient f_b = {bodies.boundary_friction_coefficient:g} (-)"
+    friction = bodies.boundary_friction_coefficient
+    yield f"plastic limit of the contact spots: {limit}; their friction coefficient f_b = {friction:g} (-)"
     if scene.lubricant.heats:
         conductivity = " and ".join(f"{k:.3g}" for k in bodies.conductivity)
         capacity = " and ".join(f"{c / 1e6:.3g}" for c in bodies.volumetric_heat)
@@ -63,8 +70,8 @@ def _lubricant(scene: Scene):
         yield f"shear: Eyring stress {eyring}, limiting stress {limit}"
     if lubricant.heats:
         yield (
-            f"viscosity falls by {100 * lubricant.temperature_coefficient:.3g} % a K, film conductivity {lubricant.conductivity:.3g} "
-            f"W/(m K); heat: {scene.numerics.heat}"
+            f"viscosity falls by {100 * lubricant.temperature_coefficient:.3g} % a K, "
+            f"film conductivity {lubricant.conductivity:.3g} W/(m K); heat: {scene.numerics.heat}"
         )
     else:
         yield "heat: isothermal, how the viscosity falls with the temperature is not given"

@@ -12,8 +12,8 @@ from .report import CONVERGED, ITERATION_LIMIT
 
 @dataclass(frozen=True)
 class Root:
-    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last two
-    points (None where they tell nothing)."""
+    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last
+    two points (None where they tell nothing)."""
 
     x: float
     value: float
@@ -36,8 +36,8 @@ def increasing_root(
 ) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
-    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when |value| <=
-    tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when
+    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
     "iteration_limit". Where ``slope`` is roughly known, the first step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
@@ -105,8 +105,8 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
 
 
 def _close_in(search: _Search, a, b) -> None:
-    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to rounding
-    and f still jumps in it."""
+    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to
+    rounding and f still jumps in it."""
     fraction, c = _secant(a, b), None
     while True:
         x = a[0] + fraction * (b[0] - a[0])

@@ -47,17 +47,17 @@ class Roughness:
     sq [m]: standard deviation of the heights; a file is scaled to it when given.
 
     Generated. correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf; seed.
-    oversize: made this many times as long in x and y, its middle cut out (for lengths that do not fit the patch) and scaled
-    to sq.
+    oversize: made this many times as long in x and y, its middle cut out (for lengths that do not fit the patch) and
+    scaled to sq.
 
     From a file, in the order in which they act:
-    spacing [m], unit ("m", "mm", "um" or "µm", "nm"): of a file that does not carry its own; decimal: "." or "," of a text
-    file in which commas can be either; missing_value: number in a text or .npy file that stands for "not measured".
-    form: F-operation, least squares, "plane" or "quadratic" (second order: cylinder or paraboloid too).
-    outliers: points that stand alone (`lubfric.surface.outliers`), which would carry the load: "refuse" the map, "keep" them
-    or "mask" and fill them.
-    s_filter, l_filter [m]: nesting indices of the Gaussian filters of ISO 16610-61 that take out what is shorter and longer.
-    motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
+    spacing [m], unit ("m", "mm", "um" or "µm", "nm"): of a file that does not carry its own; decimal: "." or "," of a
+    text file in which commas can be either; missing_value: number in a text or .npy file that stands for "not
+    measured". form: F-operation, least squares, "plane" or "quadratic" (second order: cylinder or paraboloid too).
+    outliers: points that stand alone (`lubfric.surface.outliers`), which would carry the load: "refuse" the map, "keep"
+    them or "mask" and fill them.
+    s_filter, l_filter [m]: nesting indices of the Gaussian filters of ISO 16610-61 that take out what is shorter and
+    longer. motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
     extension: "mirror" continues a map that is too short along x by its mirror image.
 
     Raises `InputError` for values out of range and for fields that do not apply to the kind of map.
@@ -132,7 +132,8 @@ def counterface(values: dict[str, Any]) -> Roughness:
         if key not in Roughness.__dataclass_fields__:
             allowed = tuple(Roughness.__dataclass_fields__)
             raise InputError(
-                f"counterface has no field {validate.shown(key)}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
+                f"counterface has no field {validate.shown(key)}{validate.nearest(key, allowed)}; allowed: "
+                f"{', '.join(allowed)}"
             )
     with named("counterface"):
         return Roughness(**values)

@@ -23,12 +23,13 @@ CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 HEATS = ("auto", "on", "off")
-CLOSURES = ("load", "separation")
+CLOSURES = ("load", "separation", "one-way")
 FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
 GRIDS = ("auto", "given")
+SAMPLINGS = ("line", "patch")
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,8 @@ class Bodies:
     radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
     e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
     contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
-    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away (steel).
+    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away
+    (steel).
     """
 
     radius: float
@@ -164,14 +166,17 @@ class Numerics:
 
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total"); "auto": the first
-    where that changes f by less than its share of the tolerance, else the second.
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total");
+    "auto": the first where that changes f by less than its share of the tolerance, else the second.
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
-    contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it matters and
-    the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
-    the model are returned, marked, instead of refused.
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md).
+    film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
+    matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
+    the range of the model are returned, marked, instead of refused.
+
+    What surface it is modelled with: sampling "line", a line of the scene's roughness as long as the standard error
+    ``sampling_tolerance`` of f asks, relative (docs/uncertainty.md); "patch", the one patch of ``contact.shape``.
     """
 
     tolerance: float = 0.01
@@ -186,6 +191,8 @@ class Numerics:
     film_level: str = "auto"
     contact_level: str = "auto"
     grid: str = "auto"
+    sampling: str = "line"
+    sampling_tolerance: float = 0.02
     heat: str = "auto"
     accept: bool = False
 
@@ -195,6 +202,7 @@ class Numerics:
             ("film_level", FILM_LEVELS),
             ("contact_level", CONTACT_LEVELS),
             ("grid", GRIDS),
+            ("sampling", SAMPLINGS),
             ("heat", HEATS),
         ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
@@ -208,6 +216,7 @@ class Numerics:
                         f"allowed: {', '.join(map(repr, allowed))}"
                     )
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
+        validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
@@ -242,7 +251,8 @@ class Numerics:
 class Scene:
     """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
 
-    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in contact.
+    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in
+    contact.
     """
 
     bodies: Bodies
@@ -258,7 +268,8 @@ class Scene:
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an oil (lubricant.grade, "
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an "
+                "oil (lubricant.grade, "
                 "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
             )
 
@@ -275,6 +286,12 @@ class Scene:
                 )
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from .scene_text import scene_as_toml
+
+        return scene_as_toml(self)
 
 
 def _changed(section: str, old, values):

@@ -21,7 +21,7 @@ material = "steel"                      # or ["steel", "bronze"], or young_modul
 boundary_friction_coefficient = 0.12    # of the contact spots
 
 [lubricant]
-grade = "ISO VG 68"                     # or nu40 and nu100 (m²/s), or oil = "mineral-100" (lubfric oils), or viscosity (Pa s)
+grade = "ISO VG 68"                     # or nu40 and nu100 (m²/s), oil = "mineral-100", viscosity (Pa s)
 viscosity_index = 95
 density = 870                           # kg/m³ at 15 °C; left out: typical of the base oil
 # base = "mineral"                      # "pao", "ester", "polyglycol": for what is estimated

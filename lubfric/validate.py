@@ -33,7 +33,8 @@ NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values,
 
 
 def shown(value: Any) -> str:
-    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000 digits)."""
+    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000
+    digits)."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):
@@ -42,7 +43,8 @@ def shown(value: Any) -> str:
 
 
 def _real(value: Any) -> float:
-    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float holds."""
+    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float
+    holds."""
     if type(value) in (float, int):
         return float(value)
     if isinstance(value, (np.ma.MaskedArray, str, bytes)):
@@ -194,4 +196,5 @@ def spacing(name: str, value: Any) -> tuple[float, float]:
     if several and len(value) != 2:
         raise InputError(f"{name} = {shown(value)} must be one length or a pair (dx, dy) in m")
     pair = tuple(value) if several else (value, value)
-    return tuple(positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))  # type: ignore[return-value]
+    # type: ignore[return-value]
+    return tuple(positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))

@@ -21,8 +21,9 @@ from ..validity.gather import gathered
 class TractionResult:
     """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
 
-    ratio (n,) [-]; speed [m/s], the entrainment speed; columns: every number of `FrictionResult` as an array (n,) by name, also
-    as ``result["contact_load"]``. points: the results (None where failed), without fields; errors: {index: exception}.
+    ratio (n,) [-]; speed [m/s], the entrainment speed; columns: every number of `FrictionResult` as an array (n,) by
+    name, also as ``result["contact_load"]``. points: the results (None where failed), without fields; errors: {index:
+    exception}.
     """
 
     ratio: np.ndarray
@@ -63,12 +64,14 @@ def traction(
     on_point=None,
     raise_on_failure: bool = True,
 ) -> TractionResult:
-    """The traction curve of ``scene``: friction at slide-roll ``ratios`` [-] and one entrainment ``speed`` [m/s] (its own).
+    """The traction curve of ``scene``: friction at slide-roll ``ratios`` [-] and one entrainment ``speed`` [m/s] (its
+    own).
 
-    The ratio moves the shear of the film, its heat, and that of the inlet; film and contact are otherwise the same, so that each
-    point starts from the last. ``tolerance``, ``model``: as in `lubfric.friction`. ``on_point(done, total, ratio, outcome)`` is
-    called as points end. A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError` (or `ValidityError`, where all that failed was refused) is raised with the whole curve as ``result``.
+    The ratio moves the shear of the film, its heat, and that of the inlet; film and contact are otherwise the same, so
+    that each point starts from the last. ``tolerance``, ``model``: as in `lubfric.friction`. ``on_point(done, total,
+    ratio, outcome)`` is called as points end. A failing point leaves NaN and its exception in ``errors``; the others
+    are still solved, and then `ConvergenceError` (or `ValidityError`, where all that failed was refused) is raised with
+    the whole curve as ``result``.
     """
     ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
     own = scene_of(scene).motion.entrainment_speed

@@ -17,10 +17,10 @@ class ShearForce:
 
     couette: from the difference of the surface speeds; rolling: from the pressure gradient;
     total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sums that they are, from two rules; it is
-    large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of what
-    rising and falling pressure contribute to the rolling force, which is their small difference at high pressure: an error
-    of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above what oils carry
-    (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
+    large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of
+    what rising and falling pressure contribute to the rolling force, which is their small difference at high pressure:
+    an error of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above
+    what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float
@@ -53,8 +53,9 @@ def shear_force(
     (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
     far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
     cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
-    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`,
-    the stress of the heated film and the viscosity that it was solved with; None: isothermal.
+    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``:
+    `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was solved with; None:
+    isothermal.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction = math.copysign(1.0, entrainment_speed)
@@ -102,8 +103,8 @@ def shear_force(
 
 
 def _spike(x, tau) -> float:
-    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum over
-    every second node, which a spike makes larger than the error by that or more."""
+    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum
+    over every second node, which a spike makes larger than the error by that or more."""
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
     coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
     return abs(coarse - fine) / 24

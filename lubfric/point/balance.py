@@ -74,8 +74,8 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Lubricated:
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at
-    the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
+    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film
+    at the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)

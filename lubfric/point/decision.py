@@ -17,11 +17,12 @@ class Decision:
     """Levels of film and contact and the grid of one operating point.
 
     film, contact: names of the levels, film_words: of the film in words; left_out: by the film level, of film and film
-    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
-    [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
-    in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
-    tolerance: asked, on f; deflection:
-    what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not chosen but given.
+    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form).
+    clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
+    coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
+    (None: the map's own grid); tolerance: asked, on f; deflection:
+    what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not
+    chosen but given.
     """
 
     film: str

@@ -1,9 +1,10 @@
 """Which pressure deflects the film, as a level: its own where that is within the tolerance, else the whole load's.
 
-A film deflected by its own pressure alone is too thick by about what the undeformed cylinder rises over the Hertz strip, b²/(6R) on
-average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f changes by at most about
-``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 1,233 random scenes of 60 MPa to 1.2 GPa, Sq 10 nm to 1 µm, the
-change was at most 0.97 times that where it is 0.2 to 5 %, and 0.44 % where it is below 0.5 %.
+A film deflected by its own pressure alone is too thick by about what the undeformed cylinder rises over the Hertz
+strip, b²/(6R) on average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f
+changes by at most about ``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 1,233 random scenes of
+60 MPa to 1.2 GPa, Sq 10 nm to 1 µm, the change was at most 0.97 times that where it is 0.2 to 5 %, and 0.44 % where it
+is below 0.5 %.
 """
 
 from __future__ import annotations
@@ -36,8 +37,9 @@ def own_pressure_error(scene, balance: Balance) -> float:
 def solved_as_deflected(
     model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False
 ) -> tuple[Model, Solved]:
-    """``model`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance needs it, and
-    its solution (`solved`). A neighbour ``start`` far beyond what its own pressure allows goes to the whole load at once."""
+    """``model`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance needs
+    it, and its solution (`solved`). A neighbour ``start`` far beyond what its own pressure allows goes to the whole
+    load at once."""
     if model.scene.numerics.film_deflection != "auto":
         return model, solved(model, speed, start, given_grid=given_grid)
     limit, error, option = budget.DEFLECTION * model.scene.numerics.tolerance, 0.0, "hydrodynamic"
@@ -58,7 +60,7 @@ def solved_as_deflected(
 
 
 def _loose(model: Model) -> Model:
-    """``model`` by its film's own pressure, to a tolerance at which a solve costs little and tells whether it will do."""
+    """``model`` by its film's own pressure, to a tolerance that costs little and tells whether it will do."""
     return replace(model, scene=model.scene.with_(numerics=LOOSE))
 
 

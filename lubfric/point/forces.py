@@ -22,8 +22,8 @@ class Forces:
     part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). a is what a change of
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
     the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
-    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film. heat: of
-    inlet, film and surfaces, and what it changes.
+    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
+    heat: of inlet, film and surfaces, and what it changes.
     """
 
     coefficient: float
@@ -35,8 +35,8 @@ class Forces:
 
 
 def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None) -> Forces:
-    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load, ``slope``
-    that of the balance."""
+    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load,
+    ``slope`` that of the balance."""
     shear = _shear(scene, level, found)
     heat, warm = point_heat(scene, found, abs(_boundary(scene, found.contact_load) + shear.total), shear)
     if warm is not None:

@@ -19,8 +19,8 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at least;
-    tolerance of the contact (None: its own)."""
+    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at
+    least; tolerance of the contact (None: its own)."""
 
     level: FilmLevel
     film_tolerance: float
@@ -81,25 +81,27 @@ class OperatingPoint:
         )
 
     def trial(self, film_load: float, contact_load: float, start: Start, imposed=None) -> Trial:
-        """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load`` [N]
-        under it."""
-        found = self._film(film_load, start, imposed)
+        """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load``
+        [N] under it."""
+        found = self.film(film_load, start, imposed)
         film, shape = self.imposed_on(self.contact, found)
         contact = self._contact.close(film, contact_load, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
 
     def trial_with_imposed_film(self, film_load: float, start: Start) -> Trial:
-        """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then has."""
-        found = self._film(film_load, start)
+        """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then
+        has."""
+        found = self.film(film_load, start)
         film, shape = self.imposed_on(self.contact, found)
         contact_load, contact = self._contact.carry(film, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
 
     def imposed_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
-        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or less.
+        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or
+        less.
 
-        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact
-        adds its own share itself.
+        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the
+        contact adds its own share itself.
         """
         thickness, way = film.film_at(contact.x), self.scene.numerics.film_deflection
         if way == "total":
@@ -121,7 +123,8 @@ class OperatingPoint:
         share = min(whole / (thickness * bodies.load), 0.9)
         return math.log(share / (1 - share))
 
-    def _film(self, film_load: float, start: Start, imposed=None) -> Film:
+    def film(self, film_load: float, start: Start, imposed=None) -> Film:
+        """The film that carries ``film_load`` [N], deflected by the line pressure ``imposed`` too."""
         return self.settings.level.solve(
             self.line(film_load),
             tolerance=self.settings.film_tolerance,

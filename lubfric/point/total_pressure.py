@@ -1,11 +1,11 @@
 """The film deflected by its own pressure and that of the contact: both found together at one division of the load.
 
 The film is that of an imposed line pressure (`lubfric.solve_ehl`); the surface is pressed under the film less the
-deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of the
-contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth cylinder,
-and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces cannot follow
-(`departure` says how much that is). A nominally flat contact has no distribution along x of its own: there it is the
-semi-ellipse over the strip of the total load.
+deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of
+the contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth
+cylinder, and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces
+cannot follow (`departure` says how much that is). A nominally flat contact has no distribution along x of its own:
+there it is the semi-ellipse over the strip of the total load.
 
 Fixed point in centre and half-width: film under the contact's pressure -> contact under that film -> its pressure, with
 Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
@@ -125,9 +125,10 @@ def spread_of(scene, contact, line_load: float) -> Ellipse:
     """The semi-ellipse of ``line_load`` whose deflection across the strip |x| <= b has the same linear and quadratic
     Chebyshev coefficients as that of a contact's pressure, both to second order in centre/b.
 
-    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² - 1))^n
-    beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip m1 = c/b,
-    m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2 a²).
+    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² -
+    1))^n beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip
+    m1 = c/b, m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2
+    a²).
     """
     b, step = scene.bodies.half_width, contact.x[1] - contact.x[0]
     share = contact.pressure.sum(axis=1)
@@ -157,7 +158,8 @@ def _first(film, line_load: float, half_width: float) -> Ellipse:
 
 
 def _mixed(steps) -> Ellipse:
-    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the last."""
+    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the
+    last."""
     (last, apart), before = steps[-1], steps[:-1]
     if not before:
         return last

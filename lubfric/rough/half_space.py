@@ -1,4 +1,5 @@
-"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec. 3.2."""
+"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec.
+3.2."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ BOUNDARY = ("free", "periodic")
 
 @dataclass(frozen=True)
 class HalfSpaceContact(HalfSpaceGrid):
-    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of `lubfric.solve_contact`."""
+    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of
+    `lubfric.solve_contact`."""
 
     width: float
     hardness: float | None
@@ -88,7 +90,8 @@ class HalfSpaceContact(HalfSpaceGrid):
         if share > EDGE_SHARE:
             raise InputError(
                 f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                f"patch {self.x.size * step:.3g} m long; allowed: at most {100 * EDGE_SHARE:g} % (make the patch longer in x: "
+                f"patch {self.x.size * step:.3g} m long; allowed: at most {100 * EDGE_SHARE:g} % (make the "
+                "patch longer in x: "
                 "contact.shape, or for a measured map surface.extension = 'mirror')"
             )
 
@@ -112,13 +115,17 @@ class HalfSpaceContact(HalfSpaceGrid):
             plastic_area_fraction=plastic,
             fields=found,
             pressure=None if found is None else found.pressure,
+            y=np.arange(self.heights.shape[1]) * self.spacing[1],
         )
 
 
-def half_space_contact(scene: Scene, heights, spacing, operator: HalfSpace | None = None) -> HalfSpaceContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid."""
+def half_space_contact(
+    scene: Scene, heights, spacing, operator: HalfSpace | None = None, x: np.ndarray | None = None
+) -> HalfSpaceContact:
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid;
+    ``x`` [m] (nx,): cell centres (None: evenly about the line of contact)."""
     bodies, numerics = scene.bodies, scene.numerics
-    x = centred_axis(heights.shape[0], spacing[0])
+    x = centred_axis(heights.shape[0], spacing[0]) if x is None else x
     weight = area_weight(scene, x, spacing[0])
     if operator is None:
         operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)

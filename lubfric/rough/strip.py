@@ -9,7 +9,8 @@ from ..errors import InputError
 from ..scene import Scene
 
 TOO_SHORT = (
-    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness spread "
+    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its "
+    "roughness spread "
     "over the strip)"
 )
 
@@ -32,7 +33,8 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
 
 
 def check_strip(scene: Scene, step: float, length: float) -> None:
-    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not hold."""
+    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not
+    hold."""
     half_width = scene.bodies.half_width
     if step > half_width:
         raise InputError(

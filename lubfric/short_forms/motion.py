@@ -13,8 +13,8 @@ MOST_SPEEDS = 100_000
 
 
 def resolve(given: dict, old) -> dict:
-    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio in
-    percent; ``speed_range = [lowest, highest, count]``, geometric."""
+    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio
+    in percent; ``speed_range = [lowest, highest, count]``, geometric."""
     only_one("motion", given, "surface_speeds", "entrainment_speed")
     only_one("motion", given, "surface_speeds", "slide_roll_ratio", "slip_percent")
     only_one("motion", given, "speeds", "speed_range")

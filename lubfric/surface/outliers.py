@@ -1,11 +1,12 @@
 """Outliers of a measured map: points that stand alone, as no neighbour of theirs does.
 
-The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations from the median of the
-whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, both on the same side. The robust deviation is
-1.4826 times the median of |z - median(z)|, which is the standard deviation of a Gaussian map and hardly feels the outliers
-themselves; where it is zero (most of the map is one height) it is Sq. What is found is filled and the map searched again,
-until nothing is. Ridges and grooves at least three points wide stay, however high, and so do summits that are wide against
-the window; dust, noise beside unmeasured points and the flares of optical instruments at steep edges go.
+The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations from the median of
+the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, both on the same side. The robust
+deviation is 1.4826 times the median of |z - median(z)|, which is the standard deviation of a Gaussian map and hardly
+feels the outliers themselves; where it is zero (most of the map is one height) it is Sq. What is found is filled and
+the map searched again, until nothing is. Ridges and grooves at least three points wide stay, however high, and so do
+summits that are wide against the window; dust, noise beside unmeasured points and the flares of optical instruments at
+steep edges go.
 """
 
 from __future__ import annotations
@@ -24,10 +25,11 @@ def robust_deviation(heights: np.ndarray) -> float:
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
-    """Deviations (nx, ny) by which each outlier of a filled, levelled map stands off its neighbours, negative below them;
-    0 elsewhere.
+    """Deviations (nx, ny) by which each outlier of a filled, levelled map stands off its neighbours, negative below
+    them; 0 elsewhere.
 
-    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them first.
+    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them
+        first.
     """
     measured = heights if mask is None else heights[mask]
     deviation, middle = robust_deviation(measured), float(np.median(measured))

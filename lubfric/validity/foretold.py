@@ -18,7 +18,7 @@ NODES = 201
 
 
 def foretold(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
-    """Pairs (speed [m/s], entry), the speed None where the entry is of bodies or map; films are Moes' under the whole load."""
+    """Pairs (speed [m/s], entry), the speed None where it is of bodies or map; films are Moes' under the whole load."""
     found = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
         return tuple(found)

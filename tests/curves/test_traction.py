@@ -61,7 +61,8 @@ def test_command_writes_the_curve(tmp_path, capsys):
     np.save(tmp_path / "map.npy", np.random.default_rng(1).normal(0, 2e-8, (128, 64)))
     (tmp_path / "s.toml").write_text(
         '[bodies]\nradius = 0.01\nwidth = 0.01\nhertz_pressure = 1e9\nmaterial = "steel"\n'
-        "boundary_friction_coefficient = 0.1\n[lubricant]\ngrade = 'ISO VG 68'\nviscosity_index = 95\ntemperature_celsius = 70\n"
+        "boundary_friction_coefficient = 0.1\n[lubricant]\ngrade = 'ISO VG 68'\nviscosity_index = "
+        "95\ntemperature_celsius = 70\n"
         "eyring_stress = 5e6\nlimiting_stress_coefficient = 0.08\n[motion]\nentrainment_speed = 2.0\n"
         "[surface]\nfile = 'map.npy'\nspacing = 4e-6\n"
     )

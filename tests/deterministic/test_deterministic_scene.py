@@ -1,4 +1,5 @@
-"""numerics.model = "deterministic" in friction and stribeck: the same words, what is refused, grids by the tolerance."""
+"""numerics.model = "deterministic" in friction and stribeck: the same words, what is refused, grids by the
+tolerance."""
 
 from pathlib import Path
 

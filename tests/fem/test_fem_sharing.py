@@ -154,7 +154,8 @@ def test_shear_laws_of_the_finite_elements():
 
 
 def test_cell_means_of_lubfric_are_those_of_a_finer_grid():
-    """A pressure that is uniform on cells: the mean of the deflection over them, by the same kernel on parts of the cells."""
+    """A pressure that is uniform on cells: the mean of the deflection over them, by the same kernel on parts of the
+    cells."""
     from lubfric.halfspace import half_space
     from verification.studies.load_sharing import PARTS, cell_mean
 
@@ -167,7 +168,8 @@ def test_cell_means_of_lubfric_are_those_of_a_finer_grid():
 
 
 def test_flat_balance_of_the_finite_elements():
-    """A contact whose gap falls like exp(-p): both balances close, the sense of sliding changes the rolling part only."""
+    """A contact whose gap falls like exp(-p): both balances close, the sense of sliding changes the rolling part
+    only."""
     line = ehl.LineContact(5.5 / 6e-3, 2e-3, E_PRIME, 0.02, Fluid(0.36, "roelands", 25e-9))
     found = [
         share_load(FlatBodies(line, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, sliding), refinements=0)

@@ -15,7 +15,7 @@ from lubfric.film.ladder import LEVELS, higher, lowest_level
 from lubfric.line_contact import LineContact
 from lubfric.report import ITERATION_LIMIT, Report
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 B = PAPER.bodies
 TOUCHING, SIGMA, STIFFNESS = 300e-9, 250e-9, 4.0  # m, m, N
 FILM = EvenFilmLevel(stiffness=1e-4)  # 1e-4 U B/F_H: 100 nm of 5.5 N at 1 m/s
@@ -89,7 +89,8 @@ class Failing(EvenFilmLevel):
 
 
 def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance(both):
-    """A load of 5.5 N with a film that is not certainly below the summits: the balance in contact excludes separation."""
+    """A load of 5.5 N with a film that is not certainly below the summits: the balance in contact excludes
+    separation."""
     model = lubfric.prepare(PAPER, contact=both.contact, film_levels=(Failing(stiffness=FILM.stiffness),))
     speed = 2.0
     found, reference = lubfric.friction(model, speed), lubfric.friction(both, speed)

@@ -1,4 +1,5 @@
-"""Heat as a level of an operating point: against the isothermal point, the standalone solve, and a film solved hotter."""
+"""Heat as a level of an operating point: against the isothermal point, the standalone solve, and a film solved
+hotter."""
 
 import numpy as np
 import pytest
@@ -9,11 +10,15 @@ from lubfric.oil import from_grade
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}
-BASE = lubfric.load_scene("paper").with_(
-    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
-    lubricant=OIL | SHEAR,
-    contact={"shape": (128, 64), "spacing": 4e-6},
-    surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+BASE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(
+        bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+        lubricant=OIL | SHEAR,
+        contact={"shape": (128, 64), "spacing": 4e-6},
+        surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    )
 )
 
 
@@ -60,7 +65,8 @@ def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
 
 
 def test_the_film_is_thinner_by_the_inlet_factor(model):
-    """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1 %."""
+    """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1
+    %."""
     on, off = at(model, 5.0, 0.1), at(model, 5.0, 0.1, numerics={"heat": "off"})
     assert on.inlet_film_factor < 0.95
     assert on.central_film / off.central_film == pytest.approx(on.inlet_film_factor, rel=0.01)
@@ -109,4 +115,4 @@ def test_the_result_tells_oil_and_ranges(model):
 
 def test_heat_needs_to_know_the_oil():
     with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
-        lubfric.load_scene("paper").with_(numerics={"heat": "on"})
+        lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(numerics={"heat": "on"})

@@ -35,7 +35,8 @@ def test_a_flat_counterface_changes_nothing_and_order_only_mirrors():
 
 
 def test_the_gap_of_two_facing_waves():
-    """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does not."""
+    """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does
+    not."""
     x, y = np.arange(40)[:, None] * 1e-6, (np.arange(60) - 29.5)[None, :] * 1e-6
     k = 2 * np.pi / 20e-6
     cosine, sine = np.cos(k * (x + y)) * 1e-7, np.sin(k * (x + y)) * 1e-7

@@ -1,4 +1,4 @@
-"""`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes a scene that runs."""
+"""`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import pytest
 

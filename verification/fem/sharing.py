@@ -104,7 +104,8 @@ class FlatBodies:
 
 @dataclass(frozen=True)
 class Under:
-    """What a film leaves the contact: mean gap (m) and share in contact of the cells along x, and the strip as pressed."""
+    """What a film leaves the contact: mean gap (m) and share in contact of the cells along x, and the strip as
+    pressed."""
 
     gap: np.ndarray
     touching: np.ndarray

@@ -109,7 +109,8 @@ def changed(tables: Tables, section: str, key: str, value: str | None) -> Tables
 
 
 def keys_of_scene() -> list[tuple[str, str, str]]:
-    """(section, key, "word", "whole", "number" or "truth") of every key of a scene, from the annotations of its classes."""
+    """(section, key, "word", "whole", "number" or "truth") of every key of a scene, from the annotations of its
+    classes."""
     found = []
     for section, hint in typing.get_type_hints(lubfric.Scene).items():
         kinds = [k for k in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(k)]

@@ -15,8 +15,8 @@ BAD = (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
 
 
 def bad_inputs(level: str) -> Iterator[Item]:
-    """Bad scenes, files, calls and command lines from a seeded generator: each is refused in words by `lubfric.LubfricError`,
-    within 8 s and 2 GB."""
+    """Bad scenes, files, calls and command lines from a seeded generator: each is refused in words by
+    `lubfric.LubfricError`, within 8 s and 2 GB."""
     found = list(outcomes(SEED, 0.1 if level == "quick" else 1.0))
     for group in GROUPS:
         for verdict in BAD:

@@ -47,6 +47,7 @@ def model_of(name: str, sq: float, shape: int, **sections) -> Model:
     else:
         roughness = {"sq": sq, "correlation_length": 9e-6 * 32 / shape if shape < 48 else 4e-6}
         grid = {"shape": (shape, shape // 2), "spacing": 90e-6 / shape}
+    scene = scene.with_(numerics={"sampling": "patch"})
     return prepare(scene.with_(surface=roughness, contact=grid, **sections))
 
 
@@ -183,7 +184,8 @@ def judge_contact(model: Model, load: float, film) -> Sides:
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
-    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in closed form."""
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in
+    closed form."""
     bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)

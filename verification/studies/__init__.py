@@ -55,6 +55,11 @@ STUDIES: tuple[Study, ...] = (
         "load_sharing", "verification.studies.load_sharing:load_sharing", "Load sharing, both halves by finite elements"
     ),
     Study(
+        "deterministic",
+        "verification.studies.deterministic:deterministic",
+        "One gap, one pressure: limits, and the film in the same gap by finite elements",
+    ),
+    Study(
         "sharing_cases",
         "verification.studies.sharing_cases:sharing_cases",
         "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map",
@@ -64,6 +69,10 @@ STUDIES: tuple[Study, ...] = (
         "verification.studies.formulations:formulations",
         "Contact formulations of the paper against the default",
     ),
+    Study("wiring_film", "verification.wiring.film:wiring_film", "Every option reaches the number: film and shear"),
+    Study("wiring_contact", "verification.wiring.contact:wiring_contact", "Every option reaches the number: contact"),
+    Study("wiring_maps", "verification.wiring.maps:wiring_maps", "Every option reaches the number: height maps"),
+    Study("wiring_time", "verification.wiring.time:wiring_time", "Every option reaches the number: motion in time"),
     Study("transient", "verification.studies.transient:transient", "Smooth contact in time: squeeze, stops, jumps"),
     Study(
         "transient_mixed",

@@ -27,6 +27,14 @@ from ..rates import fitted_order
 LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
+TIGHT = {  # the model of the finite elements: no more and no less
+    "ehl_tolerance": 1e-4,
+    "balance_tolerance": 1e-6,
+    "model": "full",
+    "film_deflection": "hydrodynamic",
+    "heat": "off",
+    "accept": True,
+}
 PARTS = 9  # of a cell, to take the mean displacement on
 SOURCE = "film and contact by finite elements, own root finder"
 
@@ -60,8 +68,8 @@ def load_sharing(level: str):
     section with waves along the line, active set and dense algebra, against lubfric's Bessel kernel and
     conjugate gradient. *Balance and friction*: own root finder, own integrals. Both sides get the same
     heights on the same cells and the same meaning of a displacement, its mean over a cell: lubfric's own, at cell
-    centres, is averaged over parts of the cells by its own kernel (`cell_mean`). What is left is the error of the finite
-    elements.
+    centres, is averaged over parts of the cells by its own kernel (`cell_mean`). What is left is the error of the
+    finite elements.
     """
     options, points = LEVELS[level], []
     for cells in options.grids:
@@ -100,9 +108,7 @@ class Point:
 
 def scene() -> lubfric.Scene:
     """The paper's cylinder, everything modelled on the grid given."""
-    return lubfric.load_scene("paper").with_(
-        numerics={"tolerance": 1e-4, "ehl_tolerance": 1e-4, "balance_tolerance": 1e-6, "model": "full"}
-    )
+    return lubfric.load_scene("paper").with_(numerics=TIGHT | {"tolerance": 1e-4})
 
 
 def elastic() -> Elastic:
@@ -152,8 +158,9 @@ def averaged(model: Model) -> Model:
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """Displacements averaged over ``PARTS`` parts of each cell along x, under the same uniform pressure of cells: lubfric's
-    own coefficients on a grid of parts, summed over those of the source and averaged over those of the target."""
+    """Displacements averaged over ``PARTS`` parts of each cell along x, under the same uniform pressure of cells:
+    lubfric's own coefficients on a grid of parts, summed over those of the source and averaged over those of the
+    target."""
     (nx, ny), (dx, dy) = operator.shape, operator.spacing
     parts = semiperiodic_coefficients((nx * PARTS, ny), (dx / PARTS, dy), operator.e_prime)
     away = np.arange(nx)[:, None] * PARTS + np.arange(1 - PARTS, PARTS)
