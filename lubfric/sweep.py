@@ -16,7 +16,9 @@ from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
+from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from .scene import Scene
+from .show import Shown
 from .store import fingerprint
 from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
 from .studies.chain import Chain, make_chain
@@ -26,18 +28,29 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
+NOT_NUMBERS = (
+    "report",
+    "balance",
+    "decision",
+    "validity",
+    "deterministic",
+    "one_way",
+    "uncertainty",
+    "errors",
+    "line",
+)
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
-@dataclass(frozen=True)
-class StribeckResult:
+@dataclass(frozen=True, repr=False)
+class StribeckResult(Shown):
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
     results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
     range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
-    speeds.
+    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity:
+    its relative errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
     """
 
     speed: np.ndarray
@@ -64,6 +77,8 @@ class StribeckResult:
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    uncertainty: UncertaintyCurve
+    field_errors: dict[str, np.ndarray]
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a speed, refused or not."""
@@ -74,6 +89,11 @@ class StribeckResult:
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        contact, film = self.parts_at(speed)
+        return contact + film
+
+    def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
+        """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
         curve = self._interpolant
         known = curve.samples.speed
         at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
@@ -81,7 +101,7 @@ class StribeckResult:
             raise InputError(
                 f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
             )
-        return curve.at(at).reshape(np.shape(speed))
+        return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
 
     @property
     def lift_off(self) -> float | None:
@@ -98,6 +118,24 @@ class StribeckResult:
             )
         samples = samples_of(points)
         return Interpolant(samples, knee_of(samples))
+
+    def plot(self, ax=None, **style):
+        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
+        from .show.axes import curve_axes
+
+        return curve_axes(self, ax, **style)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {"": f"{self.speed.size} speeds"}
+        if self.speed.size > len(self.errors):
+            good = np.isfinite(self.coefficient)
+            facts |= {
+                "U": f"{self.speed[good].min():.4g} to {self.speed[good].max():.4g} m/s",
+                "f": f"{self.coefficient[good].min():.4g} to {self.coefficient[good].max():.4g}",
+            }
+        facts["failed"] = str(len(self.errors))
+        facts["not held"] = str(len(self.validity))
+        return facts
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -222,4 +260,16 @@ def _collect(speeds, points, errors) -> StribeckResult:
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
     report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
-    return StribeckResult(**columns, points=tuple(points), errors=errors, report=report)
+    return StribeckResult(
+        **columns,
+        points=tuple(points),
+        errors=errors,
+        report=report,
+        uncertainty=curve_of([None if p is None else p.uncertainty for p in points]),
+        field_errors=_field_errors(points),
+    )
+
+
+def _field_errors(points) -> dict[str, np.ndarray]:
+    """Relative errors by quantity, NaN where a point failed."""
+    return {name: np.array([np.nan if p is None else getattr(p.errors, name) for p in points]) for name in FIELDS}

@@ -115,14 +115,17 @@ class HalfSpaceContact(HalfSpaceGrid):
             plastic_area_fraction=plastic,
             fields=found,
             pressure=None if found is None else found.pressure,
+            y=np.arange(self.heights.shape[1]) * self.spacing[1],
         )
 
 
-def half_space_contact(scene: Scene, heights, spacing, operator: HalfSpace | None = None) -> HalfSpaceContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this
-    grid."""
+def half_space_contact(
+    scene: Scene, heights, spacing, operator: HalfSpace | None = None, x: np.ndarray | None = None
+) -> HalfSpaceContact:
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid;
+    ``x`` [m] (nx,): cell centres (None: evenly about the line of contact)."""
     bodies, numerics = scene.bodies, scene.numerics
-    x = centred_axis(heights.shape[0], spacing[0])
+    x = centred_axis(heights.shape[0], spacing[0]) if x is None else x
     weight = area_weight(scene, x, spacing[0])
     if operator is None:
         operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)

@@ -19,8 +19,10 @@ from lubfric.studies.journal import Journal, outcome_of, record_of
 from lubfric.studies.run import run_piece
 
 ROOT = Path(__file__).parents[2]
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 )
 SPEEDS = (0.003, 0.03, 0.3)
 VARY = {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}
@@ -91,7 +93,7 @@ def counted(model, speed, **options):
     print("solved", flush=True)
     return found
 chain.friction = counted
-scene = lubfric.load_scene("paper").with_(
+scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
 print("done", flush=True)
@@ -398,3 +400,19 @@ def test_folders_that_are_no_store(tmp_path):
     (tmp_path / "study.json").write_text('{"keys": ')
     with pytest.raises(lubfric.InputError, match="damaged"):
         lubfric.open_study(tmp_path)
+
+
+def test_every_part_of_a_scene_makes_another_key():
+    """Whatever is varied, no two points share a key: also parts that few scenes have."""
+    for section, field, values in (
+        ("motion", "slide_roll_ratio", [0.5, 1.0]),
+        ("numerics", "tolerance", [0.01, 0.02]),
+        ("contact", "region", ["hertz", "box"]),
+        ("surface", "seed", [1, 2]),
+        ("lubricant", "eyring_stress", [None, 5e6]),
+        ("bodies", "conductivity", [(46.0, 46.0), (46.0, 3.0)]),
+    ):
+        plan = lubfric.plan_study(SCENE, {f"{section}.{field}": values}, SPEEDS)
+        assert len(set(plan.keys().flat)) == plan.points, field
+    both = lubfric.plan_study(SCENE, {"counterface": [None, {"sq": 1e-8, "correlation_length": 4e-6}]}, SPEEDS)
+    assert len(set(both.keys().flat)) == both.points and len(both.batches) == 2
