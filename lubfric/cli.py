@@ -1,4 +1,4 @@
-"""The ``lubfric`` command: run, info, plot, oils."""
+"""The ``lubfric`` command: run, info, plot, init, oils."""
 
 from __future__ import annotations
 
@@ -48,6 +48,11 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
     _add_maps(run)
     run.add_argument(
+        "--sampling-tolerance",
+        type=float,
+        help="relative standard error of f that a finite rough surface may leave (default: of the scene, 0.02)",
+    )
+    run.add_argument(
         "--animation",
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
@@ -78,11 +83,22 @@ def _parser() -> argparse.ArgumentParser:
     plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
     plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
     plot.set_defaults(command=_plot)
+    init = commands.add_parser("init", help="write a commented scene to start from")
+    init.add_argument("file", type=Path, nargs="?", default=Path("scene.toml"), help="(default: scene.toml)")
+    init.set_defaults(command=_init)
     oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
     oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
     oils.add_argument("name", nargs="?", help="its name")
     oils.set_defaults(command=_oils)
     return parser
+
+
+def _init(arguments) -> int:
+    from .template import write_template
+
+    write_template(arguments.file)
+    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
+    return 0
 
 
 def _add_maps(command: argparse.ArgumentParser) -> None:
@@ -104,6 +120,8 @@ def _run(arguments) -> int:
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    if arguments.sampling_tolerance is not None:
+        scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
     if arguments.ratios and scene.transient is None:

@@ -16,6 +16,7 @@ from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
+from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from .scene import Scene
 from .show import Shown
 from .store import fingerprint
@@ -27,7 +28,18 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic", "one_way")
+FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
+NOT_NUMBERS = (
+    "report",
+    "balance",
+    "decision",
+    "validity",
+    "deterministic",
+    "one_way",
+    "uncertainty",
+    "errors",
+    "line",
+)
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -38,7 +50,8 @@ class StribeckResult(Shown):
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
     results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
     range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
-    speeds.
+    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity:
+    its relative errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
     """
 
     speed: np.ndarray
@@ -65,6 +78,8 @@ class StribeckResult(Shown):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    uncertainty: UncertaintyCurve
+    field_errors: dict[str, np.ndarray]
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a speed, refused or not."""
@@ -227,7 +242,10 @@ def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
     error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
     status = result.report.status if error <= tolerance else ITERATION_LIMIT
     residuals = {"interpolation": error, "points": result.report.residual}
-    return replace(result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals)
+    advice = FAILED_SPEEDS if result.errors else "solve more speeds of your own, or loosen numerics.tolerance"
+    return replace(
+        result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals, advice=advice
+    )
 
 
 def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
@@ -245,5 +263,19 @@ def _collect(speeds, points, errors) -> StribeckResult:
     tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
-    report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
-    return StribeckResult(**columns, points=tuple(points), errors=errors, report=report)
+    report = Report(
+        "stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes, advice=FAILED_SPEEDS
+    )
+    return StribeckResult(
+        **columns,
+        points=tuple(points),
+        errors=errors,
+        report=report,
+        uncertainty=curve_of([None if p is None else p.uncertainty for p in points]),
+        field_errors=_field_errors(points),
+    )
+
+
+def _field_errors(points) -> dict[str, np.ndarray]:
+    """Relative errors by quantity, NaN where a point failed."""
+    return {name: np.array([np.nan if p is None else getattr(p.errors, name) for p in points]) for name in FIELDS}

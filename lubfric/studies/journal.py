@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
 from ..result import FrictionResult
-from ..store import Records, decode, encode, read_checked, write_checked
+from ..store import Records, decode, encode, read_checked, write_checked, write_whole
 from ..store.codec import from_plain, to_plain
 from ..validity.entry import Validity
 
@@ -58,6 +58,20 @@ class Journal:
         """The chain is complete: its state is not needed any more."""
         self._path(STATES, chain).unlink(missing_ok=True)
 
+    def begin(self, name: str) -> bool:
+        """Mark a piece of work as begun; whether it was begun before and not finished."""
+        path = self._mark(name)
+        before = path.is_file()
+        write_whole(path, b"", sync=False)
+        return before
+
+    def finish(self, name: str) -> None:
+        """Take the mark of `begin` away."""
+        self._mark(name).unlink(missing_ok=True)
+
+    def _mark(self, name: str) -> Path:
+        return self.folder / STATES / f"{name[:32]}.begun"
+
     def close(self) -> None:
         """Close the file of the records."""
         self.records.close()
@@ -92,12 +106,18 @@ def without_fields(outcome):
     return outcome
 
 
+def bare(result: FrictionResult) -> FrictionResult:
+    """Without what the start of a neighbour can make again (`lubfric.sampling.line_friction.LineStart`)."""
+    return result if result.line is None else replace(result, line=result.line.bare())
+
+
 def _storable(outcome):
     """A result as it is, an exception as a `Failure`."""
     if not isinstance(outcome, Exception):
-        return outcome
+        return bare(outcome)
     if isinstance(outcome, ValidityError):
-        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), outcome.result)
+        result = None if outcome.result is None else bare(outcome.result)
+        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), result)
     report = outcome.report if isinstance(outcome, ConvergenceError) else None
     return Failure(type(outcome).__name__, str(outcome), report)
 
