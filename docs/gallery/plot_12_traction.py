@@ -14,13 +14,14 @@ import numpy as np
 import lubfric
 from lubfric.lubricant import viscosity
 
-ratios = np.geomspace(1e-3, 2, 14)
+ratios = np.geomspace(1e-3, 2, 9)
 scene = lubfric.load_scene("paper").with_(
     bodies={"radius": 10e-3, "width": 10e-3, "material": "steel", "hardness": None},
     lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "eyring_stress": 5e6},
     motion={"entrainment_speed": 2.0},
-    surface={"sq": 5e-9, "correlation_length": 40e-6},
-    contact={"shape": (160, 64), "spacing": 5e-6},
+    surface={"sq": 5e-9, "correlation_length": 40e-6, "acf": "gaussian"},
+    contact={"shape": (120, 32), "spacing": 7e-6},
+    numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "tolerance": 0.03},
 )
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
