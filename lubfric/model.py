@@ -9,20 +9,22 @@ from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
+from .plausible import told_doubts
 from .rough.contract import RoughContact
 from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
 from .sampling.lines import Lines
 from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
+from .show import Shown
 from .surface import Surface
 from .validate import instance
 from .validity.beforehand import beforehand
 from .validity.entry import Validity
 
 
-@dataclass(frozen=True)
-class Model:
+@dataclass(frozen=True, repr=False)
+class Model(Shown):
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
     Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
@@ -38,6 +40,9 @@ class Model:
     known: tuple[Validity, ...] = ()
     lines: Lines | None = None
     given: bool = False
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.scene.name, "map": self.surface.describe()}
 
 
 def prepare(
@@ -68,11 +73,12 @@ def prepare(
         _check_likeness(scene, like.scene, surface, contact)
         return _another(scene, like)
     given = surface is not None or contact is not None
-    if not given and takes_line(scene):
-        return _on_a_line(scene, levels)
-    surface = contact_map(scene, surface)
-    contact = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+    with told_doubts(scene):
+        if not given and takes_line(scene):
+            return _on_a_line(scene, levels)
+        surface = contact_map(scene, surface)
+        contact = rough_contact(scene, surface) if contact is None else contact
+        return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
 
 
 def _another(scene: Scene, like: Model) -> Model:
