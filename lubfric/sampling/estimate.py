@@ -153,8 +153,13 @@ def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     else:
         sampling, error = line.response.relative("coefficient", line.gap_error.error), line.gap_error
         errors = field_errors(line.point.balance, numerical, error, line.together, line.response)
+    notes: tuple[str, ...] = ()
+    if not math.isfinite(sampling):
+        sampling, notes = math.nan, ("the map is too short along y, or holds too few windows, for a standard error",)
     needed = (sampling / scene.numerics.sampling_tolerance) ** 2 if line.map_ends else 1.0
-    known = uncertainty_of(found.coefficient, relative, sampling, error, line.together, scene, max(needed, 1.0))
+    known = uncertainty_of(
+        found.coefficient, relative, sampling, error, line.together, scene, needed if needed > 1 else 1.0, notes
+    )
     return known, field_errors_of(errors | {"coefficient": math.hypot(relative, sampling)}, why_not(line.point))
 
 

@@ -15,6 +15,7 @@ from .influence import BlockError, add_errors, block_error, gap_influence, line_
 from .pieces import thinned
 
 SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
+FEWEST = 3  # pieces too short for blocks
 MOST_CELLS = 300_000  # of a piece, where a coarser one would do
 
 
@@ -116,6 +117,11 @@ def mean_error(steps) -> BlockError:
     """Of the mean change of the gap over several pieces [m]; zero where there are none to compare."""
     if not steps:
         return BlockError(0.0, 1)
+    if not all(math.isfinite(g.error.error) for g in steps):  # too short for blocks: what the pieces differ by
+        if len(steps) < FEWEST:
+            return BlockError(math.inf, 0)
+        gaps = [g.gap for g in steps]
+        return BlockError(float(np.std(gaps, ddof=1)) / math.sqrt(len(steps)), len(steps) - 1)
     found = add_errors(*(g.error for g in steps))
     return BlockError(found.error / len(steps), found.freedom)
 

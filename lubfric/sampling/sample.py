@@ -11,7 +11,7 @@ from ..point.adapt import Solved
 from ..point.balance import Balance, divided
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import GridStep, grid_step, mean_error
+from .grid_pair import FEWEST, GridStep, grid_step, mean_error
 from .influence import add_errors
 from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
@@ -67,7 +67,7 @@ class Sample:
         the length of all."""
         model, first = self.model, self.first
         found = missed_share(model, first.balance.film, first.balance.forces, model.lines.lengths[1])
-        found = found if math.isfinite(found) else 0.0
+        found = found if math.isfinite(found) else math.inf  # too short to tell
         return found * length_of(model.contact) / sum(r.length for r in self.records)
 
     @property
@@ -150,6 +150,8 @@ def _grid(model, speed: float, found: Solved, response: Response, before) -> tup
     )
     steps, point = [], at(model, speed, found.contact, balance)
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
+        if len(steps) == FEWEST and not math.isfinite(steps[0].error.error):
+            break
         length = PAIR * lines.lengths[1]
         steps.append(grid_step(lines, len(steps), length, point, balance.film, load, response.slopes.gap, enough))
     return tuple(steps)

@@ -40,7 +40,11 @@ class MeasuredLines:
     @property
     def available(self) -> float:
         """Longest line [m] that the map holds."""
-        return len(self.starts) * self.window
+        unit, (count, step) = (
+            4 * self.cells.factors[1],
+            (self.surface.shape[1] - self._blend(), self.surface.spacing[1]),
+        )
+        return len(self.starts) * count // unit * unit * step
 
     def line(self, index: int, length: float) -> Surface:
         """The shortest line of whole windows that is at least ``length`` [m] long, or of all; ``index`` tells
@@ -127,7 +131,8 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
         raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
     room = surface.shape[0] - fine
-    starts = room // 2 + step * np.arange(-(room // 2 // step), (room - room // 2) // step + 1)
+    count = room // step + 1
+    starts = (room - (count - 1) * step) // 2 + step * np.arange(count)
     return MeasuredLines(scene, surface, cells, lengths, tuple(int(starts[i]) for i in spread(len(starts))))
 
 
