@@ -6,12 +6,11 @@ import math
 import time
 
 from . import validate
-from .deterministic.answer import deterministic_result
-from .deterministic.point import deterministic_point
 from .errors import InputError
 from .model import Model, at_tolerance
 from .point.deflection import solved_as_deflected
-from .result import FrictionResult, result_of
+from .point.deterministic import deterministic_point
+from .result import FrictionResult, deterministic_result, result_of
 from .scene import FASTEST, Scene
 from .validity.entry import refused
 

@@ -13,7 +13,7 @@ class Cells:
 
     def __init__(self, operator, index):
         self.operator, self.shape, self.index = operator, operator.shape, index
-        self._field = None if index is None else np.zeros(self.shape, np.float32)
+        self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
     @staticmethod
     def flagged(operator, flags) -> Cells:

@@ -13,6 +13,7 @@ again) is convolved together with the next trial.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -53,7 +54,8 @@ class Descent:
         ripple = operator.e_prime * scale / min(operator.spacing)
         self.unit = total / np.count_nonzero(base) if total > 0 else ripple
         self.cells, self.pace, self.given = cells, pace, load is not None
-        self.load, self.target = (load / self.unit, (load - total) / self.unit) if self.given else (None, 0.0)
+        self.load = load / self.unit if self.given else math.nan
+        self.target = (load - total) / self.unit if self.given else 0.0
         self.slack = slack * total / self.unit
         self.hardness = problem.hardness
         base /= self.unit
@@ -64,10 +66,15 @@ class Descent:
         self.gap = cells.take(gap, np.float32, 1 / scale)
         self.compliance = self.unit / scale
         self.change, self.known = np.zeros_like(self.gap), np.zeros_like(self.gap)
-        self.direction, self.residue, self.power = None, None, 1.0
-        self.level, self.iterations, self.convolutions, self.history = 0.0, 0, 0, []
+        self.direction: Any = None
+        self.residue: Any = None
+        self.power = 1.0
+        self.level, self.iterations, self.convolutions = 0.0, 0, 0
+        self.history: list[float] = []
         factor = operator.e_prime / 4 / self.compliance
-        self.careful, self.stiffness, self.stencil = careful, None, None
+        self.careful = careful
+        self.stiffness: Any = None
+        self.stencil: Stencil | None = None
         if careful or np.count_nonzero(base) > TRANSFORMED * pressure.size:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:

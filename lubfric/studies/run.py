@@ -111,7 +111,8 @@ def _chains(batch: Batch):
 def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
     journal = None if piece.folder is None else Journal(piece.folder)
-    rows, leader = {}, None
+    rows: dict[str, dict] = {}
+    leader = None
     try:
         for curve in piece.batch.curves:
             chains = [chain for chain in curve.chains if piece.left(chain)]

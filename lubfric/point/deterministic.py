@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..deterministic.domain import lay_out
+from ..deterministic.refine import Refined, solve_refined
+from ..deterministic.takes import check_scene
 from ..line_contact import LineContact
 from ..model import Model
 from ..scene import Scene
@@ -11,9 +14,6 @@ from ..surface import Surface
 from ..validity.bodies import of_motion
 from ..validity.entry import Validity
 from ..validity.film import of_pressure, of_thickness
-from .domain import lay_out
-from .refine import Refined, solve_refined
-from .takes import check_scene
 
 LEAST, MOST = 32, 512  # cells across, of the coarsest and of the finest grid
 KEPT = 0.9  # of Sq, on the coarsest grid
