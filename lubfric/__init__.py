@@ -29,11 +29,17 @@ if TYPE_CHECKING:
     from .fitting import read_measured as read_measured
     from .fitting.fit import fit as fit
     from .history.plan import Transient as Transient
+    from .lubricant import Lubricant as Lubricant
     from .model import Model as Model
     from .model import prepare as prepare
     from .paper.differential import solve_differential_deflection as solve_differential_deflection
     from .report import Report as Report
     from .result import FrictionResult as FrictionResult
+    from .scene import Bodies as Bodies
+    from .scene import Motion as Motion
+    from .scene import Numerics as Numerics
+    from .scene import Patch as Patch
+    from .scene import Roughness as Roughness
     from .scene import Scene as Scene
     from .scene_file import load_scene as load_scene
     from .steady import friction as friction
@@ -52,7 +58,6 @@ if TYPE_CHECKING:
     from .unsteady.result import TransientResult as TransientResult
     from .unsteady.run import transient as transient
     from .validity import Validity as Validity
-
 
 _HOME = {
     "ConvergenceError": "errors",
@@ -74,6 +79,12 @@ _HOME = {
     "EHLResult": "ehl",
     "solve_differential_deflection": "paper.differential",
     "Scene": "scene",
+    "Lubricant": "lubricant",
+    "Numerics": "scene",
+    "Patch": "scene",
+    "Roughness": "scene",
+    "Motion": "scene",
+    "Bodies": "scene",
     "load_scene": "scene_file",
     "friction": "steady",
     "prepare": "model",

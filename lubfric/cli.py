@@ -41,7 +41,7 @@ def _parser() -> argparse.ArgumentParser:
     run = commands.add_parser("run", help="compute the Stribeck curve of a scene and write it to a folder")
     run.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
     run.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1' or 'low:high:count'")
+    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1', 'low:high:count' or 'auto'")
     run.add_argument(
         "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
     )
@@ -57,6 +57,8 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="keep results outside the range of the model, marked, instead of refusing them",
     )
+    run.add_argument("--report", action="store_true", help="also write report.html, one page that needs nothing else")
+    run.add_argument("--vtk", action="store_true", help="also write the contacts of --fields for ParaView")
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
@@ -72,6 +74,9 @@ def _parser() -> argparse.ArgumentParser:
     study.set_defaults(command=_study)
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
+    plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
+    plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
+    plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
     plot.set_defaults(command=_plot)
     oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
     oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
@@ -106,12 +111,17 @@ def _run(arguments) -> int:
 
         return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
+        from .errors import InputError
         from .unsteady.command import run_history
 
-        return run_history(scene, arguments.out, arguments.animation)
-    from .run_sweep import run_sweep
+        if arguments.report or arguments.vtk:
+            raise InputError("--report and --vtk show a Stribeck curve; allowed: a scene without [transient]")
 
-    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields)
+        return run_history(scene, arguments.out, arguments.animation)
+    from .run_sweep import Extras, run_sweep
+
+    more = Extras(arguments.report, arguments.vtk)
+    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
 
 
 def _study(arguments) -> int:
@@ -133,6 +143,7 @@ def _plot(arguments) -> int:
     from .errors import InputError
     from .output import read_csv
     from .plot import plot_stribeck
+    from .store import whole_file
     from .unsteady.command import plot_again
 
     if plot_again(arguments.folder):
@@ -146,5 +157,19 @@ def _plot(arguments) -> int:
         name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
     except (ValueError, KeyError, TypeError, RecursionError) as problem:
         raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
-    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), str(name))
+    measured = _measured(arguments)
+    with whole_file(arguments.folder / "stribeck.png") as part:
+        plot_stribeck(part, read_csv(source), str(name), measured)
     return 0
+
+
+def _measured(arguments):
+    """The measured curve of ``lubfric plot --measured``, or None."""
+    from .errors import InputError
+    from .fitting.measured import read_measured
+
+    if arguments.measured is None:
+        return None
+    if arguments.speed is None or arguments.coefficient is None:
+        raise InputError("--measured needs --speed and --coefficient; allowed: the headings of its columns")
+    return read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)

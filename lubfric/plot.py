@@ -19,10 +19,11 @@ def _figure(*args, **kwargs):
     return figure
 
 
-def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
+def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
     ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
+    ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """
     from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -35,9 +36,14 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> Non
     top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
     top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
     top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    if measured is not None:
+        error = None if measured.deviation is None else 1.96 * measured.deviation
+        top.errorbar(np.abs(measured.x), measured.coefficient, error, fmt="D", ms=4, color="k", mfc="none", lw=1)
+        top.plot([], [], "D", ms=4, color="k", mfc="none", label=measured.source)
     _mark(figure, top, speed, c)
     top.set_ylabel("friction coefficient (-)")
-    top.set_ylim(bottom=min(0, 1.1 * c["coefficient"].min()))
+    lowest = c["coefficient"].min() if measured is None else min(c["coefficient"].min(), measured.coefficient.min())
+    top.set_ylim(bottom=min(0, 1.1 * lowest))
     top.set_title(title)
     top.legend(frameon=False)
     middle.fill_between(speed, 0, c["contact_load"] / total, color=RED, alpha=0.5, lw=0, label="contact $F_C$")

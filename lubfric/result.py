@@ -15,11 +15,12 @@ from .point.balance import Balance
 from .point.decision import Decision
 from .point.judge import judged_validity
 from .report import Report
+from .show.point import PointShown
 from .validity.entry import Validity
 
 
-@dataclass(frozen=True)
-class FrictionResult:
+@dataclass(frozen=True, repr=False)
+class FrictionResult(PointShown):
     """One operating point. Forces in N, lengths in m, speed in m/s, fractions of the area A.
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that

@@ -26,6 +26,7 @@ OUTPUTS = (
     "history.png",
     "animation.gif",
     "fields.npz",
+    "report.html",
 )
 
 
@@ -40,8 +41,8 @@ class RunFolder:
     def clear(self) -> None:
         """Remove the results of an earlier run, now that those of this one are there to be written."""
         with saying(f"results of an earlier run in {self.path} were not removed"):
-            for name in OUTPUTS:
-                (self.path / name).unlink(missing_ok=True)
+            for path in (*(self.path / name for name in OUTPUTS), *self.path.glob("contact_*.vtk")):
+                path.unlink(missing_ok=True)
 
     def write(self, name: str, content: bytes) -> None:
         """A file of the run, whole or not at all."""

@@ -281,6 +281,12 @@ class Scene:
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
 
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from .scene_text import scene_as_toml
+
+        return scene_as_toml(self)
+
 
 def _changed(section: str, old: Any, values: Any) -> Any:
     """``old`` with the fields in the dict ``values``, or ``values`` itself where it is of the section's type."""

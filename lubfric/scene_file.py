@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tomllib
+from copy import deepcopy
 from dataclasses import MISSING, fields
 from importlib import resources
 from pathlib import Path
@@ -49,25 +50,33 @@ HISTORIES = {
 
 
 def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
-    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+    """The scene in a TOML file, in a dict of its tables, or built in: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
 
     ``surface_file``, ``counterface_file``: height maps to use instead of the scene's own; in place of a generated
     surface a map keeps its own grid.
 
     Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
-    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
+    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder,
+    that of a dict to the working folder.
     """
-    text, folder, name = _text(source)
-    try:
-        table = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
-        raise InputError(
-            f"scene {source} is not valid TOML: {validate.shown(str(error))} (numbers have a decimal point and no unit)"
-        ) from None
+    if isinstance(source, dict):
+        table, folder, name = deepcopy(source), Path(), "unnamed"
+    else:
+        text, folder, name = _text(source)
+        table = _parsed(text, source)
     for section, path in zip(ROUGH, (surface_file, counterface_file)):
         if path is not None:
             _put_map(table, section, path)
     return scene_from_table(table, folder, name)
+
+
+def _parsed(text: str, source) -> dict:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
+        raise InputError(
+            f"scene {source} is not valid TOML: {validate.shown(str(error))} (numbers have a decimal point and no unit)"
+        ) from None
 
 
 def _put_map(table: dict, section: str, path) -> None:

@@ -17,6 +17,7 @@ from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
 from .scene import Scene
+from .show import Shown
 from .store import fingerprint
 from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
 from .studies.chain import Chain, make_chain
@@ -30,8 +31,8 @@ NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
-@dataclass(frozen=True)
-class StribeckResult:
+@dataclass(frozen=True, repr=False)
+class StribeckResult(Shown):
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
@@ -74,6 +75,11 @@ class StribeckResult:
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        contact, film = self.parts_at(speed)
+        return contact + film
+
+    def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
+        """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
         curve = self._interpolant
         known = curve.samples.speed
         at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
@@ -81,7 +87,7 @@ class StribeckResult:
             raise InputError(
                 f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
             )
-        return curve.at(at).reshape(np.shape(speed))
+        return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
 
     @property
     def lift_off(self) -> float | None:
@@ -98,6 +104,24 @@ class StribeckResult:
             )
         samples = samples_of(points)
         return Interpolant(samples, knee_of(samples))
+
+    def plot(self, ax=None, **style):
+        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
+        from .show.axes import curve_axes
+
+        return curve_axes(self, ax, **style)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {"": f"{self.speed.size} speeds"}
+        if self.speed.size > len(self.errors):
+            good = np.isfinite(self.coefficient)
+            facts |= {
+                "U": f"{self.speed[good].min():.4g} to {self.speed[good].max():.4g} m/s",
+                "f": f"{self.coefficient[good].min():.4g} to {self.coefficient[good].max():.4g}",
+            }
+        facts["failed"] = str(len(self.errors))
+        facts["not held"] = str(len(self.validity))
+        return facts
 
     @property
     def validity(self) -> tuple[str, ...]:

@@ -119,5 +119,5 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
     nothing = np.empty((0, 0))  # of a start for a finer grid only the pressure is asked
-    state = State(found, nothing, nothing, state.approach, state.scale, 0.0, descent.history[-1])
+    state = State(found, nothing, nothing, state.approach, state.scale, {"search": descent.history[-1]})
     return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)

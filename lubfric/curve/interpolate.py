@@ -48,7 +48,7 @@ class Interpolant:
     def at(self, speed, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the shape-preserving cubics."""
         speed = np.asarray(speed, dtype=float)
-        return self._boundary(speed, smooth) + self._film(speed, smooth)
+        return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
         """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
@@ -80,7 +80,8 @@ class Interpolant:
         low, high = knee_range(self.samples)
         return tuple(Interpolant(self.samples, knee) for knee in (low, high) if abs(knee / self.lift_off - 1) > 1e-12)
 
-    def _boundary(self, speed, smooth):
+    def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """The part of f from the contact spots."""
         k, s = self.samples.contacts, self.samples
         if k == 0:
             return np.zeros(speed.shape)
@@ -90,7 +91,8 @@ class Interpolant:
         found = np.maximum(_cubic(x, w, speed**EXPONENT, smooth), 0.0) ** (1.0 / POWER)
         return found if self.lift_off is None else np.where(speed < self.lift_off, found, 0.0)
 
-    def _film(self, speed, smooth):
+    def film(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """The part of f from the film."""
         s, k = self.samples, self.samples.contacts
         powers = bool(np.all(s.film > 0.0))
         y, g, at = np.log(s.speed), np.log(s.film) if powers else s.film, np.log(speed)

@@ -24,7 +24,8 @@ class ContactState:
     mean_gap [m]: lubricant volume per area of A between the rough surfaces; mean_film [m]: the same between the smooth
     ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m]; real_contact_area_fraction,
     plastic_area_fraction: of the area A. fields: pressure and gap on the contact grid, (nx, ny) (None: separated, or a
-    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from.
+    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from; y [m] (ny,): of their
+    cells.
     """
 
     mean_gap: float
@@ -35,6 +36,7 @@ class ContactState:
     plastic_area_fraction: float
     fields: ContactResult | None = None
     pressure: np.ndarray | None = field(default=None, repr=False)
+    y: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def volume_residual(self) -> float:

@@ -115,6 +115,7 @@ class HalfSpaceContact(HalfSpaceGrid):
             plastic_area_fraction=plastic,
             fields=found,
             pressure=None if found is None else found.pressure,
+            y=np.arange(self.heights.shape[1]) * self.spacing[1],
         )
 
 

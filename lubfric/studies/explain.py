@@ -21,7 +21,7 @@ def explain(plan) -> str:
     solved."""
     curves = [curve for batch in plan.batches for curve in batch.curves]
     chains = sum(len(curve.chains) for curve in curves)
-    maps = {repr(batch.leader.surface): batch.leader for batch in plan.batches}
+    maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     lines = [f"study of {plan.scene.name}: {plan.points} points"]
     for axis in plan.axes:
         first, last = axis.values[0], axis.values[-1]
@@ -47,7 +47,7 @@ def _costs(plan, maps) -> tuple[int, float, list[str]]:
     """(cells of the largest map, seconds, reasons of maps that cannot be made)."""
     seconds, largest, failed, transform = 0.0, 0, [], {}
     for batch in plan.batches:
-        name = repr(batch.leader.surface), repr(batch.leader.contact)
+        name = repr((batch.leader.surface, batch.leader.counterface, batch.leader.contact))
         if name not in transform:
             try:
                 shape = contact_map(batch.leader).shape

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..roughness import Roughness
 from ..scene import Scene
 from ..short_forms import short_keys
 
@@ -51,8 +52,7 @@ class Axis:
         sections: dict[str, Any] = {}
         for key, value in zip(self.keys, self.values[index]):
             section, _, field = key.partition(".")
-            part = value if field == "" else {field: value}
-            sections[section] = sections.get(section, {}) | part
+            sections[section] = sections.get(section, {}) | {field: value} if field else value
         return scene.with_(**sections)
 
 
@@ -110,7 +110,8 @@ def _check_key(scene: Scene, key, seen: set) -> None:
         raise InputError(
             f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
         )
-    fields = (*getattr(scene, section).__dataclass_fields__, *short_keys(section))
+    part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
+    fields = (*part.__dataclass_fields__, *short_keys(section))
     if field and field not in fields:
         raise InputError(
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"

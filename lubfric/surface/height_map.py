@@ -10,14 +10,15 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..frozen import FrozenArrays
+from ..show import Shown
 from . import checks, filters, pair, prepare, regrid, statistics
 from .outliers import LIMIT, WINDOW, outliers
 
 HIGHEST = 1e3  # m, of any height
 
 
-@dataclass(frozen=True, eq=False)
-class Surface(FrozenArrays):
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(FrozenArrays, Shown):
     """Heights on a uniform grid; x, the direction of motion, is axis 0. Every method returns a new map.
 
     heights : (nx, ny) [m], upwards, at most 1 km. Read-only. Unmeasured points are NaN until `fill` is called.
@@ -85,6 +86,15 @@ class Surface(FrozenArrays):
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
         return f"{self.source}: {text}" if self.source else text
+
+    def plot(self, ax=None):
+        """The heights in the plane, on ``ax`` or new axes, which are returned."""
+        from ..show.axes import surface_axes
+
+        return surface_axes(self, ax)
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.describe()}
 
     def level(self, form: str = "plane") -> Surface:
         """Subtract the least-squares "plane" of the measured points, or "quadratic" (cylinder, paraboloid)."""
