@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.point.deterministic import grids
+from lubfric.deterministic.point import grids
 from lubfric.store.codec import decode, encode
 
 SCENE = lubfric.load_scene("paper").with_(
