@@ -131,10 +131,10 @@ def solve_line_contact(
     problem = make_problem(contact, inlet_length, imposed)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    seats = find_seats(problem)
     levels: list[Solution] = []
     first: list[Solution] = []
     notes: tuple[str, ...] = ()
-    seats = find_seats(problem)
     if start is not None:
         alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
         problem = replace(problem, seat=(alike or seats)[0])
@@ -236,17 +236,17 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
     if doublings:
         return _descent(problem, n, max_steps, doublings)
     if problem.imposed is not None:
-        state, spent = _first_state(problem.alone(), n, max_steps)
-        return from_alone(problem, state), spent
-    start: State | None = None
+        alone, led_there = _first_state(problem.alone(), n, max_steps)
+        return from_alone(problem, alone), led_there
+    state: State | None = None
     solutions: list[Solution] = []
     share = min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
-        z, H = warm_start(grid, stage, start) if start else cold_start(grid, stage)
+        z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
-        start = state = solution_state(stage, solutions[-1], 0.0)
+        state = solution_state(stage, solutions[-1], 0.0)
         if share == 1.0 or not np.isfinite(solutions[-1].error):
             return state, solutions
         share = min(1.0, STAGE * share)
@@ -254,23 +254,21 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 
 def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
     """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
-    fastest = _faster(problem, doublings)
-    state, solutions = _first_state(fastest, n, max_steps)
+
+    def stage_of(k: int) -> Problem:
+        faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
+        stage = replace(problem, contact=faster)
+        return replace(stage, seat=find_seats(stage)[0])
+
+    state, solutions = _first_state(stage_of(doublings), n, max_steps)
     for k in range(doublings, 0, -1):
-        stage = _faster(problem, k)
+        stage = stage_of(k)
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)
         if solutions[-1].status != CONVERGED:
             break
     return state, solutions
-
-
-def _faster(problem: Problem, doublings: int) -> Problem:
-    """The same at a speed doubled so many times, on the likelier seat."""
-    faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**doublings)
-    stage = replace(problem, contact=faster)
-    return replace(stage, seat=find_seats(stage)[0])
 
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import __version__
 from ..console import keeping, say
 from ..errors import ConvergenceError
 from ..model import prepare
@@ -15,7 +16,6 @@ from ..output import npz_bytes, plain, read_csv, table_bytes
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene, scene_as_dict
 from ..store import fingerprint
-from ..version import __version__
 from .checkpoint import STATE
 from .plot import animate, plot_history
 from .result import TransientResult
