@@ -30,6 +30,8 @@ UNITS = {
     "min_film": "m",
     "central_film": "m",
     "mean_gap": "m",
+    "flash_temperature_rise": "K",
+    "film_temperature_rise": "K",
     "seconds": "s",
 }
 

@@ -21,6 +21,7 @@ LARGEST = 2**26  # cells of a contact grid
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+HEATS = ("auto", "on", "off")
 CLOSURES = ("load", "separation")
 FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full")
@@ -200,7 +201,8 @@ class Numerics:
     of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid. film_level, contact_level, grid: a level given by name instead. accept: results outside the range of
+    scene's own grid. film_level, contact_level, grid: a level given by name instead. heat: of inlet,
+    film and surfaces, "auto" (where it matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
     the model are returned, marked, instead of refused.
     """
 
@@ -216,6 +218,7 @@ class Numerics:
     film_level: str = "auto"
     contact_level: str = "auto"
     grid: str = "auto"
+    heat: str = "auto"
     accept: bool = False
 
     def __post_init__(self):
@@ -224,6 +227,7 @@ class Numerics:
             ("film_level", FILM_LEVELS),
             ("contact_level", CONTACT_LEVELS),
             ("grid", GRIDS),
+            ("heat", HEATS),
         ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.choice("numerics.closure", self.closure, CLOSURES)
@@ -279,6 +283,13 @@ class Scene:
     numerics: Numerics = field(default_factory=Numerics)
     name: str = "unnamed"
     transient: Transient | None = None
+
+    def __post_init__(self):
+        if self.numerics.heat == "on" and not self.lubricant.heats:
+            raise InputError(
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an oil (lubricant.grade, "
+                "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
+            )
 
     def with_(self, **sections) -> Scene:
         """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``.

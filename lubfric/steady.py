@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from . import validate
 from .model import Model, at_tolerance
+from .oil.describe import estimate_in_words
 from .point.adapt import Solved, solved
 from .point.balance import Balance
 from .point.decision import Decision
@@ -23,7 +24,9 @@ class FrictionResult:
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
     carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
-    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. The residuals are relative: load
+    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the film, by the
+    heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and (mean across) of the film above
+    them (1, 0, 0 where heat is left out). The residuals are relative: load
     (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
     (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
@@ -46,6 +49,9 @@ class FrictionResult:
     central_film: float
     mean_gap: float
     film_to_roughness_ratio: float
+    inlet_film_factor: float
+    flash_temperature_rise: float
+    film_temperature_rise: float
     load_residual: float
     volume_residual: float
     seconds: float
@@ -96,7 +102,9 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
     passed = judged_validity(model, speed, balance, found)
-    notes = (*balance.report.notes, point.decision.text, *(entry.text for entry in passed))
+    oil = scene.lubricant.oil
+    known = (estimate_in_words(oil, scene.lubricant.temperature),) if oil else ()
+    notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
     sq = model.surface.sq
     return FrictionResult(
         speed=speed,
@@ -114,6 +122,9 @@ def _result(model: Model, speed: float, point: Solved, begun: float) -> Friction
         central_film=central,
         mean_gap=contact.mean_film if separated else contact.mean_gap,
         film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
+        inlet_film_factor=found.heat.film_factor,
+        flash_temperature_rise=found.heat.flash,
+        film_temperature_rise=found.heat.film,
         load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
         volume_residual=0.0 if film is None or separated else contact.volume_residual,
         seconds=time.perf_counter() - begun,

@@ -43,6 +43,9 @@ class StribeckResult:
     central_film: np.ndarray
     mean_gap: np.ndarray
     film_to_roughness_ratio: np.ndarray
+    inlet_film_factor: np.ndarray
+    flash_temperature_rise: np.ndarray
+    film_temperature_rise: np.ndarray
     load_residual: np.ndarray
     volume_residual: np.ndarray
     seconds: np.ndarray

@@ -14,6 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from ..ehl.imposed import LinePressure
+from ..heat.point import WarmFilm
 from ..line_contact import LineContact
 from ..lubricant import Lubricant
 from ..report import Report
@@ -115,8 +116,9 @@ class FilmLevel:
         width: float,
         contact_fraction: Callable,
         cavitated: str,
+        warm: WarmFilm | None = None,
     ) -> ShearForce:
-        """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`)."""
+        """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`); ``warm``: with its heat."""
         return shear_force(
             film,
             lubricant,
@@ -124,4 +126,5 @@ class FilmLevel:
             width=width,
             contact_fraction=contact_fraction,
             cavitated=cavitated,
+            warm=warm,
         )

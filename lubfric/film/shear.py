@@ -34,7 +34,14 @@ class ShearForce:
 
 
 def shear_force(
-    film, lubricant: Lubricant, *, slide_roll_ratio: float, width: float, contact_fraction, cavitated: str = "none"
+    film,
+    lubricant: Lubricant,
+    *,
+    slide_roll_ratio: float,
+    width: float,
+    contact_fraction,
+    cavitated: str = "none",
+    warm=None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
@@ -43,7 +50,8 @@ def shear_force(
     (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
     far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
     cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
-    width. The lubricant's shear law (Newtonian by default) acts on the Couette term.
+    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`,
+    the stress of the heated film and the viscosity that it was solved with; None: isothermal.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction = math.copysign(1.0, entrainment_speed)
@@ -54,18 +62,25 @@ def shear_force(
     wet = 1.0 - contact_fraction(x * direction)
 
     rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet)
-    tau = shear_stress(lubricant, p, sliding / h)
+
+    def stress(at, pressure, thickness):
+        if warm is not None and warm.stress is not None:
+            return warm.stress(at, pressure, thickness)
+        return shear_stress(lubricant, pressure, sliding / thickness)
+
+    inlet_viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
+    tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
     couette = np.sum(face_tau[full])
-    middle = shear_stress(lubricant, 0.5 * (p[1:] + p[:-1]), sliding / (0.5 * (h[1:] + h[:-1]))) * np.diff(x) * wet
+    middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
     carried = carried_stress(p)
     above = np.maximum(np.abs(tau) - carried, 0.0)
     excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
-    rolling += 6 * lubricant.viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
+    rolling += 6 * inlet_viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
         h_rupture = np.interp(film.rupture * direction, x, h)
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])

@@ -40,3 +40,22 @@ def _row(oil: Oil, temperature: float) -> str:
         f"{oil.viscosity(temperature) * 1e3:7.4g}  {oil.density_at(temperature):6.1f}   {alpha.value * 1e9:5.3g} "
         f"{bounds:<28}  {oil.temperature_coefficient(temperature):.4f}"
     )
+
+
+FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dowson and Toyoda, 1978)
+
+
+def estimate_in_words(oil: Oil, temperature: float) -> str:
+    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the latter is known."""
+    text = (
+        f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, constant 0.7), "
+        f"density {oil.density_at(temperature):.4g} kg/m³"
+    )
+    alpha, other = oil.pressure_viscosity_coefficient(temperature), oil.other_estimate(temperature)
+    if alpha.low == alpha.high:
+        return f"{text}, alpha {alpha.value * 1e9:.3g} /GPa as given"
+    text += f", alpha {alpha.text} /GPa"
+    if other is not None:
+        text += f"; {other.source} gives {other.value * 1e9:.3g} ({100 * (other.value / alpha.value - 1):+.2g} %)"
+    thin, thick = ((bound / alpha.value) ** FILM_EXPONENT - 1 for bound in (alpha.low, alpha.high))
+    return f"{text}; the range is worth {100 * thin:+.2g} to {100 * thick:+.2g} % of a full film"

@@ -179,6 +179,7 @@ def _decision(stage: Stage) -> Decision:
         left_out=stage.left_out,
         sensitivity=stage.forces.sensitivity,
         film_tolerance=settings.film_tolerance if settings.level.numerical else 0.0,
+        heat=stage.forces.heat.text(numerics.tolerance),
         forced=_forced(numerics),
         notes=notes,
     )

@@ -16,7 +16,7 @@ class Decision:
     friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
     [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
     in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
-    tolerance: asked, on f; forced: what was not chosen but given.
+    tolerance: asked, on f; heat: what of it was modelled, in words ("": not known); forced: what was not chosen but given.
     """
 
     film: str
@@ -30,13 +30,14 @@ class Decision:
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
+    heat: str = ""
     forced: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
         """In words, the number beside its budget."""
-        parts = (self.film_text, self._contact(), self._grid(), *self.notes)
+        parts = (self.film_text, self._contact(), self._grid(), self.heat, *self.notes)
         return "; ".join(part for part in parts if part)
 
     @property

@@ -8,6 +8,7 @@ from ..model import Model
 from ..validity.bodies import of_motion
 from ..validity.entry import Validity
 from ..validity.film import of_deflection, of_pressure, of_thickness
+from ..validity.heat import of_heat
 from ..validity.stress import of_shear
 from .balance import Balance
 from .forces import Forces
@@ -24,6 +25,7 @@ def judged_validity(model: Model, speed: float, balance: Balance, found: Forces)
         entries += of_pressure(scene.lubricant, float(film.pressure.max()))
         entries += of_thickness(scene.bodies, thickness)
         entries += _of_shear(scene, balance, found)
+        entries += of_heat(found.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
         entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
     return tuple(entries)
 

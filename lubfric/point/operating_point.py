@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ..film.contract import Film, FilmLevel
+from ..heat.point import film_lubricant
 from ..line_contact import LineContact
+from ..lubricant import Lubricant
 from ..model import Model
 from ..rough.contract import ContactState, RoughContact
 from ..scene import Scene
@@ -73,7 +76,7 @@ class OperatingPoint:
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
         return LineContact(
-            film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self.scene.lubricant
+            film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self._film_lubricant
         )
 
     def with_film(self, film_load: float, last: Trial, imposed=None) -> Trial:
@@ -109,6 +112,11 @@ class OperatingPoint:
         whole = 4.895 * scene.lubricant.viscosity * abs(self.speed) * bodies.radius * bodies.width
         share = min(whole / (thickness * bodies.load), 0.9)
         return math.log(share / (1 - share))
+
+    @cached_property
+    def _film_lubricant(self) -> Lubricant:
+        """As viscous as it is in the inlet."""
+        return film_lubricant(self.scene, self.speed)
 
     @property
     def _contact(self) -> RoughContact:

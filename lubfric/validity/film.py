@@ -6,11 +6,17 @@ from .entry import Validity
 
 ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
 BARUS_LIMIT = 3e8  # Pa
+NO_LIQUID = 1e10  # Pa: no oil flows there
 THICK = 0.1  # of the radius
 
 
 def of_pressure(lubricant, peak: float) -> list[Validity]:
     """``peak``: highest film pressure [Pa]."""
+    if peak > NO_LIQUID:
+        return [
+            Validity("film pressure", peak / 1e9, NO_LIQUID / 1e9, "GPa", "no oil is a liquid there",
+                     "check bodies.load and numerics.film_level", True)
+        ]  # fmt: skip
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(lubricant.viscosity_law)
     if limit is None or peak <= limit:
         return []
