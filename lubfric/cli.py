@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import time
+import sys
 from pathlib import Path
 
-from .console import INTERRUPTED, Interrupted, interruptible, say
-from .errors import ConvergenceError, LubfricError, ValidityError
-
-OUTPUTS = ("result.json", "stribeck.csv", "stribeck.png", "fields.npz", "contact.png")
+from .console import INTERRUPTED, Interrupted, interruptible, put, say
+from .errors import ConvergenceError, LubfricError
 
 
 def main(argv=None) -> int:
@@ -84,16 +82,12 @@ def _oils(arguments) -> int:
 
     if arguments.show and not arguments.name:
         raise InputError("lubfric oils show needs a name; 'lubfric oils' lists them")
-    print(show_oil(arguments.name) if arguments.name else list_oils())
+    put(sys.stdout, (show_oil(arguments.name) if arguments.name else list_oils()) + "\n")
     return 0
 
 
 def _run(arguments) -> int:
-    from .model import prepare
-    from .output import read_csv, write_csv, write_fields, write_json
-    from .plot import plot_contact, plot_stribeck
     from .scene_file import load_scene
-    from .sweep import stribeck
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface)
     if arguments.accept:
@@ -101,43 +95,10 @@ def _run(arguments) -> int:
     if scene.transient is not None:
         from .unsteady.command import run_history
 
-        return run_history(scene, arguments.out, arguments.animation, say)
-    speeds = _speeds(arguments.speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    chosen = _speeds(arguments.fields) or [scene.motion.entrainment_speed]
-    speeds, chosen = _with_chosen(speeds, chosen)
-    out = _folder(arguments.out)
-    begun = time.perf_counter()
-    say(f"{scene.name}: preparing the height map and the contact")
-    model = prepare(scene)
-    say(model.surface.describe())
-    curve = stribeck(model, speeds, fields=chosen, on_point=_progress, raise_on_failure=False)
-    write_csv(out / "stribeck.csv", curve)
-    write_json(out / "result.json", model, curve, time.perf_counter() - begun)
-    written = ["result.json", "stribeck.csv"]
-    if len(curve.errors) < curve.speed.size:
-        plot_stribeck(out / "stribeck.png", read_csv(out / "stribeck.csv"), scene.name)
-        written.append("stribeck.png")
-    points = [p for p in curve.points if p is not None and p.balance is not None]
-    if points:
-        points.sort(key=lambda p: chosen.index(p.speed))
-        write_fields(out / "fields.npz", model, points)
-        plot_contact(out / "contact.png", model, points[0])
-        written += ["fields.npz", "contact.png"]
-    for text in curve.validity:
-        say(text)
-    if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
-        say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
-    say(f"wrote {', '.join(sorted(written))} to {out} in {time.perf_counter() - begun:.1f} s")
-    if curve.errors:
-        failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
-        counts = [f"{failed} of {curve.speed.size} speeds failed"] if failed else []
-        if len(curve.errors) > failed:
-            counts.append(
-                f"{len(curve.errors) - failed} of {curve.speed.size} speeds refused (--accept keeps them, marked)"
-            )
-        first = curve.errors[min(curve.errors)]
-        raise ConvergenceError(f"{', '.join(counts)}; first: {first}", curve.report)
-    return 0
+        return run_history(scene, arguments.out, arguments.animation)
+    from .run_sweep import run_sweep
+
+    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields)
 
 
 def _study(arguments) -> int:
@@ -150,7 +111,7 @@ def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
 
-    print(describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)))
+    put(sys.stdout, describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)) + "\n")
     return 0
 
 
@@ -169,56 +130,3 @@ def _plot(arguments) -> int:
     record = json.loads((arguments.folder / "result.json").read_text())
     plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
     return 0
-
-
-def _speeds(text: str | None) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
-    import numpy as np
-
-    from .errors import InputError
-
-    if not text:
-        return []
-    try:
-        if ":" in text:
-            low, high, count = text.split(":")
-            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
-        return [float(u) for u in text.split(",")]
-    except ValueError:
-        raise InputError(f"speeds = {text!r}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low, in m/s") from None
-
-
-def _with_chosen(speeds, chosen):
-    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
-    import math
-
-    own = []
-    for speed in chosen:
-        near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
-        own.append(near[0] if near else speed)
-        speeds = speeds if near else [*speeds, speed]
-    return speeds, own
-
-
-def _folder(path: Path) -> Path:
-    """An existing folder without results of an earlier run."""
-    from .errors import InputError
-
-    if path.exists() and not path.is_dir():
-        raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
-    path.mkdir(parents=True, exist_ok=True)
-    for name in OUTPUTS:
-        (path / name).unlink(missing_ok=True)
-    return path
-
-
-def _progress(done, total, speed, outcome) -> None:
-    if isinstance(outcome, Exception):
-        say(
-            f"[{done}/{total}] U = {speed:.4g} m/s {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
-        )
-    else:
-        say(
-            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
-            f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
-        )

@@ -52,7 +52,9 @@ def describe_scene(scene: Scene) -> str:
         h = film_formulas.moes_flow_film(**regime)
         ratio = h / surface.sq if surface.sq > 0 else math.inf
         lines.append(f"  {speed:<12.4g} {m:9.3g} {el:8.3g} {h * 1e6:12.4f} {ratio:8.3g}")
-    if patch.geometry == "flat":
+    if scene.numerics.model == "deterministic":
+        plan = "one gap and one pressure, on grids of the map halved and doubled"
+    elif patch.geometry == "flat":
         plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
@@ -60,6 +62,8 @@ def describe_scene(scene: Scene) -> str:
         f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
         f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
     ]
+    if scene.numerics.model == "deterministic":
+        return "\n".join(lines)
     lines += [
         f"  U = {speed:<10.4g} {outlook(scene, surface, speed)}"
         for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .deterministic.takes import check_scene
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
 from .rough.contract import RoughContact
-from .rough.height_map import check_grid, contact_map
+from .rough.height_map import contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
@@ -49,18 +50,17 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
-    if like is not None:
-        return _another(scene, like)
-    if surface is None:
-        surface = contact_map(scene)
-    else:
-        check_grid(scene, surface)
-    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
-        surface = surface.periodic("mirror", axes=(True, False))
-    levels = tuple(film_levels)
+    if scene.numerics.model == "deterministic":
+        check_scene(scene)
+    levels = tuple(film_levels) if like is None else like.film_levels
     _check_levels(scene, levels)
-    made = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, made, levels, beforehand(scene, surface))
+    if like is not None:
+        _check_likeness(scene, like.scene, surface, contact)
+        surface, contact = like.surface, like.contact.again(scene, like.scene)
+    else:
+        surface = contact_map(scene, surface)
+        contact = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, contact, levels, beforehand(scene, surface))
 
 
 def scene_of(scene: Scene | Model) -> Scene:
@@ -78,15 +78,13 @@ def scene_of(scene: Scene | Model) -> Scene:
 def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
     """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    asked = scene_of(scene).with_(numerics=changed)
-    if not isinstance(scene, Model):
-        return prepare(asked)
-    return prepare(asked, like=scene) if asked != scene.scene else scene
+    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Model) else None
+    return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 
-def _another(scene: Scene, like: Model) -> Model:
-    """The model of another scene on the map and contact of ``like``."""
-    old = like.scene
+def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
+    if surface is not None or contact is not None:
+        raise InputError("like = a model brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("contact", scene.contact, old.contact),
@@ -95,14 +93,9 @@ def _another(scene: Scene, like: Model) -> Model:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
-    if not like.contact.nominally_flat:
-        check_grid(scene, like.surface)
-    _check_levels(scene, like.film_levels)
-    contact = like.contact.again(scene, old)
-    return Model(scene, like.surface, contact, like.film_levels, beforehand(scene, like.surface))
 
 
-def _check_levels(scene: Scene, levels: tuple[FilmLevel, ...]) -> None:
+def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
     names = [level.name for level in levels]
     if not names:
         raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")

@@ -1,9 +1,9 @@
-"""Results as files: result.json, stribeck.csv, fields.npz."""
+"""Results as the contents of files: result.json, stribeck.csv, fields.npz."""
 
 from __future__ import annotations
 
 import csv
-import json
+import io
 import math
 import platform
 from dataclasses import asdict
@@ -13,8 +13,8 @@ import numpy as np
 
 from . import __version__
 from .model import Model
+from .result import FrictionResult
 from .scene import scene_as_dict
-from .steady import FrictionResult
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 
@@ -36,8 +36,8 @@ UNITS = {
 }
 
 
-def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) -> None:
-    """The record of a run: resolved input, versions, seed, timings, numbers and reports."""
+def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
+    """The record of a run in plain JSON types: resolved input, versions, seed, timings, numbers and reports."""
     import scipy
 
     record = {
@@ -60,27 +60,34 @@ def write_json(path: Path, model: Model, curve: StribeckResult, seconds: float) 
         "validity": list(curve.validity),
         "points": [_point(curve, i) for i in range(curve.speed.size)],
     }
-    path.write_text(json.dumps(_plain(record), indent=1, allow_nan=False))
+    return plain(record)
 
 
-def write_csv(path: Path, curve: StribeckResult) -> None:
+def csv_bytes(curve: StribeckResult) -> bytes:
     """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold there."""
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow([*(f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES), "validity"])
-        texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
-        writer.writerows(zip(*(getattr(curve, name) for name in QUANTITIES), texts))
+    columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
+    texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+    return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
+
+
+def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
+    """``columns`` by heading as comma-separated text."""
+    file = io.StringIO(newline="")
+    writer = csv.writer(file)
+    writer.writerow(columns)
+    writer.writerows(zip(*(values.tolist() for values in columns.values())))
+    return file.getvalue().encode()
 
 
 def read_csv(path: Path) -> dict[str, np.ndarray]:
-    """The columns that `write_csv` wrote, by name."""
+    """The columns of a table that `table_bytes` made, by name."""
     with Path(path).open() as file:
         heading, *rows = list(csv.reader(file))
     columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
     return {name: np.array(column, str if name == "validity" else float) for name, column in columns.items()}
 
 
-def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None:
+def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
     """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
     arrays = {
         "speed": np.array([p.speed for p in points]),
@@ -98,7 +105,14 @@ def write_fields(path: Path, model: Model, points: list[FrictionResult]) -> None
             }
         if contact is not None:
             arrays |= {f"contact_pressure_{i}": contact.pressure, f"gap_{i}": contact.gap}
-    np.savez_compressed(path, **arrays)
+    return npz_bytes(arrays)
+
+
+def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
+    """``arrays`` as a compressed ``.npz`` file."""
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)
+    return file.getvalue()
 
 
 def _statistics(surface) -> dict:
@@ -120,14 +134,14 @@ def _point(curve: StribeckResult, index: int) -> dict:
     return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
 
 
-def _plain(value):
+def plain(value):
     """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
     if isinstance(value, dict):
-        return {str(k): _plain(v) for k, v in value.items()}
+        return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(v) for v in value]
+        return [plain(v) for v in value]
     if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
+        return plain(value.tolist())
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -24,7 +24,7 @@ ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 HEATS = ("auto", "on", "off")
 CLOSURES = ("load", "separation")
 FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
-MODELS = ("auto", "full")
+MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
 GRIDS = ("auto", "given")
@@ -201,8 +201,9 @@ class Numerics:
     of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid. film_level, contact_level, grid: a level given by name instead. heat: of inlet,
-    film and surfaces, "auto" (where it matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
+    contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it matters and
+    the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
     the model are returned, marked, instead of refused.
     """
 

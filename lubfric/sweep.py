@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from . import validate
+from .curve.choose import next_speed
+from .curve.interpolate import Interpolant, knee_of
+from .curve.span import span
 from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
+from .result import FrictionResult
 from .scene import Scene
-from .steady import FrictionResult, friction
+from .store import fingerprint
+from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
+from .studies.chain import Chain, make_chain
+from .studies.journal import Journal
+from .studies.solve import solve_chains
 from .validity.entry import Validity
 from .validity.gather import gathered
 
-NOT_NUMBERS = ("report", "balance", "decision", "validity")
+AUTO = "auto"
+NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -60,6 +70,32 @@ class StribeckResult:
             return error.result.validity
         return () if point is None else point.validity
 
+    def at(self, speed) -> np.ndarray:
+        """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        curve = self._interpolant
+        known = curve.samples.speed
+        at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
+        if at.min() < known[0] * (1 - 1e-9) or at.max() > known[-1] * (1 + 1e-9):
+            raise InputError(
+                f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
+            )
+        return curve.at(at).reshape(np.shape(speed))
+
+    @property
+    def lift_off(self) -> float | None:
+        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach it."""
+        return self._interpolant.lift_off
+
+    @cached_property
+    def _interpolant(self) -> Interpolant:
+        points = [p for p in self.points if p is not None and p.speed != 0]
+        if len(points) < FEWEST or len({abs(p.speed) for p in points}) < len(points):
+            raise InputError(
+                f"{len(points)} speeds are solved; allowed for a curve between them: {FEWEST} different ones"
+            )
+        samples = samples_of(points)
+        return Interpolant(samples, knee_of(samples))
+
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold somewhere."""
@@ -74,83 +110,103 @@ def stribeck(
     tolerance: float | None = None,
     model: str | None = None,
     fields=False,
+    store=None,
     on_point=None,
     raise_on_failure: bool = True,
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
+    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on f
+    everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication
+    to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other.
     Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs. ``on_point(done, total,
-    speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an exception. ``tolerance``, ``model``: as
-    in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own contact grid, of every point (True) or of
-    the speeds listed.
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
+    again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
+    exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own
+    contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
+    the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole curve
-    as its ``result`` (``raise_on_failure=False`` returns it).
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
+    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
+    as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
+    if isinstance(speeds, str) and speeds == AUTO:
+        return _auto(at_tolerance(scene, tolerance, model), fields, store, on_point, raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
     speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
-    order = np.argsort(-np.abs(speeds), kind="stable")
-    runs = [order] if executor is None else np.array_split(order, min(order.size, 8))
     points, errors = [None] * speeds.size, {}
 
-    def keep(outcomes):
-        for index, outcome in outcomes:
-            (errors if isinstance(outcome, Exception) else points)[index] = outcome
-            if on_point:
-                on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
+    def keep(index, outcome):
+        (errors if isinstance(outcome, Exception) else points)[index] = outcome
+        if on_point:
+            on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
-    if executor is None:
-        keep(_run(model, [(int(i), float(speeds[i])) for i in order], kept))
-    else:
-        _spread(executor, model, speeds, runs, kept, keep)
-    result = _collect(speeds, points, errors)
+    try:
+        solve_chains(model, sweep_chains(model, speeds, kept, executor is not None), executor, store, keep)
+    except BaseException as fault:
+        fault.result = _collect(speeds, points, errors)
+        raise
+    return _judged(_collect(speeds, points, errors), raise_on_failure)
+
+
+def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
+    """``result``, or the exception that says what failed in it."""
+    errors = result.errors
     refused = [error for error in errors.values() if isinstance(error, ValidityError)]
     if raise_on_failure and errors and len(refused) == len(errors):
         raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
     if raise_on_failure and errors:
         raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
     return result
 
 
-def _run(model, cases, fields):
-    """Yield (index, FrictionResult or exception) along neighbouring speeds."""
-    start = None
-    for index, speed in cases:
-        try:
-            start = friction(model, speed, start=start, fields=speed in fields)
-        except ValidityError as error:
-            start = error.result if error.result.balance.film is not None else None
-            yield index, ValidityError(error.message, error.entries, replace(error.result, balance=None))
-        except Exception as error:  # kept in ``errors``; raised once every point is done
-            start = None
-            yield index, error
-        else:
-            yield index, start if speed in fields else replace(start, balance=None)
-            start = start if start.balance.film is not None else None
+def _auto(model: Model, fields, store, on_point, raise_on_failure) -> StribeckResult:
+    """The curve at speeds of its own choice."""
+    if fields is True:
+        raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
+    low, high = span(model)
+    wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
+    search = Search(low, high, model.scene.numerics.tolerance, wanted, fingerprint(model))
+    journal, found = (None if store is None else Journal(store)), {}
+    try:
+        for speed, outcome in run_adaptive(model, search, journal):
+            found[speed] = outcome
+            if on_point:
+                on_point(len(found), len(found), speed, outcome)
+    finally:
+        if journal is not None:
+            journal.close()
+    speeds = np.array(sorted(found))
+    outcomes = dict(enumerate(found[u] for u in speeds))
+    errors = {i: o for i, o in outcomes.items() if isinstance(o, Exception)}
+    result = _collect(speeds, [None if i in errors else o for i, o in outcomes.items()], errors)
+    if len(speeds) - len(errors) >= FEWEST:
+        result = replace(result, report=_with_interpolation(result, search.tolerance))
+    return _judged(result, raise_on_failure)
 
 
-def _run_list(model, cases, fields):
-    return list(_run(model, cases, fields))
+def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
+    """The report of an adaptive curve: its residual is the estimated error between the points."""
+    error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
+    status = result.report.status if error <= tolerance else ITERATION_LIMIT
+    residuals = {"interpolation": error, "points": result.report.residual}
+    return replace(result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals)
 
 
-def _spread(executor, model, speeds, runs, fields, keep) -> None:
-    from concurrent.futures import as_completed
-
-    futures = {
-        executor.submit(_run_list, model, [(int(i), float(speeds[i])) for i in run], fields): run for run in runs
-    }
-    for future in as_completed(futures):
-        try:
-            keep(future.result())
-        except Exception as error:  # a lost worker fails its own speeds, not the sweep
-            keep([(int(i), error) for i in futures[future]])
+def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
+    """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
+    order = np.argsort(-np.abs(speeds), kind="stable")
+    runs = np.array_split(order, min(order.size, 8)) if spread else [order]
+    whole = fingerprint(model)
+    return [(make_chain(whole, speeds[run], np.isin(speeds[run], kept)), run) for run in runs]
 
 
 def _collect(speeds, points, errors) -> StribeckResult:

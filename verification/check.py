@@ -1,11 +1,11 @@
-"""What a verification study hands back: checks, tables, figures and fields, all plain frozen data."""
+"""What a part of the verification hands back: checks, tables, figures and fields, all plain frozen data."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 
 import numpy as np
 
@@ -14,12 +14,14 @@ RELATIVE = "relative"
 ABSOLUTE = "absolute"
 AT_MOST = "at_most"
 AT_LEAST = "at_least"
-KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST)
+TOLD = "told"
+KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, TOLD)
+Where = dict[str, str | float | bool | None]
 
 
 @dataclass(frozen=True)
 class Check:
-    """One measured number set against the number it should be.
+    """One measured number set against the number it should be: the one record of all commands.
 
     ``kind`` says what passes:
 
@@ -27,10 +29,14 @@ class Check:
     - "absolute": ``|measured - expected| <= tolerance``, tolerance in ``unit``
     - "at_most":  ``measured <= expected + tolerance``, for bounds on errors
     - "at_least": ``measured >= expected - tolerance``, for bounds on convergence orders
+    - "told":     any finite number: a time, or an error that a chart shows
 
     A measured value that is NaN or infinite never passes. ``source`` names where ``expected`` comes
     from (closed form, publication, another solver); ``seconds`` is filled in by the runner for studies
-    that yield their checks one by one.
+    that yield their checks one by one. ``decisive``: False for what is shown beside the others, such as a method that
+    users do not get unasked: it may fail without the run failing. ``refused``: what the method said in place of a
+    number, which then is NaN. ``at``: where it was measured (axes of a map, setting and cost of a method, seed of a
+    scene), by name.
 
     Raises
     ------
@@ -47,6 +53,9 @@ class Check:
     unit: str = "1"
     note: str = ""
     seconds: float | None = None
+    decisive: bool = True
+    refused: str = ""
+    at: Where = field(default_factory=dict)
 
     def __post_init__(self):
         for key in ("measured", "expected", "tolerance"):
@@ -66,6 +75,8 @@ class Check:
     @property
     def deviation(self) -> float:
         """The number compared with ``tolerance``: an error, or how far a bound is exceeded."""
+        if self.kind == TOLD:
+            return 0.0
         difference = self.measured - self.expected
         if self.kind == RELATIVE:
             return abs(difference / self.expected)
@@ -78,9 +89,22 @@ class Check:
         """True when the measured value is finite and within the tolerance."""
         return math.isfinite(self.measured) and self.deviation <= self.tolerance
 
+    @property
+    def failed(self) -> bool:
+        """True when the run fails by it."""
+        return self.decisive and not self.passed
+
     def as_dict(self) -> dict:
         """Plain types only, with the verdict."""
         return asdict(self) | {"deviation": self.deviation, "passed": self.passed}
+
+    @classmethod
+    def from_dict(cls, values: dict) -> Check:
+        """The check that `as_dict` made the values of; what JSON has no word for comes back as NaN."""
+        known = {f.name: values[f.name] for f in fields(cls) if f.name in values}
+        for name in ("measured", "expected", "tolerance"):
+            known[name] = math.nan if known[name] is None else known[name]
+        return cls(**known)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Ten ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
+"""Ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
 
 A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A
 place that no longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never
@@ -15,18 +15,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.contact.residual import length_scale
-
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mistake: ``name``, ``what`` it is in a sentence, and for each place "module:attribute" its
-    replacement.
+    """A mistake: ``name``, ``what`` it is in a sentence, for each place "module:attribute" its replacement, and the
+    studies that are asked to catch it.
     """
 
     name: str
     what: str
     places: dict[str, Callable]
+    suite: tuple[str, ...] = ("contact_grid", "ehl_grid", "friction", "load_sharing")
 
 
 @contextlib.contextmanager
@@ -104,20 +103,14 @@ def decadic_exponent(original):
 
 
 def without_overlap(original):
-    """A working set and a residual that know only cells under pressure."""
+    """A search that knows only cells under pressure: elsewhere the gap is taken for open."""
 
-    def working_set(descent):
-        work = original(descent)
-        under = work.pressure > 0
-        if not under.any():
-            return work
-        cells, pressure, gap = (a[under] for a in (work.cells, work.pressure, work.gap))
-        operator, gap0 = descent.problem.operator, descent.problem.gap0
-        scale = length_scale(descent.pressure, operator.apply(descent.pressure), gap0, operator)
-        residual = float(np.sum(pressure * np.abs(gap)) / pressure.sum() / scale)
-        return replace(work, cells=cells, pressure=pressure, gap=gap, residual=residual)
+    def look(descent):
+        unloaded = descent.change <= descent.lower
+        np.maximum(descent.gap, descent.level, out=descent.gap, where=unloaded)
+        return original(descent)
 
-    return working_set
+    return look
 
 
 def no_penetration(original):
@@ -187,7 +180,8 @@ MUTANTS = (
         "penetration_ignored",
         "contact set and stopping test look at p g only",
         {
-            "lubfric.contact.descent:Descent.working_set": without_overlap,
+            "lubfric.contact.descent:Descent._look": without_overlap,
+            "lubfric.contact.looked:contact_residuals": no_penetration,
             "lubfric.contact.solve:contact_residuals": no_penetration,
         },
     ),

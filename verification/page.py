@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from html import escape
 
-from .wording import allowed, number, seconds
+from .wording import allowed, listed, number, seconds
 
 CSS = """
 :root { color-scheme: light dark; --ink: #1b1f24; --dim: #57606a; --line: #d0d7de; --paper: #fff;
@@ -53,7 +53,7 @@ pre { overflow-x: auto; background: var(--soft); padding: .6rem; font-size: .8re
 def render(report) -> str:
     """The whole page for a `report.Report`."""
     state = "good" if report.passed else "bad"
-    failed = [(o, c) for o in report.outcomes for c in o.checks if not c.passed]
+    failed = [(o, c) for o in report.outcomes for c in o.checks if c.failed]
     parts = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -82,12 +82,13 @@ def overview(report) -> str:
             rows.append((escape(name), "not run", "", "", ""))
             continue
         o = done[name]
-        ok = sum(c.passed for c in o.checks)
+        judged = [c for c in o.checks if c.decisive]
+        ok = sum(c.passed for c in judged)
         rows.append(
             (
                 f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
                 mark(o.passed),
-                f"{ok} of {len(o.checks)}",
+                f"{ok} of {len(judged)}",
                 seconds(o.seconds),
                 f"{o.peak_memory / 2**30:.2f} GiB",
             )
@@ -118,19 +119,21 @@ def section(outcome) -> str:
 
 
 def checks_table(checks) -> str:
-    """The checks of a study, or the failed ones of all."""
+    """The checks of a study, or the failed ones of all; of very many the failed ones."""
+    chosen = listed(tuple(checks))
+    note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
     rows = [
         (
-            mark(c.passed),
+            mark(c.passed) if c.decisive else "shown",
             escape(c.name),
             escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
             escape(allowed(c)),
             escape(c.source + (f"; {c.note}" if c.note else "")),
             seconds(c.seconds),
         )
-        for c in checks
+        for c in chosen
     ]
-    return html_table(("Verdict", "Check", "Measured", "Allowed", "Source", "Time"), rows)
+    return note + html_table(("Verdict", "Check", "Measured", "Allowed", "Source", "Time"), rows)
 
 
 def data_table(table) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import numpy as np
 
@@ -72,3 +73,14 @@ def convergence(name: str, caption: str, series: dict, size_label: str, error_la
     ax.set(xlabel=size_label, ylabel=error_label, title=notes)
     canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)
     return finish(name, canvas, caption)
+
+
+def compact(figure: Figure, colours: int = 128) -> Figure:
+    """The same picture with a palette (rare colours kept as well), for files that stay: a third of the size."""
+    from PIL import Image
+
+    stream = io.BytesIO()
+    Image.open(io.BytesIO(figure.data)).convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE).save(
+        stream, format="png", optimize=True
+    )
+    return replace(figure, data=stream.getvalue())

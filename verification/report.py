@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import importlib.metadata
 import json
 import math
@@ -11,10 +12,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from . import page
-from .check import Check
+from .check import Check, Table
 from .meshes import write_vtu
 from .run import Outcome, explain, raised
-from .wording import allowed, number, seconds
+from .wording import allowed, listed, mark, number, seconds
 
 FORMAT = "lubfric-verification-1"
 PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matplotlib")
@@ -55,9 +56,10 @@ class Report:
     @property
     def verdict(self) -> str:
         """PASSED, FAILED or UNFINISHED, and the count."""
-        failed = sum(not c.passed for c in self.checks)
+        judged = [c for c in self.checks if c.decisive]
+        failed = sum(c.failed for c in judged)
         word = "PASSED" if self.passed else "FAILED" if failed or self.complete else "UNFINISHED"
-        text = f"{word}: {len(self.checks) - failed} of {len(self.checks)} checks passed"
+        text = f"{word}: {len(judged) - failed} of {len(judged)} checks passed"
         if not self.complete:
             text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
         return text
@@ -102,9 +104,9 @@ def outcome_dict(outcome: Outcome) -> dict:
             for t in outcome.tables
         ],
         "figures": [
-            {"file": f"{outcome.study.name}_{f.name}.{f.format}", "caption": f.caption} for f in outcome.figures
+            {"file": file_of(outcome.study.name, f.name, f.format), "caption": f.caption} for f in outcome.figures
         ],
-        "fields": [{"file": f"{outcome.study.name}_{f.name}.vtu", "caption": f.caption} for f in outcome.fields],
+        "fields": [{"file": file_of(outcome.study.name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
     }
 
 
@@ -130,20 +132,35 @@ def environment() -> dict[str, str]:
 
 
 def save_files(outcome: Outcome, out: Path) -> Outcome:
-    """Write the figures and fields of one study to ``out``.
+    """Write the figures, tables and fields of one study to ``out``.
 
     A file that cannot be written is one more failed check of the outcome that comes back.
     """
     try:
         for figure in outcome.figures:
-            (out / f"{outcome.study.name}_{figure.name}.{figure.format}").write_bytes(figure.data)
+            (out / file_of(outcome.study.name, figure.name, figure.format)).write_bytes(figure.data)
+        for table in outcome.tables:
+            write_table(out / file_of(outcome.study.name, table.name, "csv"), table)
         for item in outcome.fields:
-            write_vtu(out / f"{outcome.study.name}_{item.name}.vtu", item)
+            write_vtu(out / file_of(outcome.study.name, item.name, "vtu"), item)
     except (ImportError, OSError, ValueError, TypeError) as exc:
         reason = f"its files could not be written: {explain(exc)}"
         failure = replace(raised(outcome.study, reason), name=f"{outcome.study.name} writes its files")
         return replace(outcome, checks=(*outcome.checks, failure))
     return outcome
+
+
+def file_of(study: str, name: str, ending: str) -> str:
+    """The file of what a study calls ``name``: after the study, unless it bears its name already."""
+    return f"{name}.{ending}" if name.startswith(study) else f"{study}_{name}.{ending}"
+
+
+def write_table(path: Path, table: Table) -> None:
+    """As CSV."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(table.columns)
+        writer.writerows([f"{v:.7g}" if isinstance(v, float) else v for v in row] for row in table.rows)
 
 
 def save(report: Report, out: Path) -> Path:
@@ -155,16 +172,19 @@ def save(report: Report, out: Path) -> Path:
 
 
 def terminal_table(report: Report) -> str:
-    """All checks as text, one line each, with the reason below those that failed."""
+    """The checks as text, one line each, with the reason below those that failed; of very many only the failed ones."""
     lines = []
     for outcome in report.outcomes:
         lines += [f"{outcome.study.name}: {outcome.study.title} ({seconds(outcome.seconds)})"]
-        width = max((len(c.name) for c in outcome.checks), default=0)
-        for c in outcome.checks:
+        width = max((len(c.name) for c in listed(outcome.checks)), default=0)
+        shown = listed(outcome.checks)
+        if len(shown) < len(outcome.checks):
+            lines += [f"  {len(outcome.checks)} checks, {sum(c.failed for c in outcome.checks)} failed"]
+        for c in shown:
             unit = "" if c.unit == "1" else f" {c.unit}"
             lines += [
-                f"  {'ok  ' if c.passed else 'FAIL'} {c.name:<{min(width, 60)}}  "
+                f"  {mark(c)} {c.name:<{min(width, 60)}}  "
                 f"{number(c.measured):>12}{unit}  ({allowed(c)})  {seconds(c.seconds)}".rstrip()
             ]
-            lines += [] if c.passed else [f"       source: {c.source}{'; ' + c.note if c.note else ''}"]
+            lines += [] if not c.failed else [f"       source: {c.source}{'; ' + c.note if c.note else ''}"]
     return "\n".join([*lines, "", report.verdict])

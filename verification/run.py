@@ -1,14 +1,16 @@
-"""Run studies one after another; a study that raises is a failed check and stops nothing else."""
+"""Run studies, one after another or each in a process of its own; one that raises is a failed check and stops nothing else."""
 
 from __future__ import annotations
 
 import importlib
 import inspect
+import multiprocessing
 import resource
 import sys
 import time
 import traceback
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
@@ -47,8 +49,8 @@ class Outcome:
 
     @property
     def passed(self) -> bool:
-        """True when it ran to its end and every one of its checks passed."""
-        return not self.error and bool(self.checks) and all(c.passed for c in self.checks)
+        """True when it ran to its end and no check that decides failed."""
+        return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
 @dataclass
@@ -69,11 +71,13 @@ class Collector:
             self.add(item)
 
     def add(self, item: Item) -> None:
-        """Put one item with its kind; two of one name would overwrite each other's file."""
+        """Put one item with its kind; two of one name would overwrite each other's file, or hide each other. Checks that
+        say where they were measured are told apart by that."""
         kind = type(item)
         if kind not in self.items:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
-        if any(other.name == item.name for other in self.items[kind]):
+        placed = kind is Check and item.at
+        if not placed and any(other.name == item.name for other in self.items[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
         self.items[kind].append(item)
         if kind is Check:
@@ -85,11 +89,31 @@ def run(
     level: str,
     progress: Callable[[Check], None] = lambda check: None,
     announce: Callable[[Study], None] = lambda study: None,
+    workers: int = 0,
 ) -> Iterator[Outcome]:
-    """Yield the `Outcome` of each study; ``announce`` is called before each, ``progress`` on each check."""
-    for study in studies:
-        announce(study)
-        yield run_one(study, level, progress)
+    """Yield the `Outcome` of each study in order; ``announce`` is called before each, ``progress`` on each check.
+
+    ``workers``: that many processes, a fresh one for each study (the number of threads is read once, when NumPy is
+    loaded, and a broken library must not outlive its trial); 0: all of them here, each check told as it comes."""
+    if not workers:
+        for study in studies:
+            announce(study)
+            yield run_one(study, level, progress)
+        return
+    fresh = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=fresh, max_tasks_per_child=1) as pool:
+        waiting = [pool.submit(run_one, study, level, quiet) for study in studies]
+        for study, future in zip(studies, waiting):
+            announce(study)
+            outcome = future.result()
+            for check in outcome.checks:
+                if check.failed:
+                    progress(check)
+            yield outcome
+
+
+def quiet(check: Check) -> None:
+    """Progress that nobody watches."""
 
 
 def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outcome:
@@ -100,7 +124,7 @@ def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outc
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""
-        produced = function(level)
+        produced = function(level, **study.options)
         collector.take(produced, timed=inspect.isgenerator(produced))
         if not collector.items[Check]:
             raise RuntimeError("the study ended without a single check")

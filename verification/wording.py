@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, Check
+from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, TOLD, Check
+
+MANY = 100
 
 ALLOWED = {
     RELATIVE: "{expected} ± {relative}",
@@ -14,8 +16,22 @@ ALLOWED = {
 }
 
 
+def mark(check: Check) -> str:
+    """The verdict in four letters: what decides nothing, or has nothing to be, is neither right nor wrong."""
+    if check.failed:
+        return "FAIL"
+    return "ok  " if check.decisive and check.kind != TOLD else "-   "
+
+
+def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
+    """Those a person reads: all of a few; of very many those that failed (report.json has them all)."""
+    return checks if len(checks) <= MANY else tuple(c for c in checks if c.failed)
+
+
 def allowed(check: Check) -> str:
     """What the measured value may be, in words."""
+    if check.kind == TOLD:
+        return "told"
     tolerance = f"{check.tolerance:.2g}"
     if check.kind == AT_MOST and check.expected == 0:
         return f"≤ {tolerance}"

@@ -14,7 +14,7 @@ from .. import validate
 from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..roots import increasing_root
 from .imposed import Imposed, Outcome, impose
-from .pcg import conjugate_gradient
+from .refine import refine
 from .result import ContactResult
 
 UPDATES = ("root", "repeat")
@@ -82,7 +82,7 @@ class _Inner:
 
     def solve(self, offset: float) -> float:
         """Solve; return (film - volume)/min(L, film), which rises with epsilon."""
-        found = conjugate_gradient(self.tight, self.pressure.copy(), level=offset)
+        found = refine(self.tight, self.pressure.copy(), level=offset)
         problem, self.pressure = self.contact.problem, found.pressure
         self.converged = found.status == CONVERGED
         self.displacement = problem.operator.apply(self.pressure)

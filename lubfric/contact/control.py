@@ -10,7 +10,6 @@ import numpy as np
 from ..report import CONVERGED
 from ..roots import increasing_root
 from .nested import approach_controlled, load_controlled
-from .residual import length_scale
 
 FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
 LOOSEST = 1e-2  # tolerance of a solve whose mean gap is far off
@@ -63,10 +62,9 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
         while True:
             found = load_controlled(replace(problem, tolerance=tolerance), math.exp(log_pressure), pressure)
             pressure = found.pressure
-            spent, iterations = spent + found.convolutions + 1, iterations + found.iterations
-            u = problem.operator.apply(pressure)
-            volume = np.maximum(problem.gap0 + u - found.approach, 0.0).mean()
-            scale = length_scale(pressure, u, problem.gap0, problem.operator)
+            spent, iterations = spent + found.convolutions, iterations + found.iterations
+            volume = np.maximum(found.state.gap, 0.0).mean()
+            scale = found.state.scale
             smaller = min(mean_gap, scale)
             value, doubt = (mean_gap - volume) / smaller, CERTAIN * tolerance * scale / smaller
             if tolerance == finest or abs(value) > doubt:

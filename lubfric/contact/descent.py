@@ -1,169 +1,277 @@
-"""One step of the working-set conjugate gradient: find the set, search, advance.
+"""Single-precision search for a better pressure on the cells that may touch: one convolution an iteration.
 
-The working set holds the cells whose pressure may change: elastic contact (0 < p < H), overlap
-without pressure, yielded cells that have opened. On it the gap is the gradient of the energy. The
-preconditioner multiplies by |k|, the inverse of the half-space up to a factor. The step is exact for
-a fixed set, then cut to 0 <= p <= H and, under a given load, shifted to carry it. Directions are kept
-when the set changes, where I. A. Polonsky and L. M. Keer (Wear 231 (1999) 206-219,
-doi:10.1016/S0043-1648(99)00113-1) restart.
+Unknown is the change of the pressure since the gap was last computed in double precision, so that rounding is
+relative to the change. The free cells, whose pressure may change, are in elastic contact (0 < p < H), overlap without
+pressure, or have yielded and opened; on them the gap is the gradient of the energy. A conjugate direction (|k|, the
+inverse of the half-space, as preconditioner; kept when the set changes, where I. A. Polonsky and L. M. Keer, Wear 231
+(1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart) leads by a length learnt from the steps before to a trial,
+which is cut to 0..H and made to carry the load. What is convolved is the way from the *known* pressure, whose gap is
+at hand, to the trial; the step along it is exact. What the new pressure has more than the known one (cells cut
+again) is convolved together with the next trial.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
 from .projection import with_load
-from .residual import deflection_scale, dot
+from .residual import dot
+from .stencil import Stencil
 
-CAPACITY = 0.999  # of hardness times the set, beyond which the set has to grow
-MEAN_STIFFNESS, NEARLY_FULL = 30.0, 1e-3  # measured: fewest iterations from one spot to 99.99 % contact
-
-
-@dataclass(frozen=True)
-class WorkingSet:
-    """Flat indices of the set, pressure [Pa] and gap [m] there, and the worst residual of the whole field."""
-
-    cells: np.ndarray
-    pressure: np.ndarray
-    gap: np.ndarray
-    residual: float
+FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
+LEARNING = 0.3  # power of the relative length of a step in the next pace
+STEPS = (0.3, 2.0)  # of the way to the trial
+SHIFTS = 12  # of a trial at most
+TRANSFORMED = 0.7  # share of contact from which the preconditioner is the transform, not nine points
+REACH = 0.5  # of the deepest overlap: cells with a gap below it may come into touch
+NARROWINGS, WORTH = (4, 8, 16, 32), 0.7
+FORGOTTEN = 1e-6
+FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
+HUGE = np.float32(1e20)
+CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have to be more
+PATIENCE = 8  # iterations without a tenth off the best residual
 
 
 class Descent:
-    """The fields of one solve, changed in place, and the steps that change them.
+    """Fields on ``cells`` in single precision: pressures in units of the mean one in contact, gaps of ``scale`` [m].
 
-    ``pressure`` [Pa] and ``height`` = gap0 + K p [m] are double; search directions and convolutions of
-    changes are single, so ``height`` drifts by rounding until `recompute`. Exactly one of ``load``
-    (total, Pa cells) and ``level`` (approach, m) is given.
+    ``pressure`` [Pa] and ``gap`` [m] (over the whole patch, the gap belonging to the pressure and measured from the
+    approach) are where it begins. ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is
+    prescribed; ``slack``: relative error of the load in a trial. ``pace``: of an earlier descent, or `FIRST_PACE`.
+    ``careful``: every step exact for the cells that are free, what the limits cut off convolved at once: two or three
+    convolutions an iteration, and sure where the pressure is far from small changes of the set (nearly rigid bodies).
     """
 
-    def __init__(self, problem, pressure, *, load=None, level=None):
-        self.problem, self.load, self.level = problem, load, level
-        self.pressure = pressure
-        self.fast = problem.operator.astype(np.float32)
-        self.inverse = wavenumber(problem.operator.shape, problem.operator.spacing).astype(np.float32)
-        self.direction, self.residue, self.scratch = (np.zeros(pressure.shape, np.float32) for _ in range(3))
-        self.power = np.inf
-        self.convolutions = 0
-        self.recompute()
-
-    def recompute(self) -> None:
-        """Height from the pressure alone, in double precision."""
-        self.height = self.problem.operator.apply(self.pressure)
-        self.height += self.problem.gap0
-        self.convolutions += 1
-        self.approach = self._level(self.pressure.ravel(), self.height.ravel())
-
-    def _level(self, pressure, height) -> float:
-        """Prescribed approach, or the one at which the mean gap over elastic contact is zero; where nothing is
-        elastic, halfway between the highest yielded cell and the lowest free one."""
-        if self.level is not None:
-            return self.level
-        inside = (pressure > 0) & (pressure < self.problem.hardness)
-        if inside.any():
-            return float(height[inside].mean())
-        yielded = self.pressure > 0
-        highest = self.height[yielded].max()
-        lowest_free = self.height[~yielded].min() if not yielded.all() else highest
-        return float(0.5 * (highest + lowest_free))
-
-    def working_set(self) -> WorkingSet:
-        """Where the pressure may change, and the worst of complementarity and penetration."""
-        hardness = self.problem.hardness
-        candidate = self.height < self.approach
-        candidate |= self.pressure > 0
-        cells = np.flatnonzero(candidate)
-        pressure, gap = self.pressure.ravel()[cells], self.height.ravel()[cells]
-        total = pressure.sum()
-        undeformed = self.problem.gap0.ravel()[cells]
-        energy = dot(pressure, np.subtract(gap, undeformed, out=undeformed))
-        del undeformed
-        gap -= self.approach
-        if np.isfinite(hardness):
-            keep = (pressure < hardness) | (gap > 0)
-            cells, pressure, gap = self._enough(cells[keep], pressure[keep], gap[keep], total)
-        if not cells.size:
-            return WorkingSet(cells, pressure, gap, 0.0)
-        scale = deflection_scale(energy, total, self.problem.roughness, self.problem.operator)
-        overlap = max(0.0, -gap[pressure < hardness].min(initial=0.0))
-        if total <= 0:
-            return WorkingSet(cells, pressure, gap, math.inf if overlap > 0 else 0.0)
-        misfit = dot(pressure, np.abs(gap)) / total
-        return WorkingSet(cells, pressure, gap, float(max(overlap, misfit) / scale))
-
-    def _enough(self, cells, pressure, gap, total):
-        """The set itself, or everything that has not yielded for good when the set could not carry its share."""
-        hardness = self.problem.hardness
-        if self.load is None or self.load - (total - pressure.sum()) <= CAPACITY * hardness * cells.size:
-            return cells, pressure, gap
-        cells = np.flatnonzero((self.pressure < hardness) | (self.height > self.approach))
-        return cells, self.pressure.ravel()[cells], self.height.ravel()[cells] - self.approach
-
-    def search(self, work: WorkingSet, restart: bool) -> tuple[np.ndarray, float]:
-        """Conjugate direction on the set (Polak-Ribiere, never negative) and its slope."""
-        self._scatter(self.scratch, work.cells, self._balanced(work.gap.copy()))
-        operator = self.problem.operator
-        self.inverse[0, 0] = self._mean_stiffness(work.cells.size / self.pressure.size)
-        d = filtered(self.scratch, self.inverse, operator.shape, operator.workers).ravel()[work.cells]
-        d = self._balanced(np.negative(d, dtype=float))
-        self.convolutions += 1
-        power = -dot(work.gap, d)
-        if not restart:
-            turned = self.scratch.ravel()[work.cells]
-            turned -= self.residue.ravel()[work.cells]
-            keep = np.float32(max(0.0, -dot(turned, d) / self.power))
-            np.multiply(self.direction.ravel()[work.cells], keep, out=turned)
-            d += turned
-            d = self._balanced(d)
-        self.residue, self.scratch, self.power = self.scratch, self.residue, power
-        return d, dot(work.gap, d)
-
-    def advance(self, work: WorkingSet, d: np.ndarray, slope: float) -> bool:
-        """Exact step along ``d``, made admissible; False when there is nowhere to go."""
-        self._scatter(self.direction, work.cells, d)
-        change = self.fast.apply(self.direction)
-        self.convolutions += 1
-        curvature = dot(d, change.ravel()[work.cells])
-        if not (curvature > 0 and slope < 0):
-            return False
-        step = -slope / curvature
-        new = step * d
-        new += work.pressure
-        if new.min() >= 0 and new.max() <= self.problem.hardness:
-            change *= np.float32(step)
+    def __init__(self, problem, cells, pressure, gap, load, scale: float, slack: float, pace: float, careful=False):
+        base = cells.take(pressure)
+        total, operator = float(base.sum()), problem.operator
+        if not math.isfinite(scale):  # no pressure yet
+            scale = max(-float(gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
+        ripple = operator.e_prime * scale / min(operator.spacing)
+        self.unit = total / np.count_nonzero(base) if total > 0 else ripple
+        self.cells, self.pace, self.given = cells, pace, load is not None
+        self.load, self.target = (load / self.unit, (load - total) / self.unit) if self.given else (None, 0.0)
+        self.slack = slack * total / self.unit
+        self.hardness = problem.hardness
+        base /= self.unit
+        self.lower = np.negative(base, dtype=np.float32)
+        self.upper = None
+        if math.isfinite(problem.hardness):
+            self.upper = (problem.hardness / self.unit - base).astype(np.float32)
+        self.gap = cells.take(gap, np.float32, 1 / scale)
+        self.compliance = self.unit / scale
+        self.change, self.known = np.zeros_like(self.gap), np.zeros_like(self.gap)
+        self.direction, self.residue, self.power = None, None, 1.0
+        self.level, self.iterations, self.convolutions, self.history = 0.0, 0, 0, []
+        factor = operator.e_prime / 4 / self.compliance
+        self.careful, self.stiffness, self.stencil = careful, None, None
+        if careful or np.count_nonzero(base) > TRANSFORMED * pressure.size:
+            self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
-            new = self._admissible(new, work)
-            self._scatter(self.scratch, work.cells, new - work.pressure)
-            change = self.fast.apply(self.scratch)
-            self.convolutions += 1
-        self.pressure.ravel()[work.cells] = new
-        self.height += change
-        self.approach = self._level(new, self.height.ravel()[work.cells])
+            self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
+
+    def run(self, tolerance: float, limit: int) -> None:
+        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit`` times."""
+        best, waiting = math.inf, 0
+        while True:
+            free, weight, residue, worst = self._look()
+            self.history.append(worst)
+            best, waiting = (worst, 0) if worst < 0.9 * best else (best, waiting + 1)
+            if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
+                return
+            self.iterations += 1
+            if self.iterations in NARROWINGS and not self.careful and self._narrowed(free):
+                free, weight, residue, worst = self._look()
+            self._turn(weight, residue)
+            if self.careful:
+                self._move_carefully(free, residue)
+            else:
+                self._move(self._trial(free))
+
+    def found(self, pressure) -> np.ndarray:
+        """``pressure`` [Pa], the field it began with, changed."""
+        values = self.cells.take(pressure)
+        values += self.unit * self.change.astype(float)
+        values[self.change <= self.lower] = 0.0
+        np.maximum(values, 0.0, out=values)
+        if self.upper is not None:
+            values[self.change >= self.upper] = self.hardness
+        return self.cells.spread(values)
+
+    def _look(self):
+        """Free cells (as flags and as 1 or 0), gap on them without its mean, and the worst residual."""
+        inside = self.change > self.lower
+        yielded = False
+        if self.upper is not None:
+            yielded = self.change >= self.upper
+            inside &= ~yielded
+            self._follow(inside, yielded)
+        free = self.gap < self.level
+        free ^= yielded
+        free |= inside
+        if self.careful and self.upper is not None and self.given:
+            free = self._enough(free, yielded)
+        weight = free.astype(np.float32)
+        count = np.count_nonzero(free)
+        if self.given and self.upper is None and count:
+            self.level = dot(self.gap, weight) / count
+        residue = self.gap - np.float32(self.level)
+        residue *= weight
+        size = np.abs(residue)
+        total = float(self.change.sum()) - float(self.lower.sum())
+        misfit = (dot(self.change, size) - dot(self.lower, size)) / total if total > 0 else math.inf
+        overlap = -float(residue.min() if self.upper is None else residue[~yielded].min(initial=0.0))
+        self.overlap = overlap
+        excess = abs(total - self.load) / self.load if self.given else 0.0
+        return free, weight, residue, max(overlap, misfit, excess)
+
+    def _follow(self, inside, yielded) -> None:
+        """Level where cells may yield: mean gap in elastic contact, or between the highest yielded and lowest free."""
+        if not self.given:
+            return
+        if inside.any():
+            self.level = float(self.gap[inside].mean())
+        elif yielded.any():
+            highest = float(self.gap[yielded].max())
+            self.level = 0.5 * (highest + float(self.gap[~yielded].min(initial=highest)))
+
+    def _enough(self, free, yielded) -> np.ndarray:
+        """The free cells, or everything that has not yielded for good when they could not carry their share."""
+        share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
+        limit = self.hardness / self.unit
+        if share <= CAPACITY * limit * np.count_nonzero(free):
+            return free
+        return ~yielded | (self.gap > self.level)
+
+    def _narrowed(self, free) -> bool:
+        """Leave out cells that came nowhere near touch, where they are many."""
+        near = self.gap < self.level + REACH * self.overlap
+        near |= free
+        near |= np.abs(self.known - self.lower) > FORGOTTEN
+        near |= self.change > self.lower
+        if not 0 < np.count_nonzero(near) <= WORTH * near.size:
+            return False
+        kept = np.flatnonzero(near)
+        self.cells = self.cells.narrowed(kept)
+        self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
+        for name in FIELDS:
+            values = getattr(self, name)
+            if values is not None:
+                setattr(self, name, values.take(kept))
+        if self.stencil is not None:
+            self.stencil = self.stencil.on(self.cells.index)
         return True
 
-    def _admissible(self, trial, work: WorkingSet) -> np.ndarray:
-        if self.load is None:
-            return np.clip(trial, 0.0, self.problem.hardness)
-        yielded_outside = self.pressure.sum() - work.pressure.sum()
-        return with_load(trial, self.load - yielded_outside, self.problem.hardness)
+    def _turn(self, weight, residue) -> None:
+        """Conjugate direction on the free cells (Polak-Ribiere, never negative)."""
+        steep = self._preconditioned(residue)
+        power = dot(residue, steep)
+        if self.direction is None:
+            self.direction = np.negative(steep)
+        else:
+            keep = max(0.0, (power - dot(self.residue, steep)) / self.power) if self.power > 0 else 0.0
+            self.direction *= np.float32(keep)
+            self.direction -= steep
+        if self.given:
+            self.direction -= np.float32(dot(self.direction, weight) / max(weight.sum(), 1.0))
+        self.direction *= weight
+        self.residue, self.power = residue, power
 
-    def _balanced(self, values) -> np.ndarray:
-        """``values`` in place, without their mean where the load is given."""
-        if self.load is not None:
-            values -= values.mean()
-        return values
+    def _preconditioned(self, residue) -> np.ndarray:
+        if self.stencil is not None:
+            return self.stencil(residue)
+        self.convolutions += 1
+        field = self.cells.field(residue)
+        return self.cells.gather(filtered(field, self.stiffness, field.shape, self.cells.operator.workers))
 
-    def _mean_stiffness(self, fraction: float) -> float:
-        """|k| that stands in at k = 0: immaterial under a load, whose search has no mean. For an approach the mean
-        pressure is free, and the stiffer the less of the area is left to open."""
-        smallest = 2 * math.pi / max(n * d for n, d in zip(self.problem.operator.shape, self.problem.operator.spacing))
-        return MEAN_STIFFNESS * smallest * fraction / (1 - fraction + NEARLY_FULL)
+    def _trial(self, free) -> np.ndarray:
+        """Change of pressure a pace along the direction, within the limits, with the load."""
+        aim = np.float32(self.pace) * self.direction
+        aim += self.change
+        trial, shift = self._within(aim.copy()), 0.0
+        if not self.given:
+            return trial
+        for _ in range(SHIFTS):
+            missing = self.target - float(trial.sum())
+            if abs(missing) <= self.slack:
+                return trial
+            movable = trial > self.lower
+            if self.upper is not None:
+                movable &= trial < self.upper
+                movable &= free
+            count = np.count_nonzero(movable)
+            if not count:
+                break
+            shift += missing / count
+            self._within(np.add(aim, np.float32(shift), out=trial))
+            if self.upper is not None or shift > 0:
+                np.copyto(trial, self.change, where=~free)
+        return self._projected(aim)
 
-    @staticmethod
-    def _scatter(field, cells, values) -> None:
-        field.fill(0)
-        field.ravel()[cells] = values
+    def _projected(self, aim) -> np.ndarray:
+        """The trial by a bracketed shift of all cells, in double precision: where few of many cells stay in contact, or
+        the free ones cannot carry their share."""
+        base = np.negative(self.lower, dtype=float)
+        limit = self.hardness / self.unit
+        pressure = with_load(base + aim, self.target + float(base.sum()), limit)
+        return self._within((pressure - base).astype(np.float32))
+
+    def _within(self, values) -> np.ndarray:
+        np.maximum(values, self.lower, out=values)
+        return values if self.upper is None else np.minimum(values, self.upper, out=values)
+
+    def _move_carefully(self, free, residue) -> None:
+        """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
+        answer = self._answer(self.direction)
+        curvature, slope = dot(self.direction, answer), dot(residue, self.direction)
+        if not (curvature > 0 and slope < 0):
+            self.direction = None
+            return
+        step = -slope / curvature
+        aim = (self.change + np.float32(step) * self.direction)[free]
+        base = np.negative(self.lower[free], dtype=float)
+        new, limit = base + aim, self.hardness / self.unit
+        if self.given:
+            share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
+            new = with_load(new, share, limit)
+        else:
+            np.clip(new, 0.0, limit, out=new)
+        way = np.zeros_like(self.change)
+        way[free] = (new - base).astype(np.float32) - self.change[free]
+        self.change += way
+        self._within(self.change)
+        self.gap += self._answer(way)
+        self.known[:] = self.change
+
+    def _answer(self, way) -> np.ndarray:
+        """Change of the gap under a change of pressure."""
+        answer = self.cells.gather(self.cells.operator.apply(self.cells.field(way)))
+        self.convolutions += 1
+        return answer * np.float32(self.compliance)
+
+    def _move(self, trial) -> None:
+        """From the known pressure towards the trial, by the step that is exact along the change it asks for."""
+        way = trial - self.known
+        answer = self._answer(way)
+        asked = np.subtract(trial, self.change, out=self.change)
+        slope = dot(self.gap, asked) - self.level * float(asked.sum())
+        curvature = dot(asked, answer)
+        step = -slope / curvature if curvature > 0 else 1.0
+        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
+        way *= np.float32(step)
+        self.known += way
+        answer *= np.float32(step)
+        self.gap += answer
+        self.pace *= max(step, STEPS[0]) ** LEARNING
+        yielded = None if self.upper is None else trial >= self.upper
+        np.maximum(self.known, self.lower, out=self.change)
+        trial -= self.lower  # cells that the trial unloads stay so: without branches, of which a mask has many
+        trial *= HUGE
+        trial += self.lower
+        np.minimum(self.change, trial, out=self.change)
+        if self.upper is not None:
+            np.minimum(self.change, self.upper, out=self.change)
+            np.copyto(self.change, self.upper, where=yielded)

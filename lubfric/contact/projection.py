@@ -36,3 +36,20 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
         result[elastic] *= (load - (result.sum() - carried)) / carried
         np.clip(result, 0.0, hardness, out=result)
     return result
+
+
+def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` times a factor, then, with a hardness, shifted to carry ``load`` within 0..hardness: where it is
+    elastic if those cells can do it, else anywhere it is loaded, else everywhere."""
+    result = pressure * (load / pressure.sum())
+    if hardness == np.inf:
+        return result
+    np.minimum(result, hardness, out=result)
+    result[pressure >= hardness] = hardness
+    yielded = result >= hardness
+    for movable in ((result > 0) & ~yielded, result > 0, np.ones(result.shape, bool)):
+        share = load - result[~movable].sum()
+        if 0 < share <= hardness * np.count_nonzero(movable):
+            result[movable] = with_load(result[movable], share, hardness)
+            return result
+    return np.full(pressure.shape, load / pressure.size)

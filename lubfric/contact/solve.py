@@ -10,7 +10,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from .control import gap_controlled
 from .nested import load_controlled
 from .problem import check_control, make_problem, starting_pressure
-from .residual import contact_residuals, length_scale
+from .residual import contact_residuals
 from .result import ContactResult
 
 
@@ -96,11 +96,8 @@ def _separated(problem, mean_gap) -> ContactResult:
 
 
 def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
-    pressure = found.pressure
-    displacement = problem.operator.apply(pressure)
-    gap = problem.gap0 + displacement
-    gap -= found.approach
-    scale = length_scale(pressure, displacement, problem.gap0, problem.operator)
+    state = found.state
+    pressure, gap, scale = state.pressure, state.gap, state.scale
     carried = float(pressure.mean())
     residuals = contact_residuals(
         pressure, gap, scale, problem.hardness, carried if mean_pressure is None else mean_pressure
@@ -121,15 +118,15 @@ def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
         problem.tolerance,
         residuals,
         tuple(found.history),
-        found.convolutions + 1,
+        found.convolutions,
         tuple(found.notes),
     )
     saturated = float(np.count_nonzero(pressure >= problem.hardness)) / pressure.size
     return ContactResult(
         pressure,
         gap,
-        displacement,
-        float(found.approach) + problem.offset,
+        state.displacement,
+        float(state.approach) + problem.offset,
         carried,
         volume,
         np.count_nonzero(pressure) / pressure.size,

@@ -14,7 +14,7 @@ from .problem import FLOOR, Problem
 
 ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends, in Sq
 HERTZ_INLET, HERTZ_OUTLET = 3.0, 1.8  # the ends, at least, in Hertz half-widths
-FILM_INLET, FILM_OUTLET = 4.0, 2.0  # and in sqrt(2 R h) of the smooth film
+FILM_INLET, FILM_OUTLET = 1.5, 0.8  # and in sqrt(2 R h) of the smooth film
 LARGEST = 2**20  # cells
 
 
@@ -40,12 +40,11 @@ def lay_out(
     hardness: float | None = None,
     ends: tuple[float, float] | None = None,
     floor: float = FLOOR,
-    operator=None,
 ) -> Problem:
     """The `Problem` of ``surface``, its middle under the line of contact, on its own cells.
 
     Where the grid is longer than the map the map is repeated, mirrored if it does not close on itself along x. ``ends``
-    [m]: lengths up and down stream (default: `reach`). ``operator``: one made before, used if it is of that grid.
+    [m]: lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`.
     """
     (nx, ny), (dx, dy) = surface.shape, surface.spacing
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends
@@ -62,9 +61,7 @@ def lay_out(
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
     heights = surface.heights[place] - surface.heights.mean()
-    shape = heights.shape
-    if operator is None or operator.shape != shape or operator.spacing != (dx, dy):
-        operator = half_space(shape, (dx, dy), contact.e_prime, ("free", "periodic"))
+    operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - (nx - 1) / 2) * dx
     limit = math.inf if hardness is None else hardness
     return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, floor)

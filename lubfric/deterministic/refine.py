@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from .problem import Problem
 from .result import DeterministicResult
 from .solve import solve_point
-from .transfer import refined_start, state_on
+from .state import State
+from .transfer import SHARP, refined_start, state_on
 
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
 UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
@@ -16,10 +18,9 @@ UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
 
 @dataclass(frozen=True)
 class Refined:
-    """The solution on every grid, the coarsest first, and its problem; ``error``: estimate of the relative error that the
-    last grid leaves in the coefficient (None with one grid)."""
+    """The solution on every grid, the coarsest first; ``error``: estimate of the relative error that the last grid leaves
+    in the coefficient (None with one grid)."""
 
-    problems: tuple[Problem, ...]
     results: tuple[DeterministicResult, ...]
     error: float | None
 
@@ -30,34 +31,44 @@ class Refined:
 
 
 def solve_refined(
-    lay: Callable[[int], Problem],
-    grids: tuple[int, ...],
+    lay: Callable[[tuple[int, int]], Problem],
+    grids: tuple[tuple[int, int], ...],
     *,
     tolerance: float,
     least: int = 2,
     start: Refined | None = None,
     precision: float = 1e-5,
 ) -> Refined:
-    """Solve ``lay(n)`` for n of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at least ``least`` of them.
+    """Solve ``lay(shape)`` for the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at least ``least`` of them.
 
     The estimate is the geometric series of the changes c0, c1 of f on the last grids, c1 q/(1 - q) with q = c1/c0 kept
-    within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed; where it fails, and
-    on grids it has not, the next coarser grid starts. ``precision``: of `solve_point`. Raises `ConvergenceError`.
+    within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed. A grid starts
+    from it or from the next coarser grid, and where both fail from the dry contact. ``precision``: of `solve_point`. Raises `ConvergenceError`.
     """
-    problems, results, error = [], [], None
-    for level, n in enumerate(grids):
-        problem = lay(n)
-        first = None
-        if start is not None and level < len(start.results):
-            first = state_on(problem, start.results[level])
-        elif results:
-            first = refined_start(problems[-1], problem, results[-1])
-        result = solve_point(problem, start=first, tolerance=precision)
-        problems.append(problem), results.append(result)
+    results, error, coarser = [], None, None
+    for level, shape in enumerate(grids):
+        problem = lay(shape)
+        neighbour = start.results[level] if start is not None and level < len(start.results) else None
+        coarse = (coarser, results[-1]) if results else None
+        result = solve_point(problem, starts=_starts(problem, neighbour, coarse), tolerance=precision)
+        results.append(result)
+        coarser = problem
         error = estimate([r.coefficient for r in results])
         if len(results) >= least and error is not None and error <= tolerance:
             break
-    return Refined(tuple(problems), tuple(results), error)
+    return Refined(tuple(results), error)
+
+
+def _starts(problem: Problem, neighbour, coarse) -> list[Callable[[], State]]:
+    """A neighbour in speed and the coarser grid, where there are any: the coarser grid first where the film carries."""
+    starts = []
+    if neighbour is not None:
+        starts.append(partial(state_on, problem, neighbour))
+    if coarse is not None:
+        starts.append(partial(refined_start, coarse[0], problem, coarse[1]))
+        if coarse[1].split.spots < SHARP * coarse[1].load:
+            starts.reverse()
+    return starts
 
 
 def estimate(values) -> float | None:

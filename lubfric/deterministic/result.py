@@ -9,7 +9,7 @@ import numpy as np
 from ..report import Report
 from .forces import Forces, LoadSplit, forces
 from .problem import Problem
-from .state import TOUCHING, Look, State
+from .state import RUPTURED, TOUCHING, Look, State
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,9 @@ class DeterministicResult:
     spots, wet (bool): h = floor; the asperity spots of `lubfric.deterministic.forces`; fluid under pressure outside
     them. shear [Pa] on the moving surface. dent [m]: plastic depth.
     coefficient: (boundary + couette + rolling)/load. split: the load by four rules, ``split.spots`` the one used.
-    flow_film [m]: flow/U; min_gap, mean_gap (over ``strip``, the columns with |x| <= b of the load) [m];
-    spot_fraction, plastic_fraction: of the area of the strip. approach [m]: h0. inlet_load [N/m]: carried upstream of
+    flow_film [m]: flow/U; min_gap, central_gap (mean at x = 0), mean_gap (over ``strip``, the columns with |x| <= b of the load) [m];
+    spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that ruptured valleys of the strip give off
+    (they are taken as full, as in the volume balance of load sharing), over U times the mean gap. approach [m]: h0. inlet_load [N/m]: carried upstream of
     the grid. ``state`` starts a neighbouring solve.
     """
 
@@ -46,6 +47,8 @@ class DeterministicResult:
     mean_gap: float
     spot_fraction: float
     plastic_fraction: float
+    drawn: float
+    central_gap: float
     approach: float
     inlet_load: float
     report: Report
@@ -80,8 +83,19 @@ def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
         mean_gap=float(at.balance.film[strip].mean()),
         spot_fraction=float(found.spots[strip].mean()),
         plastic_fraction=float(yielded[strip].mean()),
+        drawn=_drawn(problem, at, strip),
+        central_gap=float(np.interp(0.0, problem.x, at.balance.film.mean(axis=1))),
         approach=state.approach,
         inlet_load=at.balance.inlet.load,
         report=report,
         state=state,
     )
+
+
+def _drawn(problem: Problem, at: Look, strip) -> float:
+    """Outflow of ruptured cells of the strip behind which the film closes again, over U times the mean gap."""
+    filled = at.state.kind != RUPTURED
+    closes = np.logical_or.accumulate(filled[::-1], axis=0)[::-1]
+    source = np.where(~filled & closes & strip[:, None], np.maximum(at.residual, 0.0), 0.0)
+    flow = float(source.sum()) * problem.spacing[0] / filled.shape[1]
+    return flow / (problem.speed * float(at.balance.film[strip].mean()))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
@@ -15,7 +15,7 @@ from .start import dry_contact, dry_start
 from .state import State
 
 TOLERANCE = 1e-5
-DIRECT, MARCHED = 50, 250  # LU factorisations from a start, and in time
+FROM_NEIGHBOUR, DIRECT, MARCHED = 25, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
 THIN_STRESS = {
     "limiting_stress_coefficient": 0.09,
     "limiting_stress_offset": 2e6,
@@ -23,18 +23,18 @@ THIN_STRESS = {
 
 
 def solve_point(
-    problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, raise_on_failure=True
+    problem: Problem, *, starts: Iterable[Callable[[], State]] = (), tolerance=TOLERANCE, raise_on_failure=True
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from ``start`` (see `lubfric.deterministic.transfer`), from the dry contact lifted by Moes' film,
+    Tried in turn: Newton's method from what each of ``starts`` returns (`lubfric.deterministic.transfer`), from the dry contact lifted by Moes' film,
     and from where implicit steps in time lead from there; with a Newtonian lubricant also from the solution of one with
     a limiting shear stress. Which one it was is in ``report.notes``. Converged when the largest of
     `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work()
     best = None
-    for name, found in _attempts(problem, start, tolerance, work):
+    for name, found in _attempts(problem, starts, tolerance, work):
         if best is None or not found.residual >= best[1].residual:
             best = name, found
         if found.residual <= tolerance:
@@ -73,9 +73,9 @@ class Work:
         return self.direct(problem, way.state, tolerance)
 
 
-def _attempts(problem: Problem, start, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
-    if start is not None:
-        yield "from a neighbouring state", work.direct(problem, start, tolerance)
+def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+    for start in starts:
+        yield "from a neighbouring state", work.direct(problem, start(), tolerance, FROM_NEIGHBOUR)
     cold = dry_start(problem, dry_contact(problem), problem.contact.moes_film)
     yield "from the dry contact", work.direct(problem, cold, tolerance)
     lubricant = problem.lubricant

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..contact import ContactResult, solve_contact
@@ -9,6 +11,7 @@ from .problem import Problem
 from .state import FLUID, RUPTURED, State
 
 DRY_TOLERANCE = 1e-4
+RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
 
 
 def dry_contact(problem: Problem, start=None, tolerance=DRY_TOLERANCE) -> ContactResult:
@@ -27,8 +30,9 @@ def dry_contact(problem: Problem, start=None, tolerance=DRY_TOLERANCE) -> Contac
 
 
 def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
-    """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind the contact the film has ruptured."""
+    """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind contact and film it has ruptured."""
     p = dry.pressure
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
-    kind = np.where((p <= 0) & (problem.x > 0)[:, None], RUPTURED, FLUID).astype(np.int8)
+    full = RUPTURE * math.sqrt(2 * problem.radius * film)
+    kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
     return State(p.copy(), dent, kind, p >= problem.hardness, film - dry.approach)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import fft
@@ -48,6 +49,11 @@ class HalfSpace(FrozenArrays):
     def astype(self, dtype) -> HalfSpace:
         """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""
         return replace(self, symbol=self.symbol.astype(dtype))
+
+    @cached_property
+    def single(self) -> HalfSpace:
+        """The same operator in single precision, made once."""
+        return self.astype(np.float32)
 
     def coarsened(self, factors) -> HalfSpace:
         """The operator on cells ``factors`` (fx, fy) times as long, from the low frequencies of this one.

@@ -6,19 +6,18 @@ import math
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..errors import ConvergenceError
 from ..film.contract import Film, FilmLevel
-from ..model import Model
 from ..report import CONVERGED, Report
 from ..roots import increasing_root
 from ..rough.contract import ContactState
 from . import total_pressure
+from .forces import Forces, forces
 from .operating_point import OperatingPoint, Trial
 
 BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
 THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
 NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
-FIRST_STEP, NEIGHBOUR_STEP = 1.5, 0.7  # of ln(F_H/F_C)
+FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
 
 
 @dataclass(frozen=True)
@@ -33,6 +32,7 @@ class Balance:
     film: Film | None
     contact: ContactState
     report: Report
+    forces: Forces
     slope: float | None = None
     level: FilmLevel | None = None
 
@@ -65,40 +65,34 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Balance:
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Where the film of the whole load clears the summits it carries it all. Stops at |residual| <=
-    settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at the same gap carried in proportion
-    to its speed.
+    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at
+    the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
     """
-    whole, notes = _whole(point, start)
-    if whole is not None and whole.contact.volume_residual <= 0:
-        found = whole
-    elif point.scene.numerics.closure == "load":
-        found = _balanced_volume(point, _first(start, whole), start, notes)
-    else:
-        found = _balanced_load(point, _first(start, whole), start, notes)
-    return total_pressure.told(point.scene, found) if point.scene.numerics.film_deflection == "total" else found
+    by_load = point.scene.numerics.closure == "load"
+    first = Trial() if start is None else Trial(film=start.film, start=start.contact)
+    begin = point.guessed_split() if start is None else start.split + _faster(point, start)
+    root = increasing_root(
+        partial(volume_residual if by_load else load_residual, point),
+        begin if by_load else begin - THICKER,
+        step=FIRST_STEP if by_load and start is None else NEXT_STEP,
+        bounds=BOUNDS,
+        tolerance=point.settings.volume_tolerance,
+        slope=start.slope if start else None,
+        first=first,
+    )
+    found = root.payload
+    residuals = {"volume": min(root.history), "load": 0.0}
+    if not by_load:
+        residuals = {"volume": abs(found.contact.volume_residual), "load": min(root.history)}
+    slope = (root.slope or (start.slope if start else None)) if by_load else None
+    return _balance(point, found, residuals, root.history, root.status, (), slope)
 
 
 def separated(point: OperatingPoint, start: Film | None = None) -> Balance:
     """All the load on the film: in balance, with no contact, where the volume residual of its contact is <= 0."""
-    load = point.scene.bodies.load
-    return _separated(point, point.with_contact(0.0, point.with_film(load, Trial(film=start))))
-
-
-def dry(model: Model) -> Balance:
-    """No film: the contact carries the whole load under the undeformed cylinder."""
-    bodies = model.scene.bodies
-    contact = model.contact.close(model.contact.x**2 / (2 * bodies.radius), bodies.load)
-    report = Report(
-        "load sharing",
-        CONVERGED,
-        0,
-        0.0,
-        model.scene.numerics.volume_tolerance,
-        residuals={"volume": 0.0, "load": 0.0},
-        notes=("no entrainment: all contact",),
-    )
-    return Balance(0.0, bodies.load, None, contact, report)
+    found = point.with_contact(0.0, point.with_film(point.scene.bodies.load, Trial(film=start)))
+    notes = ("separated: the film clears the summits",)
+    return _balance(point, found, {"volume": 0.0, "load": 0.0}, (0.0,), CONVERGED, notes)
 
 
 def volume_residual(point: OperatingPoint, split: float, last: Trial) -> tuple[float, Trial]:
@@ -115,79 +109,24 @@ def load_residual(point: OperatingPoint, split: float, last: Trial) -> tuple[flo
     """ln((F_C + F_H)/F_T) of the film solved at its share of the load and imposed on the contact."""
     load = point.scene.bodies.load
     found = point.with_imposed_film(point.with_film(divided(load, split)[0], last))
-    value = math.log((found.contact_load + found.film_load) / load)
-    return value, found
+    return math.log((found.contact_load + found.film_load) / load), found
 
 
-def _balanced_volume(point: OperatingPoint, first: Trial, start: Balance | None, notes) -> Balance:
-    root = increasing_root(
-        partial(volume_residual, point),
-        _split(point, start),
-        step=NEIGHBOUR_STEP if start else FIRST_STEP,
-        bounds=BOUNDS,
-        tolerance=point.settings.volume_tolerance,
-        slope=start.slope if start else None,
-        first=first,
-    )
-    found, report = root.payload, _report(point, root.payload, root.history, root.status, notes)
-    slope = root.slope or (start.slope if start else None)
-    return Balance(found.film_load, found.contact_load, found.film, found.contact, report, slope, point.settings.level)
-
-
-def _balanced_load(point: OperatingPoint, first: Trial, start: Balance | None, notes) -> Balance:
-    """The search begins at thicker films than the guess: a film far too thin would press the contact flat."""
-    root = increasing_root(
-        partial(load_residual, point),
-        _split(point, start) - THICKER,
-        step=NEIGHBOUR_STEP,
-        bounds=BOUNDS,
-        tolerance=point.settings.volume_tolerance,
-        first=first,
-    )
-    found, report = root.payload, _report(point, root.payload, root.history, root.status, notes)
-    residuals = {"load": min(root.history), "volume": abs(found.contact.volume_residual)}
-    report = replace(report, residuals=report.residuals | residuals)
-    return Balance(found.film_load, found.contact_load, found.film, found.contact, report, level=point.settings.level)
-
-
-def _whole(point: OperatingPoint, start: Balance | None) -> tuple[Balance | None, tuple[str, ...]]:
-    """`separated`, unless it is known that the summits touch, or the film of the whole load fails: then the balance
-    that is found, one of a kind, is what excludes separation."""
-    if point.settings.touching:
-        return None, ()
-    try:
-        return separated(point, start.film if start else None), ()
-    except ConvergenceError as error:
-        return None, (f"the film of the whole load was not solved ({error})",)
-
-
-def _first(start: Balance | None, whole: Balance | None) -> Trial:
-    """What the first trial starts from: a neighbour, or the film of the whole load."""
-    solved = () if whole is None else (whole.film.cells,)
-    if start is not None:
-        return Trial(film=start.film, start=start.contact, solved=solved)
-    return Trial(film=None if whole is None else whole.film, solved=solved)
-
-
-def _split(point: OperatingPoint, start: Balance | None) -> float:
-    """Where the search begins."""
-    if start is None:
-        return point.guessed_split()
+def _faster(point: OperatingPoint, start: Balance) -> float:
+    """How much more, in ln, a film carries at the same gap than that of ``start``."""
     if start.film is None or start.film.entrainment_speed == 0:
-        return start.split
-    return start.split + math.log(abs(point.speed / start.film.entrainment_speed))
+        return 0.0
+    return math.log(abs(point.speed / start.film.entrainment_speed))
 
 
-def _separated(point: OperatingPoint, found: Trial) -> Balance:
-    report = _report(point, found, [0.0], CONVERGED, ("separated: the film clears the summits",))
-    return Balance(found.film_load, 0.0, found.film, found.contact, report, level=point.settings.level)
-
-
-def _report(point: OperatingPoint, found: Trial, history, status: str, notes) -> Report:
-    residuals = {"volume": history and min(history), "load": 0.0, "film": found.film.report.residual}
+def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Balance:
+    residuals = residuals | {"film": found.film.report.residual}
     if found.contact.fields is not None:
         residuals["contact"] = found.contact.fields.report.residual
-    return Report(
+    if point.scene.numerics.film_deflection == "total":
+        residuals |= total_pressure.residuals(point.scene, found)
+        notes = (*notes, *total_pressure.notes(point.scene, found))
+    report = Report(
         solver="load sharing",
         status=status,
         iterations=len(history),
@@ -198,3 +137,6 @@ def _report(point: OperatingPoint, found: Trial, history, status: str, notes) ->
         evaluations=len(history),
         notes=tuple(notes),
     )
+    level = point.settings.level
+    found_forces = forces(point.scene, level, found, slope)
+    return Balance(found.film_load, found.contact_load, found.film, found.contact, report, found_forces, slope, level)

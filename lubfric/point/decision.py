@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 from .. import budget
 from ..film.contract import LeftOut
+from ..model import Model
+from ..scene import Numerics
+from .one_grid import Stage
 
 
 @dataclass(frozen=True)
@@ -81,3 +85,63 @@ class Decision:
 
 def _percent(value: float) -> str:
     return f"{100 * value:.2g} %"
+
+
+def dry(model: Model) -> Decision:
+    """Of a contact without film, on its own grid."""
+    grid, numerics = model.contact.grid, model.scene.numerics
+    return Decision(
+        film="none",
+        contact=model.contact.name,
+        tolerance=numerics.tolerance,
+        shape=None if grid is None else grid.cells,
+        forced=_forced(numerics),
+    )
+
+
+def alone(stage: Stage) -> Decision:
+    """Of a film with the whole load."""
+    state, sq = stage.balance.contact, stage.point.model.surface.sq
+    return replace(_film(stage), contact="none", clearance=(state.mean_film - state.mean_gap) / max(sq, 1e-12))
+
+
+def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
+    """Of film and contact, on a grid of estimated ``error`` of f; ``finest``: the map's own."""
+    model, grid, own = stage.point.model, stage.point.contact.grid, stage.point.model.contact.grid
+    decision = replace(_film(stage), contact=model.contact.name, grid_error=None if finest else error)
+    if grid is not None and own is not None:
+        dx, dy = (round(a / b) for a, b in zip(grid.spacing, own.spacing))
+        decision = replace(decision, shape=grid.cells, coarsening=(dx, dy))
+    if finest and decision.tolerance < error < math.inf:
+        note = (
+            f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
+        )
+        decision = replace(decision, notes=(*decision.notes, note))
+    return decision
+
+
+def _film(stage: Stage) -> Decision:
+    numerics, settings, found = stage.point.scene.numerics, stage.point.settings, stage.balance.forces
+    notes: tuple[str, ...] = ()
+    if settings.level.numerical and found.quadrature > budget.SHEAR_SUM * numerics.tolerance:
+        notes = (
+            f"the film's friction is not resolved (a pressure spike?): estimated error "
+            f"{100 * found.quadrature:.1g} % of f",
+        )
+    return Decision(
+        film=settings.level.name,
+        contact="",
+        tolerance=numerics.tolerance,
+        film_words=settings.level.words,
+        left_out=stage.left_out,
+        sensitivity=found.sensitivity,
+        film_tolerance=settings.film_tolerance if settings.level.numerical else 0.0,
+        heat=found.heat.text(numerics.tolerance),
+        forced=_forced(numerics),
+        notes=notes,
+    )
+
+
+def _forced(numerics: Numerics) -> tuple[str, ...]:
+    full = numerics.model == "full"
+    return tuple(name for name in ("film_level", "contact_level", "grid") if full or getattr(numerics, name) != "auto")

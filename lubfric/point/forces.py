@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..film.contract import FilmLevel
 from ..film.shear import ShearForce
 from ..heat.point import Heat, WarmFilm, point_heat
 from ..scene import Scene
-from .balance import Balance
+from .operating_point import Trial
 
 
 @dataclass(frozen=True)
@@ -32,20 +33,21 @@ class Forces:
     heat: Heat = Heat()
 
 
-def forces(scene: Scene, balance: Balance) -> Forces:
-    """Boundary and viscous friction of a balance (paper, Eqs. 9-12)."""
+def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | None = None) -> Forces:
+    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` (None: no film) and a contact that share
+    the load, ``slope`` that of the balance."""
     bodies, motion = scene.bodies, scene.motion
     sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
-    boundary = sliding * balance.contact_load
-    shear = _shear(scene, balance)
-    heat, warm = point_heat(scene, balance, abs(boundary + shear.total), shear)
+    boundary = sliding * found.contact_load
+    shear = _shear(scene, level, found)
+    heat, warm = point_heat(scene, found, abs(boundary + shear.total), shear)
     if warm is not None:
-        shear = _shear(scene, balance, warm)
+        shear = _shear(scene, level, found, warm)
     total = abs(boundary + shear.total)
-    moved = sliding * balance.film_load * (balance.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
+    moved = sliding * found.film_load * (found.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
     gain = 1.0
-    if balance.slope and balance.contact_load > 0:
-        gain = max(1.0, 0.5 * balance.contact_load / (bodies.load * balance.slope))
+    if slope and found.contact_load > 0:
+        gain = max(1.0, 0.5 * found.contact_load / (bodies.load * slope))
     known = 0 < total < math.inf
     return Forces(
         (boundary + shear.total) / bodies.load,
@@ -57,16 +59,16 @@ def forces(scene: Scene, balance: Balance) -> Forces:
     )
 
 
-def _shear(scene: Scene, balance: Balance, warm: WarmFilm | None = None) -> ShearForce:
-    if balance.film is None:
+def _shear(scene: Scene, level: FilmLevel | None, found: Trial, warm: WarmFilm | None = None) -> ShearForce:
+    if level is None:
         return ShearForce(0.0, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
-        return balance.level.shear(
-            balance.film,
+        return level.shear(
+            found.film,
             scene.lubricant,
             width=scene.bodies.width,
             slide_roll_ratio=scene.motion.slide_roll_ratio,
             cavitated=scene.numerics.cavitated_shear,
-            contact_fraction=balance.contact.touching,
+            contact_fraction=found.contact.touching,
             **({} if warm is None else {"warm": warm}),
         )

@@ -11,12 +11,11 @@ from ..validity.film import of_deflection, of_pressure, of_thickness
 from ..validity.heat import of_heat
 from ..validity.stress import of_shear
 from .balance import Balance
-from .forces import Forces
 
 STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
 
 
-def judged_validity(model: Model, speed: float, balance: Balance, found: Forces) -> tuple[Validity, ...]:
+def judged_validity(model: Model, speed: float, balance: Balance) -> tuple[Validity, ...]:
     """Entries for all that does not hold at ``balance``; those of bodies and map (`Model.known`) first."""
     scene, film = model.scene, balance.film
     thickness = film.central_film if film is not None else math.nan
@@ -24,8 +23,8 @@ def judged_validity(model: Model, speed: float, balance: Balance, found: Forces)
     if film is not None:
         entries += of_pressure(scene.lubricant, float(film.pressure.max()))
         entries += of_thickness(scene.bodies, thickness)
-        entries += _of_shear(scene, balance, found)
-        entries += of_heat(found.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
+        entries += _of_shear(scene, balance)
+        entries += of_heat(balance.forces.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
         entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
     return tuple(entries)
 
@@ -38,8 +37,8 @@ def strip_rise(scene, balance: Balance) -> float:
     return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
 
 
-def _of_shear(scene, balance: Balance, found: Forces) -> list[Validity]:
-    lubricant = scene.lubricant
+def _of_shear(scene, balance: Balance) -> list[Validity]:
+    lubricant, found = scene.lubricant, balance.forces
     newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
     force = abs(found.coefficient) * scene.bodies.load
     return of_shear(found.shear, balance.film_load, force, scene.numerics.tolerance, newtonian)

@@ -19,13 +19,12 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance, whether contact is certain; how many
-    cells a numerical film has at least; tolerance of the contact (None: its own)."""
+    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at least;
+    tolerance of the contact (None: its own)."""
 
     level: FilmLevel
     film_tolerance: float
     volume_tolerance: float
-    touching: bool = False
     film_cells: int = 0
     contact_tolerance: float | None = None
 
@@ -34,8 +33,8 @@ class Settings:
 class Trial:
     """Film and contact at one division of the load [N], found or to start from.
 
-    start: the contact that the next one starts from, the last that touched; solved: cells of the films of this balance so far, the latest last. From the second on they keep to one grid, or the
-    root of the balance has a jump.
+    start: the contact that the next one starts from, the last that touched; solved: cells of the films of this balance
+    so far, the latest last. From the second on they keep to one grid, or the root of the balance has a jump.
     """
 
     film_load: float = 0.0
@@ -92,18 +91,31 @@ class OperatingPoint:
 
     def with_contact(self, contact_load: float, last: Trial) -> Trial:
         """``last`` with the contact that carries ``contact_load`` [N] under its film."""
-        return last.touching(contact_load, self.closed(last.film, contact_load, last.start))
-
-    def closed(self, film: Film, contact_load: float, start: ContactState | None = None) -> ContactState:
-        """The contact of ``contact_load`` [N] under ``film``."""
-        return self._contact.close(
-            film.film_at(self.contact.x), contact_load, start, pressed_under(self.scene, film, self.contact.x)
-        )
+        film, shape = self.imposed_on(self.contact, last.film)
+        return last.touching(contact_load, self._contact.close(film, contact_load, last.start, shape))
 
     def with_imposed_film(self, last: Trial) -> Trial:
         """``last`` with the load that the contact carries where its film is imposed on it."""
-        film, x = last.film, self.contact.x
-        return last.touching(*self._contact.carry(film.film_at(x), last.start, pressed_under(self.scene, film, x)))
+        film, shape = self.imposed_on(self.contact, last.film)
+        return last.touching(*self._contact.carry(film, last.start, shape))
+
+    def imposed_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
+        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or less.
+
+        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact
+        adds its own share itself.
+        """
+        thickness, way = film.film_at(contact.x), self.scene.numerics.film_deflection
+        if way == "hydrodynamic":
+            return thickness, thickness
+        if way == "total":
+            return thickness, thickness - film.imposed_deflection(contact.x)
+        parabola = contact.x**2 / (2 * film.radius)
+        return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
+
+    def suffices(self, whole: RoughContact, film: Film, state: ContactState) -> bool:
+        """Nothing of ``whole`` outside the point's own contact, a part of it in ``state`` under ``film``, touches."""
+        return self.contact is whole or whole.holds(self.contact, self.imposed_on(whole, film)[1], state)
 
     def guessed_split(self) -> float:
         """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""
@@ -122,18 +134,3 @@ class OperatingPoint:
     def _contact(self) -> RoughContact:
         tolerance = self.settings.contact_tolerance
         return self.contact if tolerance is None else self.contact.tightened(tolerance)
-
-
-def pressed_under(scene: Scene, film: Film, x: np.ndarray) -> np.ndarray:
-    """What the surface is pressed under at ``x`` [m], up to a constant: the film, or less of it.
-
-    With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact adds
-    its own share itself.
-    """
-    thickness = film.film_at(x)
-    if scene.numerics.film_deflection == "hydrodynamic":
-        return thickness
-    if scene.numerics.film_deflection == "total":
-        return thickness - film.imposed_deflection(x)
-    parabola = x**2 / (2 * film.radius)
-    return parabola + film.e_prime / scene.bodies.e_prime * (thickness - parabola)

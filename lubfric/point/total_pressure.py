@@ -13,13 +13,14 @@ Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
+from ..scene import Scene
 from .operating_point import OperatingPoint, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
@@ -82,18 +83,20 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     raise ConvergenceError(report.message, report, (found.film, found.contact))
 
 
-def told(scene, balance):
-    """``balance`` with `mismatch` among the residuals of its report, and `departure` among its notes."""
-    report, line_load = balance.report, balance.contact_load / scene.bodies.width
-    apart = {"deflection": mismatch(scene, balance.film, balance.contact)}
-    notes = report.notes
-    if balance.contact.fields is not None:
-        left_out = 100 * departure(scene, balance.contact, line_load)
-        notes += (
-            f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
-            "mean film more than its semi-ellipse does",
-        )
-    return replace(balance, report=replace(report, residuals=report.residuals | apart, notes=notes))
+def residuals(scene: Scene, found: Trial) -> dict[str, float]:
+    """`mismatch`, for the report of a balance."""
+    return {"deflection": mismatch(scene, found.film, found.contact)}
+
+
+def notes(scene: Scene, found: Trial) -> tuple[str, ...]:
+    """`departure` in words, for the report of a balance."""
+    if found.contact.fields is None:
+        return ()
+    left_out = 100 * departure(scene, found.contact, found.contact_load / scene.bodies.width)
+    return (
+        f"film deflected by the total pressure; single asperities bend the contact's part by {left_out:.2g} % of the "
+        "mean film more than its semi-ellipse does",
+    )
 
 
 def mismatch(scene, film, contact) -> float:

@@ -22,7 +22,7 @@ from ..asperity import AsperityResult, contact_law
 from ..errors import ConvergenceError, InputError
 from ..scene import Scene
 from .contract import ContactState, Grid, RoughContact
-from .strip import area_weight, centred_axis, weighted_mean
+from .strip import area_weight, centred_axis, check_strip, weighted_mean
 
 
 @dataclass(frozen=True)
@@ -110,6 +110,7 @@ class AsperityContact(RoughContact):
 
     def again(self, scene: Scene, old: Scene) -> AsperityContact:
         """On the same heights."""
+        check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return asperities_under_cylinder(scene, self.heights, self.spacing)
 
     def _law(self):

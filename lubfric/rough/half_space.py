@@ -11,28 +11,18 @@ from ..contact.single_loop import single_loop
 from ..errors import InputError
 from ..halfspace import HalfSpace, half_space
 from ..scene import Scene
-from .contract import ContactState, Grid, RoughContact
-from .half_space_grid import carried_over, coarsened, cut, holds, in_contact
-from .strip import area_half_width, area_weight, centred_axis, weighted_mean
+from .contract import ContactState
+from .half_space_grid import HalfSpaceGrid
+from .strip import area_half_width, area_weight, centred_axis, check_strip, weighted_mean
 
 EDGE_SHARE = 0.01
 BOUNDARY = ("free", "periodic")
 
 
 @dataclass(frozen=True)
-class HalfSpaceContact(RoughContact):
-    """A rough surface under a cylinder: free along x, periodic along y.
+class HalfSpaceContact(HalfSpaceGrid):
+    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of `lubfric.solve_contact`."""
 
-    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of each
-    column inside the area A of Eq. (8), |x| <= half_width [m] (None: all); tolerance: of `lubfric.solve_contact`.
-    """
-
-    heights: np.ndarray
-    spacing: tuple[float, float]
-    x: np.ndarray
-    weight: np.ndarray
-    half_width: float | None
-    operator: HalfSpace
     width: float
     hardness: float | None
     tolerance: float
@@ -53,7 +43,7 @@ class HalfSpaceContact(RoughContact):
             hardness=self.hardness,
             boundary=BOUNDARY,
             tolerance=self.tolerance,
-            start=self._starting_pressure(start),
+            start=self.pressure_of(start),
         )
         return self._state(film, found.gap, found)
 
@@ -69,16 +59,11 @@ class HalfSpaceContact(RoughContact):
             hardness=self.hardness,
             boundary=BOUNDARY,
             tolerance=self.tolerance,
-            start=self._starting_pressure(start),
+            start=self.pressure_of(start),
             operator=self.operator,
         )
         load = found.mean_pressure * self.width * self.x.size * self.spacing[0]
         return load, self._state(film, found.gap, found if load > 0 else None)
-
-    @property
-    def grid(self) -> Grid:
-        """Its cells."""
-        return Grid(self.heights.shape, self.spacing)
 
     @property
     def adjustable_tolerance(self) -> float:
@@ -88,23 +73,6 @@ class HalfSpaceContact(RoughContact):
     def tightened(self, tolerance: float) -> HalfSpaceContact:
         """The same, solved to ``tolerance``."""
         return replace(self, tolerance=tolerance)
-
-    @property
-    def sq(self) -> float:
-        """Standard deviation [m] of the heights on this grid."""
-        return float(self.heights.std())
-
-    def coarsened(self) -> HalfSpaceContact | None:
-        """On cells twice as long and wide: `lubfric.rough.half_space_grid.coarsened`."""
-        return coarsened(self)
-
-    def cut(self, state: ContactState, found_on: RoughContact) -> HalfSpaceContact:
-        """The columns in contact and a margin; all of them where the mean over the whole patch counts."""
-        return self if self.half_width is None else cut(self, in_contact(found_on, state.pressure))
-
-    def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
-        """One convolution of the contact found on the part: `lubfric.rough.half_space_grid.holds`."""
-        return holds(self, part, shape, state)
 
     def check(self, state: ContactState) -> None:
         """Raise `InputError` when the contact reaches the ends of the patch."""
@@ -120,10 +88,8 @@ class HalfSpaceContact(RoughContact):
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
         """With the same operator."""
+        check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return half_space_contact(scene, self.heights, self.spacing, self.operator)
-
-    def _starting_pressure(self, start: ContactState | None) -> np.ndarray | None:
-        return None if start is None else carried_over(start, self)
 
     def _state(self, film, gap, found) -> ContactState:
         touching = np.zeros(gap.shape, bool) if found is None else found.pressure > 0

@@ -1,99 +1,113 @@
-"""A half-space contact on coarser and shorter grids."""
+"""The grid of a half-space contact under a cylinder: on coarser cells, on fewer columns, from another grid's pressure."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from ..contact.problem import COARSEST
-from .contract import ContactState, RoughContact
+from ..halfspace import HalfSpace
+from .contract import ContactState, Grid, RoughContact
 from .strip import strip_weight
 
-if TYPE_CHECKING:
-    from .half_space import HalfSpaceContact
-
-LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
 MARGIN = 0.1  # of the length in contact, kept free on each side
 MARGIN_CELLS = 4
+LEAST_CUT = 0.9  # of the columns: a part that keeps more is not worth it
 TOUCH = 1e-3  # of Sq: an overlap that is none
 
 
-def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
-    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be halved."""
-    contacts = [contact]
-    while (coarse := contacts[0].coarsened()) is not None:
-        if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
-            break
-        contacts.insert(0, coarse)
-    return contacts
+@dataclass(frozen=True)
+class HalfSpaceGrid(RoughContact):
+    """A rough surface under a cylinder on its grid: free along x, periodic along y.
 
+    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of each
+    column inside the area A of Eq. (8), |x| <= half_width [m] (None: all).
+    """
 
-def coarsened(contact: HalfSpaceContact) -> HalfSpaceContact | None:
-    """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A stays
-    wider than a cell. None where neither axis can be halved."""
-    operator, half_width = contact.operator, contact.half_width
-    wide = half_width is not None and 2 * contact.spacing[0] > half_width
-    factors = tuple(
-        2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST and not fixed else 1
-        for kept, padded, fixed in zip(operator.shape, operator.padded, (wide, False))
-    )
-    if factors == (1, 1):
-        return None
-    (nx, ny), (fx, fy) = operator.shape, factors
-    heights = contact.heights.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
-    x = contact.x.reshape(-1, fx).mean(axis=1)
-    coarse = operator.coarsened(factors)
-    weight = np.ones(x.size) if half_width is None else strip_weight(x, coarse.spacing[0], half_width)
-    return replace(contact, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+    weight: np.ndarray
+    half_width: float | None
+    operator: HalfSpace
 
+    @property
+    def grid(self) -> Grid:
+        """Its cells."""
+        return Grid(self.heights.shape, self.spacing)
 
-def in_contact(contact: HalfSpaceContact, pressure: np.ndarray) -> tuple[float, float]:
-    """Ends [m] of the part of x where contact may be on a finer grid: touched columns and area A, and a margin."""
-    used = np.flatnonzero(pressure.any(axis=1) | (contact.weight > 0))
-    low, high = contact.x[used[0]], contact.x[used[-1]]
-    margin = MARGIN * (high - low) + MARGIN_CELLS * contact.spacing[0]
-    return float(low - margin), float(high + margin)
+    @property
+    def sq(self) -> float:
+        """Standard deviation [m] of the heights on this grid."""
+        return float(self.heights.std())
 
+    def coarsened(self) -> Self | None:
+        """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A stays
+        wider than a cell. None where neither axis can be halved."""
+        operator, half_width = self.operator, self.half_width
+        wide = half_width is not None and 2 * self.spacing[0] > half_width
+        factors = tuple(
+            2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST and not fixed else 1
+            for kept, padded, fixed in zip(operator.shape, operator.padded, (wide, False))
+        )
+        if factors == (1, 1):
+            return None
+        (nx, ny), (fx, fy) = operator.shape, factors
+        heights = self.heights.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
+        x = self.x.reshape(-1, fx).mean(axis=1)
+        coarse = operator.coarsened(factors)
+        weight = np.ones(x.size) if half_width is None else strip_weight(x, coarse.spacing[0], half_width)
+        return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
 
-def cut(contact: HalfSpaceContact, ends: tuple[float, float]) -> HalfSpaceContact:
-    """The columns of ``contact`` between ``ends`` [m], a whole number of fours; itself where all are needed."""
-    first, last = np.searchsorted(contact.x, ends)
-    count = min(4 * -(-max(int(last - first), COARSEST) // 4), contact.x.size)
-    if count > 0.9 * contact.x.size:
-        return contact
-    first = int(min(max(0, first), contact.x.size - count))
-    keep = slice(first, first + count)
-    return replace(
-        contact,
-        heights=contact.heights[keep],
-        x=contact.x[keep],
-        weight=contact.weight[keep],
-        operator=contact.operator.shortened(count),
-    )
+    def cut(self, state: ContactState, found_on: RoughContact) -> Self:
+        """The columns where contact may be: those touched and those of the area A, and a margin; all of them where the mean
+        over the whole patch counts."""
+        if self.half_width is None or state.pressure is None:
+            return self
+        used = np.flatnonzero(state.pressure.any(axis=1) | (found_on.weight > 0))
+        low, high = found_on.x[used[0]], found_on.x[used[-1]]
+        margin = MARGIN * (high - low) + MARGIN_CELLS * found_on.grid.spacing[0]
+        return self.between(float(low - margin), float(high + margin))
 
+    def between(self, low: float, high: float) -> Self:
+        """The columns from ``low`` to ``high`` [m], a whole number of fours; itself where nearly all are needed."""
+        first, last = np.searchsorted(self.x, (low, high))
+        count = min(4 * -(-max(int(last - first), COARSEST) // 4), self.x.size)
+        if count > LEAST_CUT * self.x.size:
+            return self
+        first = int(min(max(0, first), self.x.size - count))
+        keep = slice(first, first + count)
+        return replace(
+            self,
+            heights=self.heights[keep],
+            x=self.x[keep],
+            weight=self.weight[keep],
+            operator=self.operator.shortened(count),
+        )
 
-def holds(whole: HalfSpaceContact, part: HalfSpaceContact, shape: np.ndarray, state: ContactState) -> bool:
-    """No cell of ``whole`` outside its part is touched: one convolution of the contact found on the part."""
-    if state.fields is None or part is whole:
-        return True
-    first = int(np.searchsorted(whole.x, part.x[0] - 0.5 * part.spacing[0]))
-    pressure = np.zeros(whole.heights.shape)
-    pressure[first : first + part.x.size] = state.fields.pressure
-    gap = whole.operator.apply(pressure) + shape[:, None] - whole.heights - state.fields.approach
-    gap[first : first + part.x.size] = 0.0
-    return bool(gap.min() >= -TOUCH * whole.heights.std())
+    def holds(self, part: RoughContact, shape: np.ndarray, state: ContactState) -> bool:
+        """No cell outside the part is touched: one convolution of the contact found on it."""
+        if state.fields is None or part is self:
+            return True
+        first = int(np.searchsorted(self.x, part.x[0] - 0.5 * part.grid.spacing[0]))
+        pressure = np.zeros(self.heights.shape)
+        pressure[first : first + part.x.size] = state.fields.pressure
+        gap = self.operator.apply(pressure) + shape[:, None] - self.heights - state.fields.approach
+        gap[first : first + part.x.size] = 0.0
+        return bool(gap.min() >= -TOUCH * self.heights.std())
 
-
-def carried_over(start: ContactState, contact: HalfSpaceContact) -> np.ndarray | None:
-    """The pressure of ``start``, if any, on the cells of ``contact``: the nearest ones of its own."""
-    pressure, shape = start.pressure, contact.heights.shape
-    if pressure is None or pressure.shape == shape and np.array_equal(start.x, contact.x):
-        return pressure
-    step = start.x[1] - start.x[0]
-    row = np.rint((contact.x - start.x[0]) / step).astype(int)
-    column = np.arange(shape[1]) * pressure.shape[1] // shape[1]
-    inside = (row >= 0) & (row < start.x.size)
-    moved = np.where(inside[:, None], pressure[np.clip(row, 0, start.x.size - 1)][:, column], 0.0)
-    return moved if moved.any() else None
+    def pressure_of(self, state: ContactState | None) -> np.ndarray | None:
+        """The pressure of ``state``, if any, on these cells: the nearest ones of its own."""
+        if state is None or state.pressure is None:
+            return None
+        pressure, shape = state.pressure, self.heights.shape
+        if pressure.shape == shape and np.array_equal(state.x, self.x):
+            return pressure
+        step = state.x[1] - state.x[0]
+        row = np.rint((self.x - state.x[0]) / step).astype(int)
+        column = np.arange(shape[1]) * pressure.shape[1] // shape[1]
+        inside = (row >= 0) & (row < state.x.size)
+        moved = np.where(inside[:, None], pressure[np.clip(row, 0, state.x.size - 1)][:, column], 0.0)
+        return moved if moved.any() else None

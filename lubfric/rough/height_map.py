@@ -6,20 +6,24 @@ from .. import validate
 from ..errors import InputError
 from ..scene import Scene
 from ..surface import Surface, generate_surface, read_surface, rms_slope
+from .strip import check_strip
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 
 
-def contact_map(scene: Scene) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``.
+def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
+    """Generate, or read, turn, scale, cut and close the heights of ``scene``, or take those of ``surface`` as they are.
 
     A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
     it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
     Everything done is in the notes of the surface.
     """
-    surface = _measured(scene) if scene.surface.file is not None else _generated(scene)
+    if surface is None:
+        surface = _measured(scene) if scene.surface.file is not None else _generated(scene)
     check_grid(scene, surface)
+    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
+        surface = surface.periodic("mirror", axes=(True, False))
     return surface
 
 
@@ -33,17 +37,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
         )
     if scene.contact.geometry == "flat":
         return
-    half_width, step = scene.bodies.half_width, surface.spacing[0]
-    if step > half_width:
-        raise InputError(
-            f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
-            f"its half-width {half_width:.3g} m"
-        )
-    if surface.size[0] < 2 * half_width:
-        raise InputError(
-            f"the patch is {surface.size[0]:.3g} m long in x (contact.shape x contact.spacing); allowed: at "
-            f"least the Hertz strip, {2 * half_width:.3g} m"
-        )
+    check_strip(scene, surface.spacing[0], surface.size[0])
 
 
 def _generated(scene: Scene) -> Surface:

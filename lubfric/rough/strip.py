@@ -26,6 +26,21 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
     return weight
 
 
+def check_strip(scene: Scene, step: float, length: float) -> None:
+    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not hold."""
+    half_width = scene.bodies.half_width
+    if step > half_width:
+        raise InputError(
+            f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
+            f"its half-width {half_width:.3g} m"
+        )
+    if length < 2 * half_width:
+        raise InputError(
+            f"the patch is {length:.3g} m long in x (contact.shape x contact.spacing); allowed: at "
+            f"least the Hertz strip, {2 * half_width:.3g} m"
+        )
+
+
 def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
     """Part of each cell inside the area A of Eq. (8) that the scene asks for."""
     half_width = area_half_width(scene)

@@ -4,7 +4,7 @@ from .codec import decode, encode
 from .fingerprint import digest, fingerprint
 from .lock import FolderLock
 from .records import Records
-from .whole import clear_parts, read_checked, write_checked, write_whole
+from .whole import clear_parts, read_checked, whole_file, write_checked, write_whole
 
 __all__ = [
     "FolderLock",
@@ -15,6 +15,7 @@ __all__ = [
     "encode",
     "fingerprint",
     "read_checked",
+    "whole_file",
     "write_checked",
     "write_whole",
 ]

@@ -23,7 +23,7 @@ _HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child mu
 class FolderLock:
     """``with FolderLock(folder):`` - refuses with `InputError` while another process holds it. The folder is made.
 
-    The lock is held by the open file, so that a killed process leaves none behind; the file itself may stay.
+    The lock is held by the open file, so that a killed process leaves none behind; only its file then stays.
     """
 
     def __init__(self, folder):
@@ -31,11 +31,37 @@ class FolderLock:
         self._file = None
 
     def __enter__(self) -> FolderLock:
-        with saying(f"{self.path.parent} cannot be used"):
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            file = self.path.open("a+")
+        while True:
+            with saying(f"{self.path.parent} cannot be used"):
+                self.path.parent.mkdir(parents=True, exist_ok=True)
+                file = self.path.open("a+")
+            self._take(file)
+            if _still_there(file, self.path):  # not that of a run which ended, and removed it, meanwhile
+                break
+            file.close()
+        with saying(f"{self.path} was not written"):
+            file.seek(0)
+            file.truncate()
+            file.write(str(os.getpid()))
+            file.flush()
+        self._file = file
+        _HELD.add(self)
+        return self
+
+    def __exit__(self, *_) -> None:
+        if fcntl is not None:
+            self.path.unlink(missing_ok=True)
+        self.drop()
+
+    def drop(self) -> None:
+        """Close the file: this process holds the lock no more."""
+        _HELD.discard(self)
+        self._file.close()
+        self._file = None
+
+    def _take(self, file) -> None:
         try:
-            _take(file)
+            _lock(file)
         except OSError:
             file.seek(0)
             holder = file.read().strip() or "unknown"
@@ -44,21 +70,9 @@ class FolderLock:
                 f"{self.path.parent} is being written by another run (process {holder}); "
                 "allowed: another folder, or wait until it ends"
             ) from None
-        file.seek(0)
-        file.truncate()
-        file.write(str(os.getpid()))
-        file.flush()
-        self._file = file
-        _HELD.add(self)
-        return self
-
-    def __exit__(self, *_) -> None:
-        _HELD.discard(self)
-        self._file.close()
-        self._file = None
 
 
-def _take(file) -> None:
+def _lock(file) -> None:
     if fcntl is not None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     else:
@@ -66,9 +80,16 @@ def _take(file) -> None:
         msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
 
 
+def _still_there(file, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), path.stat())
+    except FileNotFoundError:
+        return False
+
+
 def _drop_in_child() -> None:
     for lock in list(_HELD):
-        lock.__exit__()
+        lock.drop()
 
 
 if hasattr(os, "register_at_fork"):

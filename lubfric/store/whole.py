@@ -12,29 +12,38 @@ from ..errors import OutputError
 
 MARK = b"lubfric 1 "  # of a checked file, before the SHA-256 of the rest and a line feed
 HEAD = len(MARK) + 65
-PART = ".part"  # end of the name of a file that is being written
+PART = ".part-"  # begins the name of a file that is being written
 
 
 def write_whole(path, content: bytes, *, sync: bool = True) -> None:
     """Replace ``path`` by ``content``: a reader, or whoever finds the folder after a kill, sees the old file or the new.
 
-    A temporary file in the same folder is written, forced to the disk and renamed. Missing folders are made.
-    ``sync=False`` leaves the forcing to the system, for what a loss of power may take. Raises `OutputError`, the old file untouched, when the disk is full or the folder is not writable.
+    ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as `whole_file`.
+    """
+    with whole_file(path, sync=sync) as part:
+        part.write_bytes(content)
+
+
+@contextmanager
+def whole_file(path, *, sync: bool = True):
+    """The path of a temporary file in the folder of ``path``, forced to the disk and renamed to it when the block ends well.
+
+    It has the same suffix. Missing folders are made. Raises `OutputError`, the old file untouched, when the disk is full
+    or the folder is not writable.
     """
     path = Path(path)
     with saying(f"{path} was not written"):
         path.parent.mkdir(parents=True, exist_ok=True)
-        new = path.with_name(f".{path.name}.{uuid.uuid4().hex[:8]}{PART}")
+        part = path.with_name(f"{PART}{uuid.uuid4().hex[:8]}-{path.name}")
         try:
-            with new.open("xb") as file:
-                file.write(content)
-                if sync:
-                    file.flush()
+            yield part
+            if sync:
+                with part.open("rb+") as file:
                     os.fsync(file.fileno())
-            os.replace(new, path)
+            os.replace(part, path)
         except BaseException:
             with suppress(OSError):
-                new.unlink()
+                part.unlink()
             raise
         if sync:
             sync_folder(path.parent)
@@ -68,7 +77,7 @@ def saying(what: str):
 
 def clear_parts(folder) -> None:
     """Remove what killed writers left half written in ``folder``; only for who holds its lock."""
-    for path in Path(folder).glob(f".*{PART}"):
+    for path in Path(folder).glob(f"{PART}*"):
         path.unlink(missing_ok=True)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from ..errors import LubfricError
+from ..errors import LubfricError, ValidityError
 from ..model import Model
-from ..steady import FrictionResult, friction
+from ..result import FrictionResult
+from ..steady import friction
 from ..store import digest
-from .journal import Journal
+from .journal import Journal, without_fields
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,7 @@ class Chain:
     @property
     def name(self) -> str:
         """Of its state in a journal."""
-        return self.keys[-1]
+        return self.keys[0]
 
 
 def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
@@ -52,45 +53,44 @@ def run_chain(
     """
     start, parent = None, os.getppid()
     if journal is not None and done:
-        start, caught_up = _start(model, chain, journal, done)
-        yield from caught_up
-        done += len(caught_up)
+        start, caught_up = resumed(model, chain, journal, done)
+        if caught_up is not None:
+            yield done, caught_up if chain.fields[done] else without_fields(caught_up)
+            done += 1
     for index in range(done, len(chain.speeds)):
-        outcome = _solved(model, chain, index, start)
-        start = outcome if continues(outcome) else None
+        outcome = solved(model, chain, index, start)
+        start = start_from(outcome)
         if os.getppid() != parent:  # who asked for it is dead, and may have been started again
             return
         if journal is not None:
             journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
-        yield (
-            index,
-            outcome if isinstance(outcome, Exception) or chain.fields[index] else replace(outcome, balance=None),
-        )
+        yield index, outcome if chain.fields[index] else without_fields(outcome)
     if journal is not None:
         journal.end(chain.name)
 
 
-def continues(outcome) -> bool:
-    """A neighbour can start from it."""
-    return isinstance(outcome, FrictionResult) and outcome.balance is not None and outcome.balance.film is not None
+def start_from(outcome) -> FrictionResult | None:
+    """The result, refused or not, from which a neighbour can start."""
+    result = outcome.result if isinstance(outcome, ValidityError) else outcome
+    return result if isinstance(result, FrictionResult) and result.starts else None
 
 
-def _solved(model, chain, index, start):
+def solved(model: Model, chain: Chain, index: int, start: FrictionResult | None):
+    """The result or error of one point."""
     try:
         return friction(model, chain.speeds[index], start=start, fields=chain.fields[index])
     except LubfricError as error:
         return error
 
 
-def _start(model, chain, journal, done) -> tuple[FrictionResult | None, list]:
-    """The start of the next point, and the point whose record a kill had left out, if there was one."""
+def resumed(model: Model, chain: Chain, journal: Journal, done: int):
+    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done`` points."""
     key, outcome = journal.state(chain.name)
-    caught_up = []
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])
-        caught_up.append((done, outcome))
-    elif key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
+        return start_from(outcome), outcome
+    if key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
         outcome = None
         for index in range(done):
-            outcome = _solved(model, chain, index, outcome if continues(outcome) else None)
-    return (outcome if continues(outcome) else None), caught_up
+            outcome = solved(model, chain, index, start_from(outcome))
+    return start_from(outcome), None

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import dataclass
 from pathlib import Path
 
-from .. import errors
-from ..errors import ConvergenceError, LubfricError
+from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
-from ..steady import FrictionResult
+from ..result import FrictionResult
 from ..store import Records, decode, encode, read_checked, write_checked
 from ..store.codec import from_plain, to_plain
+from ..validity.entry import Validity
 
 POINTS, STATES, FIELDS = "points", "states", "fields"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point without an answer, as it is stored. ``error``: the name of its exception; the rest as in that."""
+
+    error: str
+    message: str
+    report: Report | None = None
+    entries: tuple[Validity, ...] = ()
+    result: FrictionResult | None = None
 
 
 class Journal:
@@ -63,38 +74,38 @@ class Journal:
 
 def record_of(outcome) -> dict:
     """The record of a point, in plain JSON types: all numbers of its result but the fields, or its error."""
-    if isinstance(outcome, Exception):
-        return {"error": _error(outcome)}
-    plain = to_plain(_without_fields(outcome))
-    return json.loads(json.dumps(plain))
+    return to_plain(_storable(without_fields(outcome)))
 
 
 def outcome_of(record: dict):
     """The `FrictionResult` (without fields) or the exception that `record_of` was given."""
-    return _outcome(record) if "error" in record else from_plain(record)
+    return _outcome(from_plain(record))
 
 
-def _without_fields(result: FrictionResult) -> FrictionResult:
-    from dataclasses import replace
-
-    return replace(result, balance=None)
+def without_fields(outcome):
+    """A result, or the result of a refusal, without its fields; any other outcome as it is."""
+    if isinstance(outcome, FrictionResult):
+        return outcome.without_fields()
+    if isinstance(outcome, ValidityError) and outcome.result is not None:
+        return ValidityError(outcome.message, outcome.entries, outcome.result.without_fields())
+    return outcome
 
 
 def _storable(outcome):
-    return {"error": _error(outcome)} if isinstance(outcome, Exception) else outcome
+    """A result as it is, an exception as a `Failure`."""
+    if not isinstance(outcome, Exception):
+        return outcome
+    if isinstance(outcome, ValidityError):
+        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), outcome.result)
+    report = outcome.report if isinstance(outcome, ConvergenceError) else None
+    return Failure(type(outcome).__name__, str(outcome), report)
 
 
-def _error(error: Exception) -> dict:
-    report = getattr(error, "report", None)
-    plain = to_plain(report) if isinstance(report, Report) else None
-    return {"type": type(error).__name__, "message": str(error), "report": json.dumps(plain)}
-
-
-def _outcome(value):
-    if not isinstance(value, dict):
-        return value
-    error = value["error"]
-    kind = getattr(errors, error["type"], LubfricError)
-    if issubclass(kind, ConvergenceError):
-        return kind(error["message"], from_plain(json.loads(error["report"])))
-    return kind(error["message"])
+def _outcome(stored):
+    if not isinstance(stored, Failure):
+        return stored
+    if stored.error == "ValidityError":
+        return ValidityError(stored.message, stored.entries, stored.result)
+    if stored.error == "ConvergenceError":
+        return ConvergenceError(stored.message, stored.report)
+    return {"InputError": InputError}.get(stored.error, LubfricError)(stored.message)

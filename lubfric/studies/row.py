@@ -10,7 +10,7 @@ SPEED, STATUS, CONVERGED = "speed", "status", "converged"
 def row_of(record: dict) -> dict:
     """Numbers by name, those of an uncertainty as ``uncertainty_<name>``, and the status in words."""
     if "error" in record:
-        return {STATUS: f"{record['error']['type']}: {record['error']['message']}"}
+        return {STATUS: f"{record['error']}: {record['message']}"}
     return {STATUS: record["report"]["status"], **_numbers(record)}
 
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import csv
 import io
 from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 
 from ..errors import InputError
-from ..store import write_whole
-from ..store.whole import PART, saying
+from ..store import whole_file, write_whole
 from .quantities import KEYS, QUANTITIES, described
 from .result import StudyResult
 from .row import SPEED
@@ -43,13 +41,10 @@ def to_parquet(result: StudyResult, path) -> None:
 
 def to_netcdf(result: StudyResult, path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole."""
-    path = Path(path)
     data = to_xarray(result)
     _tool("netCDF4")
-    part = path.with_name(f".{path.name}{PART}")
-    with saying(f"{path} was not written"):
+    with whole_file(path) as part:
         data.to_netcdf(part, engine="netcdf4")
-        part.replace(path)
 
 
 def to_csv(result: StudyResult, path) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..store import fingerprint, read_checked, write_checked
-from ..store.whole import saying
+from ..store.whole import PART, saying
 
 STATE, ROWS, FIELDS = "state.bin", "rows.bin", "fields.bin"
 
@@ -97,7 +97,7 @@ class Checkpoint:
 
     def clear(self) -> None:
         """Remove the files of a finished run, and the folder when nothing else is in it."""
-        for path in (*(self.folder / name for name in (STATE, ROWS, FIELDS)), *self.folder.glob(f".{STATE}.*")):
+        for path in (*(self.folder / name for name in (STATE, ROWS, FIELDS)), *self.folder.glob(f"{PART}*")):
             path.unlink(missing_ok=True)
         if self.folder.is_dir() and not any(self.folder.iterdir()):
             self.folder.rmdir()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import platform
 import time
 from pathlib import Path
@@ -11,10 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from .. import __version__
+from ..console import keeping, say
 from ..errors import ConvergenceError
 from ..model import prepare
-from ..output import _plain, read_csv
+from ..output import npz_bytes, plain, read_csv, table_bytes
+from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene, scene_as_dict
+from ..store import fingerprint
 from .checkpoint import STATE
 from .plot import animate, plot_history
 from .result import TransientResult
@@ -24,51 +25,53 @@ from .run import transient
 SAY_EVERY = 1.0  # s of wall time between two lines of progress
 
 
-def run_history(scene: Scene, out: Path, animation: bool, say) -> int:
-    """Compute and write history.csv, history.png, fields.npz, result.json (and animation.gif) to ``out``.
+def run_history(scene: Scene, out: Path, animation: bool) -> int:
+    """Compute and write history.csv, history.png, fields.npz (and animation.gif) and, last, result.json to ``out``.
 
-    An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then
-    `ConvergenceError` raised."""
-    out.mkdir(parents=True, exist_ok=True)
-    begun = time.perf_counter()
+    The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
+    this one are there. An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then `ConvergenceError` raised.
+    """
+    begun, reached = time.perf_counter(), [0.0]
     say(f"{scene.name}: preparing the height map and the contact")
     model = prepare(scene)
     say(model.surface.describe())
-    folder = out / "checkpoint"
-    if (folder / STATE).is_file():
-        say(f"going on from {folder}")
-    failure = None
-    try:
-        result = transient(model, checkpoint=folder, on_step=_progress(say))
-    except ConvergenceError as error:
-        if error.result is None:
-            raise
-        result, failure = error.result, error
-    write_history(out / "history.csv", result)
-    np.savez_compressed(
-        out / "fields.npz",
-        time=result.time,
-        x=result.x,
-        pressure=result.pressure,
-        film_thickness=result.film_thickness,
-    )
-    _write_json(out / "result.json", scene, model, result, time.perf_counter() - begun)
-    if result.time.size > 1:
-        plot_history(out / "history.png", result.columns, scene.name)
-    if animation:
-        animate(out / "animation.gif", result, scene.bodies.half_width)
-    say(f"wrote {', '.join(sorted(p.name for p in out.iterdir()))} to {out} in {time.perf_counter() - begun:.1f} s")
+
+    def kept() -> str:
+        return f"interrupted; the state at t = {reached[0]:.5g} s is kept in {out}: the same command goes on from there"
+
+    with keeping(kept), run_folder(out, fingerprint(model)) as folder:
+        checkpoint, failure = out / CHECKPOINT, None
+        if (checkpoint / STATE).is_file():
+            say(f"going on from {checkpoint}")
+        try:
+            result = transient(model, checkpoint=checkpoint, on_step=_progress(reached))
+        except ConvergenceError as error:
+            if error.result is None:
+                raise
+            result, failure = error.result, error
+        _write(folder, scene, result, animation)
+        folder.finish(_record(scene, model, result, time.perf_counter() - begun))
+    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if failure:
         raise failure
     return 0
 
 
-def write_history(path: Path, result: TransientResult) -> None:
-    """One row an output time, one column a quantity, the unit in the heading."""
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow([f"{name} [{unit}]" for name, unit in UNITS.items()])
-        writer.writerows(zip(*(result.columns[name].tolist() for name in UNITS)))
+def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
+    """All but the result."""
+    folder.clear()
+    folder.write("history.csv", table_bytes({f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}))
+    fields = {
+        "time": result.time,
+        "x": result.x,
+        "pressure": result.pressure,
+        "film_thickness": result.film_thickness,
+    }
+    folder.write("fields.npz", npz_bytes(fields))
+    if result.time.size > 1:
+        folder.draw("history.png", plot_history, result.columns, scene.name)
+    if animation:
+        folder.make("animation.gif", animate, result, scene.bodies.half_width)
 
 
 def plot_again(folder: Path) -> bool:
@@ -80,10 +83,11 @@ def plot_again(folder: Path) -> bool:
     return True
 
 
-def _progress(say):
+def _progress(reached: list[float]):
     last = [0.0]
 
     def on_step(now, duration, row):
+        reached[0] = now
         if row is not None and (time.perf_counter() - last[0] > SAY_EVERY or now >= duration):
             last[0] = time.perf_counter()
             say(
@@ -96,7 +100,7 @@ def _progress(say):
     return on_step
 
 
-def _write_json(path: Path, scene: Scene, model, result: TransientResult, seconds: float) -> None:
+def _record(scene: Scene, model, result: TransientResult, seconds: float) -> dict:
     import scipy
 
     record = {
@@ -116,4 +120,4 @@ def _write_json(path: Path, scene: Scene, model, result: TransientResult, second
         "seconds": seconds,
         "report": result.report.as_dict(),
     }
-    path.write_text(json.dumps(_plain(record), indent=1, allow_nan=False))
+    return plain(record)

@@ -65,6 +65,8 @@ class Run:
 def begin(scene: Scene | Model, plan: Transient) -> Run:
     """Check the scene, make it ready, find its first state."""
     base = scene.scene if isinstance(scene, Model) else scene
+    if base.numerics.model == "deterministic":
+        raise InputError("numerics.model = 'deterministic' is steady; allowed for a transient: 'auto', 'full'")
     if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
         raise InputError(
             "a transient needs numerics.film_deflection = 'hydrodynamic', "

@@ -1,6 +1,7 @@
 """The figures of the paper: their models against the library and closed forms, and the command that writes them."""
 
 import csv
+import json
 import math
 
 import numpy as np
@@ -107,10 +108,11 @@ def test_the_command_writes_picture_data_and_page(name, tmp_path):
     with (tmp_path / f"{name}.csv").open() as file:
         heading, *rows = csv.reader(file)
     assert len(rows) >= 2 and all(len(row) == len(heading) for row in rows)
-    page = (tmp_path / "index.md").read_text()
+    page = (tmp_path / "docs" / "figures.md").read_text()
     assert "**Agrees.**" in page and "**Differs, and why.**" in page and "nan" not in page
-    assert f"{name}.png" in (tmp_path / "index.html").read_text()
-    assert f"images/{name}.png" in (tmp_path / "docs" / "figures.md").read_text()
+    assert f"images/{name}.png" in page and (tmp_path / "docs" / "images" / f"{name}.png").read_bytes() == picture
+    (study,) = json.loads((tmp_path / "report.json").read_text())["studies"]
+    assert study["checks"] and study["passed"]
 
 
 @pytest.mark.slow

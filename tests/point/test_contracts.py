@@ -13,6 +13,7 @@ import lubfric
 from lubfric.film.contract import LeftOut
 from lubfric.film.ladder import LEVELS, higher, lowest_level
 from lubfric.line_contact import LineContact
+from lubfric.report import ITERATION_LIMIT, Report
 
 PAPER = lubfric.load_scene("paper")
 B = PAPER.bodies
@@ -75,6 +76,25 @@ def test_lubfrics_own_contact_under_a_film_from_outside():
     assert point.decision.contact == "semi-periodic" and 0 < point.contact_load < B.load
     fields, (dx, dy) = point.balance.contact.fields, (0.9e-6, 0.9e-6)
     assert fields.pressure.sum() * dx * dy / (96 * dy) * B.width == pytest.approx(point.contact_load, rel=1e-6)
+
+
+@dataclass(frozen=True)
+class Failing(EvenFilmLevel):
+    """Fails at the whole load."""
+
+    def solve(self, line, **options):
+        if line.load_per_width > 0.999 * B.load / B.width:
+            raise lubfric.ConvergenceError("too heavy", Report("film", ITERATION_LIMIT, 1, 1.0, 0.1))
+        return super().solve(line, **options)
+
+
+def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance(both):
+    """A load of 5.5 N with a film that is not certainly below the summits: the balance in contact excludes separation."""
+    model = lubfric.prepare(PAPER, contact=both.contact, film_levels=(Failing(stiffness=FILM.stiffness),))
+    speed = 2.0
+    found, reference = lubfric.friction(model, speed), lubfric.friction(both, speed)
+    assert 0 < reference.contact_load and found.film_load == pytest.approx(reference.film_load, rel=2e-2)
+    assert "too heavy" in found.decision.notes[0]
 
 
 @dataclass(frozen=True)

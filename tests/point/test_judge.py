@@ -25,7 +25,8 @@ def balance(model):
 
 def judged(model, balance, scene=PAPER, found=None):
     changed = replace(model, scene=scene)
-    return judged_validity(changed, 0.003, balance, found or forces(scene, balance))
+    found = found or forces(scene, balance.level, balance, balance.slope)
+    return judged_validity(changed, 0.003, replace(balance, forces=found))
 
 
 def test_the_paper_scene_needs_none(model, balance):

@@ -1,14 +1,19 @@
 """Stribeck curves: shape, order, executors, and nothing lost to a failing point."""
 
+import os
 import pickle
+import signal
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import lubfric
-from lubfric import sweep
 from lubfric.model import prepare
+from lubfric.store import digest
+from lubfric.studies import chain
+from lubfric.sweep import QUANTITIES
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
@@ -47,14 +52,14 @@ def test_any_executor_gives_the_same_curve(curve, pool):
 
 
 def test_a_failing_point_loses_nothing(monkeypatch, curve):
-    real, bad = sweep.friction, SPEEDS[4]
+    real, bad = chain.friction, SPEEDS[4]
 
     def failing(model, speed, **kw):
         if speed == bad:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
         return real(model, speed, **kw)
 
-    monkeypatch.setattr(sweep, "friction", failing)
+    monkeypatch.setattr(chain, "friction", failing)
     with pytest.raises(lubfric.ConvergenceError, match="injected") as caught:
         lubfric.stribeck(prepare(SCENE), SPEEDS)
     kept = pickle.loads(pickle.dumps(caught.value)).result
@@ -77,12 +82,78 @@ class LosingExecutor(ThreadPoolExecutor):
         return super().submit(*args)
 
 
-def test_a_lost_worker_loses_only_its_own_speeds():
+def test_what_a_lost_worker_left_is_solved_again(curve):
     with LosingExecutor(1) as executor:
-        kept = lubfric.stribeck(SCENE, SPEEDS, executor, raise_on_failure=False)
-    assert 0 < len(kept.errors) < SPEEDS.size
-    assert all(isinstance(e, ZeroDivisionError) for e in kept.errors.values())
-    assert np.isfinite(kept.coefficient).sum() == SPEEDS.size - len(kept.errors)
+        whole = lubfric.stribeck(SCENE, SPEEDS, executor)
+    assert not whole.errors
+    np.testing.assert_allclose(whole.coefficient, curve.coefficient, rtol=SCENE.numerics.tolerance)
+
+
+def die(*_, **__):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def killed_in_a_worker(model, speed, **options):
+    if speed < 1e-2 and os.getpid() != PARENT:
+        die()
+    return FRICTION(model, speed, **options)
+
+
+PARENT, FRICTION = os.getpid(), lubfric.friction
+
+
+@pytest.mark.parametrize("stored", [False, True])
+def test_killed_workers_lose_nothing_and_change_nothing(monkeypatch, tmp_path, stored):
+    with ProcessPoolExecutor(2) as executor:
+        whole = lubfric.stribeck(SCENE, SPEEDS, executor)
+    monkeypatch.setattr(chain, "friction", killed_in_a_worker)
+    with ProcessPoolExecutor(2) as executor:
+        again = lubfric.stribeck(SCENE, SPEEDS, executor, store=tmp_path if stored else None)
+    same(again, whole)
+
+
+def same(one, other):
+    for name in set(QUANTITIES) - {"seconds"}:
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
+
+
+def test_a_fault_of_the_program_is_no_failed_point(monkeypatch):
+    def faulty(model, speed, **options):
+        if speed == SPEEDS[4]:
+            raise TypeError("a fault of the program")
+        return FRICTION(model, speed, **options)
+
+    monkeypatch.setattr(chain, "friction", faulty)
+    with pytest.raises(TypeError, match="a fault of the program") as caught:
+        lubfric.stribeck(prepare(SCENE), SPEEDS, raise_on_failure=False)
+    assert np.isfinite(caught.value.result.coefficient).sum() == 4  # the faster ones, which came first
+
+
+@pytest.mark.parametrize("cut", [1, 4, 8])
+@pytest.mark.parametrize("fields", [False, [SPEEDS[5]], True])
+def test_a_cut_sweep_goes_on_to_the_same_bits(tmp_path, monkeypatch, cut, fields):
+    model = prepare(SCENE)
+    whole = lubfric.stribeck(model, SPEEDS, fields=fields)
+    count = [0]
+
+    class Cut(Exception):
+        pass
+
+    def cutting(*_):
+        count[0] += 1
+        if count[0] == cut:
+            raise Cut
+
+    with pytest.raises(Cut) as caught:
+        lubfric.stribeck(model, SPEEDS, fields=fields, store=tmp_path, on_point=cutting)
+    assert np.isfinite(caught.value.result.coefficient).sum() == cut
+    solved = []
+    monkeypatch.setattr(chain, "friction", lambda *a, **k: solved.append(a) or FRICTION(*a, **k))
+    again = lubfric.stribeck(model, SPEEDS, fields=fields, store=tmp_path)
+    assert len(solved) == SPEEDS.size - cut
+    same(again, whole)
+    for here, there in zip(again.points, whole.points):
+        assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
 
 
 def test_progress_counts_every_point():

@@ -1,44 +1,35 @@
 """Charts: data survive the round trip, exponents are fitted, errors are told apart, points come out sane."""
 
-import math
+import json
 
 import numpy as np
 import pytest
 
 from verification.__main__ import main
 from verification.charts import contact, draw
-from verification.charts.data import Point, interleaved, load, machine, save
+from verification.charts.data import interleaved, load, point
 from verification.charts.growth import exponent
 from verification.opponents import CONTACT
 
 
 def sample(n, power=1.5):
+    at = {"memory": 0.0, "work": 20.0}
     return [
-        Point(
-            "growth",
-            "contact",
-            "contact",
-            str(k),
-            float("nan"),
-            1e-6 * k**power,
-            0.0,
-            0.0,
-            size=k,
-            memory=8.0 * k,
-            work=20.0,
-        )
+        point("contact", "contact", str(k), 1.0, (1e-6 * k**power, 0.0, 0.0), **at | {"size": k, "memory": 8.0 * k})
         for k in n
     ]
 
 
-def test_data_survive_csv_and_json(tmp_path):
+def written(folder, **charts):
+    """A report.json with these points."""
+    studies = [{"name": name, "checks": [c.as_dict() for c in points]} for name, points in charts.items()]
+    (folder / "report.json").write_text(json.dumps({"studies": studies}))
+
+
+def test_points_survive_the_report(tmp_path):
     points = sample((10, 100, 1000))
-    save(points, tmp_path, "growth")
-    where, back = load(tmp_path / "growth.json")
-    assert where == machine()
-    assert [(p.size, p.seconds) for p in back] == [(p.size, p.seconds) for p in points]
-    assert math.isnan(back[0].error)
-    assert len((tmp_path / "growth.csv").read_text().splitlines()) == 4
+    written(tmp_path, growth=points, contact=sample((1,)))
+    assert load(tmp_path, "growth") == points
 
 
 @pytest.mark.parametrize("power", [1.0, 1.5, 2.9])
@@ -66,12 +57,12 @@ def test_coarser_grids_sample_the_same_surface():
 def test_methods_agree_and_errors_fall_with_the_tolerance():
     z = contact.heights(64, "exponential")
     points = list(contact.panel(z, 200e6, "periodic", "test", (1e-3, 1e-6), quick=True))
-    ours = [p.error for p in points if p.method == "lubfric"]
+    ours = [p.measured for p in points if p.at["method"] == "lubfric"]
     assert ours[1] < 1e-5 < 1e-2 and ours[1] < ours[0] < 0.1
-    tight = {p.method: p.error for p in points if p.setting == "tolerance 1e-06"}
+    tight = {p.at["method"]: p.measured for p in points if p.at["setting"] == "tolerance 1e-06"}
     assert set(tight) >= {"lubfric", "plain Polonsky-Keer", "paper, single loop", "paper, alternating"}
     assert max(tight.values()) < 1e-3
-    assert [p.setting for p in points if p.default] == ["tolerance 1e-06"]
+    assert [p.at["setting"] for p in points if p.at["default"]] == ["tolerance 1e-06"]
 
 
 def test_opponents_give_none_where_they_are_not_installed(monkeypatch):
@@ -83,22 +74,21 @@ def test_opponents_give_none_where_they_are_not_installed(monkeypatch):
         assert CONTACT[name](z, 1e-6, 231e9) is None
 
 
-def test_redraw_from_saved_data(tmp_path, capsys):
-    save(sample((10, 100, 1000, 10000)), tmp_path, "growth")
-    save(
-        [
-            Point("contact", "a", "lubfric", "tolerance 1e-06", 1e-7, 0.1, 0.09, 0.12, default=True),
-            Point("contact", "b", "lubfric", "64²", 1e-7, 0.1, 0.09, 0.12, discretisation=0.01),
-        ],
-        tmp_path,
-        "contact",
-    )
-    assert main(["charts", "--redraw", "--only", "growth", "contact", "--out", str(tmp_path)]) == 0
-    assert (tmp_path / "performance-contact.png").stat().st_size > 1000
+def test_redraw_from_saved_data(tmp_path):
+    spread = (0.1, 0.09, 0.12)
+    dots = [
+        point("a", "lubfric", "tolerance 1e-06", 1e-7, spread, default=True),
+        point("b", "lubfric", "64²", 0.01, spread, apart=True),
+    ]
+    written(tmp_path, growth=sample((10, 100, 1000, 10000)), contact=dots)
+    out = tmp_path / "again"
+    assert main(["charts", "--redraw", str(tmp_path), "--only", "growth", "contact", "--out", str(out)]) == 0
+    assert (out / "contact.png").stat().st_size > 1000 and (out / "growth.png").stat().st_size > 1000
+    assert load(out, "contact") == dots
     assert draw.palette([]) == {}
 
 
 @pytest.mark.slow
 def test_quick_charts(tmp_path):
     assert main(["charts", "--quick", "--out", str(tmp_path)]) == 0
-    assert len(list(tmp_path.glob("performance-*.png"))) == 4
+    assert len(list(tmp_path.glob("*.png"))) == 4

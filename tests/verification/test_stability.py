@@ -10,11 +10,12 @@ import lubfric
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
 from lubfric.contact.residual import deflection_scale
 from lubfric.halfspace import half_space
+from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map
-from verification.stability.cell import FAILED, RIGHT, WRONG, Condition, judged
+from verification.stability.cell import FAILED, RIGHT, WRONG, Condition, judged, verdict
 from verification.stability.contact_check import contact_deviations, deflection
-from verification.stability.draw import save, table
+from verification.stability.draw import draw, table
 from verification.stability.film_check import film_deviations
 
 HERE = Condition("contact: load and surface", "", 1.0, 1.0)
@@ -24,11 +25,11 @@ def test_verdicts():
     def fails():
         raise ConvergenceError("gave up")
 
-    assert judged(HERE, "m", fails, dict).verdict == FAILED
-    assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 0.1}).verdict == RIGHT
-    assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 1.1}).verdict == WRONG
+    assert verdict(judged(HERE, "m", fails, dict)) == FAILED
+    assert verdict(judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 0.1})) == RIGHT
+    assert verdict(judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": 1.1})) == WRONG
     assert judged(HERE, "m", lambda: 1, lambda r: {"a": 0.9, "b": float("nan")}).note == "b"
-    assert judged(HERE, "m", lambda: 1, lambda r: {"b": float("nan")}).verdict == WRONG
+    assert verdict(judged(HERE, "m", lambda: 1, lambda r: {"b": float("nan")})) == WRONG
 
 
 def test_a_defect_is_not_a_reported_failure():
@@ -43,7 +44,7 @@ def test_a_defect_is_not_a_reported_failure():
 def test_the_film_judge_sees_a_wrong_film(fault):
     from dataclasses import replace
 
-    case = film_map.case_of(20, 5)
+    case = case_of(20, 5)
     good = solve_ehl(**case)
     assert max(v / film_map.OWN[k] for k, v in film_deviations(good, case).items()) < 1
     bad = {
@@ -95,20 +96,20 @@ def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
         warnings.simplefilter("error")
         cells = list(contact_map.cells("quick"))
     assert len(cells) > 100
-    assert Counter(c.verdict for c in cells) == {RIGHT: len(cells)}
+    assert Counter(verdict(c) for c in cells) == {RIGHT: len(cells)}
 
 
 def test_films_at_the_corners_of_the_promise():
     for M in (1e-3, 1000):
         for L in (0, 20):
-            case = film_map.case_of(M, L)
+            case = case_of(M, L)
             cell = judged(
                 Condition("film: load and material", "", M, L),
                 "solve_ehl",
                 lambda case=case: solve_ehl(**case),
                 film_map.checked(case),
             )
-            assert cell.verdict == RIGHT, cell
+            assert verdict(cell) == RIGHT, cell
 
 
 def test_the_judge_of_load_sharing_closes_the_same_balance():
@@ -165,24 +166,42 @@ def test_contact_curve_holds_its_accuracy_near_full_contact():
 
 
 def test_two_discretisations_of_the_film_agree():
-    case = film_map.case_of(50, 10)
+    case = case_of(50, 10)
     newton, other = solve_ehl(**case, tolerance=1e-3), solve_differential_deflection(**case, tolerance=1e-3)
     assert newton.min_film == pytest.approx(other.min_film, rel=2e-3)
 
 
-def test_table_and_figures(tmp_path):
+def test_what_decides():
+    """The default method may not be wrong anywhere, nor fail within its promise; another method may do both."""
+
+    def fails():
+        raise ConvergenceError("gave up")
+
+    outside = Condition("contact: load and surface", "", 1.0, 1.0, inside=False)
+    bad = {
+        (where, default, name): judged(where, "m", solve, lambda r: {"a": 2.0}, default=default).failed
+        for where in (HERE, outside)
+        for default in (True, False)
+        for name, solve in (("fails", fails), ("wrong", lambda: 1))
+    }
+    expected = {(HERE, True, "fails"), (HERE, True, "wrong"), (outside, True, "wrong")}
+    assert {key for key, failed in bad.items() if failed} == expected
+
+
+def test_table_and_figures():
     cells = [
         judged(HERE, "solve_contact", lambda: 1, lambda r: {"a": 0.1}),
         judged(HERE, "solve_contact", lambda: 1, lambda r: {"a": 2.0}, default=False),
     ]
-    assert "reported failures of default methods inside the range promised: 0" in table(cells)
-    (picture,) = save(cells, 1.0, "quick", tmp_path)
-    assert picture.read_bytes()[:4] == b"\x89PNG" and (tmp_path / "stability.json").exists()
+    counted = table("contact", cells)
+    assert "inside the range promised: 0" in counted.caption
+    assert [row[1:] for row in counted.rows] == [("solve_contact *", 1, 0, 0), ("solve_contact", 0, 0, 1)]
+    assert draw("contact", cells).data[:4] == b"\x89PNG"
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])
 def test_badly_starved_light_contacts_are_solved(share):
-    case = film_map.case_of(1e-3, 10)
+    case = case_of(1e-3, 10)
     flooded = solve_ehl(**case)
     case["inlet_length"] = flooded.half_width + share * np.sqrt(2 * case["radius"] * flooded.flow_film)
     starved = solve_ehl(**case)

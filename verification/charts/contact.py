@@ -12,8 +12,9 @@ from lubfric.contact.alternating import alternating
 from lubfric.contact.single_loop import single_loop
 from lubfric.halfspace import half_space
 
+from ..check import Check
 from ..opponents import CONTACT
-from .data import Point, interleaved
+from .data import interleaved, point
 
 SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
 DEFAULT = 1e-6
@@ -41,7 +42,7 @@ def _finest(acf: str, seed: int, finest: int = 2048) -> np.ndarray:
     return (z - z.mean()) * (SIGMA / z.std())
 
 
-def points(level: str) -> Iterator[Point]:
+def points(level: str) -> Iterator[Check]:
     """Panels over (surface, load) when periodic, and the other boundaries at one load."""
     quick = level == "quick"
     n = 64 if quick else 256
@@ -91,7 +92,7 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     return found
 
 
-def panel(z, pressure: float, boundary: str, label: str, tolerances, quick: bool) -> Iterator[Point]:
+def panel(z, pressure: float, boundary: str, label: str, tolerances, quick: bool) -> Iterator[Check]:
     """Every method at every tolerance against one tight solution."""
     spacing = 512 * SPACING / len(z)
     tight = solve_contact(
@@ -109,16 +110,8 @@ def panel(z, pressure: float, boundary: str, label: str, tolerances, quick: bool
         for name, (p, seconds) in interleaved(calls, 1 if quick else 3).items():
             if p is not None:
                 error = float(np.linalg.norm(p - tight.pressure) / np.linalg.norm(tight.pressure))
-                yield Point(
-                    "contact",
-                    label,
-                    name,
-                    f"tolerance {tolerance:g}",
-                    error,
-                    *seconds,
-                    size=z.size,
-                    default=name == "lubfric" and tolerance == DEFAULT,
-                )
+                default = name == "lubfric" and tolerance == DEFAULT
+                yield point(label, name, f"tolerance {tolerance:g}", error, seconds, size=z.size, default=default)
 
 
 def attempt(solve, tolerance: float):
@@ -129,7 +122,7 @@ def attempt(solve, tolerance: float):
         return None
 
 
-def grids(quick: bool) -> Iterator[Point]:
+def grids(quick: bool) -> Iterator[Check]:
     """Discretisation: contact area and mean gap of coarser grids of one surface against the finest; solver error 1e-6."""
     sizes = (32, 64, 128) if quick else (128, 256, 512, 1024, 2048)
     for acf in ("gaussian",) if quick else ("gaussian", "exponential"):
@@ -145,13 +138,5 @@ def grids(quick: bool) -> Iterator[Point]:
             result, seconds = solved[n]
             for what in ("contact_area_fraction", "mean_gap"):
                 off = abs(getattr(result, what) / getattr(finest, what) - 1)
-                yield Point(
-                    "contact",
-                    "discretisation, 200 MPa",
-                    f"{acf}, {what.replace('_fraction', '').replace('_', ' ')}",
-                    f"{n}²",
-                    result.report.residual,
-                    *seconds,
-                    discretisation=off,
-                    size=n * n,
-                )
+                method = f"{acf}, {what.replace('_fraction', '').replace('_', ' ')}"
+                yield point("discretisation, 200 MPa", method, f"{n}²", off, seconds, apart=True, size=n * n)

@@ -1,48 +1,43 @@
-"""Measured points: one record each, kept as CSV and JSON so that a chart can be drawn again."""
+"""Measured points: how they are taken, told and read again."""
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import platform
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
+from ..check import TOLD, Check
 from ..opponents import version
 from ..report import environment
 
+Quartiles = tuple[float, float, float]  # median, lower, upper, of seconds
 
-@dataclass(frozen=True)
-class Point:
-    """One setting of one method.
 
-    chart, panel, method: where it is drawn. setting: what was varied (a tolerance, a grid), in words.
-    error: from the solver, against the tight solution on the same grid. discretisation: of that grid, against a finer
-    one (NaN where it is not measured apart). seconds: median; low, high: quartiles. default: the setting users get.
-    size: unknowns; memory: peak bytes above the start (NaN where not measured); work: convolutions or Newton steps.
+def point(panel: str, method: str, setting: str, error: float, seconds: Quartiles, **at) -> Check:
+    """One setting of one method, where it is drawn: its error against a tight solution, and its time.
+
+    ``at``: default (the setting users get), apart (the error is that of the grid against a finer one, not of the solver),
+    size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
     """
-
-    chart: str
-    panel: str
-    method: str
-    setting: str
-    error: float
-    seconds: float
-    low: float
-    high: float
-    discretisation: float = float("nan")
-    default: bool = False
-    size: float = float("nan")
-    memory: float = float("nan")
-    work: float = float("nan")
+    median, low, high = (float(s) for s in seconds)
+    return Check(
+        f"{panel}; {method}; {setting}",
+        error,
+        0.0,
+        0.0,
+        "a tighter solution",
+        TOLD,
+        seconds=median,
+        at={"panel": panel, "method": method, "setting": setting, "low": low, "high": high} | at,
+    )
 
 
-def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[object, tuple[float, float, float]]]:
+def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[object, Quartiles]]:
     """{name: (value, (median, lower, upper quartile) of seconds)}, the repeats of all calls taken in turn."""
     seconds, values = {name: [] for name in calls}, {}
     for _ in range(repeats):
@@ -75,19 +70,7 @@ def processor() -> str:
     return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
 
 
-def save(points: list[Point], out: Path, name: str) -> None:
-    """``name``.csv and ``name``.json in ``out``."""
-    out.mkdir(parents=True, exist_ok=True)
-    (out / f"{name}.json").write_text(
-        json.dumps({"machine": machine(), "points": [asdict(p) for p in points]}, indent=1)
-    )
-    with open(out / f"{name}.csv", "w", newline="") as stream:
-        writer = csv.writer(stream)
-        writer.writerow([f.name for f in fields(Point)])
-        writer.writerows([getattr(p, f.name) for f in fields(Point)] for p in points)
-
-
-def load(path: Path) -> tuple[str, list[Point]]:
-    """(machine, points) of a JSON file that `save` wrote."""
-    found = json.loads(Path(path).read_text())
-    return found["machine"], [Point(**p) for p in found["points"]]
+def load(folder: Path, chart: str) -> list[Check]:
+    """The points of one chart in the report.json of an earlier run."""
+    studies = json.loads((Path(folder) / "report.json").read_text())["studies"]
+    return [Check.from_dict(c) for study in studies if study["name"] == chart for c in study["checks"]]

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import io
-from dataclasses import replace
-
 import numpy as np
 
 from .. import plotting
-from ..check import Figure
-from .data import Point
+from ..check import Check, Figure
 from .growth import exponent
 
 NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "default, warm")
 
 
-def work_precision(name: str, points: list[Point], machine: str) -> Figure:
+def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     """Error against time, one panel each; the default ringed; bars from quartile to quartile."""
-    panels = list(dict.fromkeys(p.panel for p in points))
+    panels = list(dict.fromkeys(p.at["panel"] for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     canvas, axes = plotting.axes(rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False)
@@ -26,10 +22,10 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
     for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, label in zip(axes.ravel(), panels):
-        chosen = [p for p in points if p.panel == label]
-        for method in dict.fromkeys(p.method for p in chosen):
-            curve(ax, [p for p in chosen if p.method == method], colours[method])
-        apart = any(np.isfinite(p.discretisation) for p in chosen)
+        chosen = [p for p in points if p.at["panel"] == label]
+        for method in dict.fromkeys(p.at["method"] for p in chosen):
+            curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
+        apart = any(p.at.get("apart") for p in chosen)
         ax.set(
             xscale="log",
             yscale="log",
@@ -43,7 +39,7 @@ def work_precision(name: str, points: list[Point], machine: str) -> Figure:
     handles.append(axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
     canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
-    return plotting.finish(name, canvas, name, format="png")
+    return plotting.compact(plotting.finish(name, canvas, "Error against time", format="png"))
 
 
 def readable(ax) -> None:
@@ -60,10 +56,10 @@ def readable(ax) -> None:
     ax.xaxis.set_minor_formatter("")
 
 
-def palette(points: list[Point]) -> dict[str, str]:
+def palette(points: list[Check]) -> dict[str, str]:
     """A colour for each method, our default first."""
     methods = sorted(
-        dict.fromkeys(p.method for p in points),
+        dict.fromkeys(p.at["method"] for p in points),
         key=lambda m: (m not in ORDER, ORDER.index(m) if m in ORDER else 0),
     )
     colours = [
@@ -80,24 +76,24 @@ def palette(points: list[Point]) -> dict[str, str]:
     return {m: colours[i % len(colours)] for i, m in enumerate(methods)}
 
 
-def curve(ax, points: list[Point], colour: str) -> None:
+def curve(ax, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
-    errors = [p.discretisation if np.isfinite(p.discretisation) else p.error for p in points]
+    errors = [p.measured for p in points]
     times = np.array([p.seconds for p in points])
-    spread = np.abs([times - [p.low for p in points], [p.high for p in points] - times])
+    spread = np.abs([times - [p.at["low"] for p in points], [p.at["high"] for p in points] - times])
     ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
-        if p.default:
+        if p.at.get("default"):
             ax.plot(p.seconds, e, "o", mfc="none", mec="k", ms=10)
 
 
-def growth(points: list[Point], machine: str) -> Figure:
+def growth(points: list[Check], machine: str) -> Figure:
     """Time and peak memory over size, with the exponents of the larger half."""
-    panels = list(dict.fromkeys(p.panel for p in points))
+    panels = list(dict.fromkeys(p.at["panel"] for p in points))
     canvas, axes = plotting.axes(2, len(panels), width=3.3 * len(panels), height=6, squeeze=False)
     for column, label in enumerate(panels):
-        chosen = [p for p in points if p.panel == label]
-        sizes = [p.size for p in chosen]
+        chosen = [p for p in points if p.at["panel"] == label]
+        sizes = [p.at["size"] for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
         axes[0, column].loglog(sizes, [p.seconds for p in chosen], "o-")
         axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
@@ -105,21 +101,12 @@ def growth(points: list[Point], machine: str) -> Figure:
             axes[0, column].set_title(
                 f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"
             )
-        seen = [p for p in chosen if p.memory > NOTICED]
-        axes[1, column].loglog([p.size for p in seen], [p.memory / 1e6 for p in seen], "o-", color="#D55E00")
+        seen = [p for p in chosen if p.at["memory"] > NOTICED]
+        axes[1, column].loglog(
+            [p.at["size"] for p in seen], [p.at["memory"] / 1e6 for p in seen], "o-", color="#D55E00"
+        )
         axes[1, column].set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
         axes[1, column].set_xlim(axes[0, column].get_xlim())
         axes[1, column].xaxis.set_minor_formatter("")
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
-    return plotting.finish("performance-growth", canvas, "Cost growth", format="png")
-
-
-def compact(figure: Figure, colours: int = 128) -> Figure:
-    """The same picture with a palette (rare colours kept as well), for files that stay: a third of the size."""
-    from PIL import Image
-
-    stream = io.BytesIO()
-    Image.open(io.BytesIO(figure.data)).convert("RGB").quantize(colours, Image.Quantize.MAXCOVERAGE).save(
-        stream, format="png", optimize=True
-    )
-    return replace(figure, data=stream.getvalue())
+    return plotting.compact(plotting.finish("growth", canvas, "Time and peak memory against size", format="png"))

@@ -10,17 +10,18 @@ import numpy as np
 from lubfric import solve_differential_deflection, solve_ehl
 from lubfric.analytic.film import moes_film
 
+from ..cases import case_of
+from ..check import Check
 from ..fem import ehl as fem
 from ..fem.fluid import Fluid
-from ..stability.film_map import case_of
-from .data import Point, interleaved
+from .data import interleaved, point
 
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
 DEFAULT = 3e-3
 SHEARED = ((20, 5),)  # below 1 GPa, where a Newtonian shear force still means something
 
 
-def points(level: str) -> Iterator[Point]:
+def points(level: str) -> Iterator[Check]:
     """One panel for each (M, L)."""
     quick = level == "quick"
     for M, L in POINTS[1:2] if quick else POINTS:
@@ -29,18 +30,10 @@ def points(level: str) -> Iterator[Point]:
         for name, setting, default, (films, seconds, size) in runs(case, M, L, quick):
             off = np.abs(np.array(films) / exact[: len(films)] - 1)
             panel = f"M = {M:g}, L = {L:g}"
-            yield Point("film", panel, name, setting, float(np.nanmax(off[:2])), *seconds, default=default, size=size)
+            yield point(panel, name, setting, float(np.nanmax(off[:2])), seconds, default=default, size=size)
             if len(films) == 3 and (M, L) in SHEARED:
-                yield Point(
-                    "film",
-                    panel + ": shear force",
-                    name,
-                    setting,
-                    float(off[2]),
-                    *seconds,
-                    default=default,
-                    size=size,
-                )
+                panel += ": shear force"
+                yield point(panel, name, setting, float(off[2]), seconds, default=default, size=size)
 
 
 def quantities(film) -> np.ndarray:

@@ -6,11 +6,13 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from .data import Point
+from ..check import Check
+from .data import point
 
 ROOT = Path(__file__).parents[2]
 START = "import json, resource, sys, time\nimport numpy as np\n"
@@ -44,7 +46,7 @@ FILM = (
     START
     + """
 from lubfric import solve_ehl, solve_differential_deflection
-from verification.stability.film_map import case_of
+from verification.cases import case_of
 case, nodes = case_of(20, 5), int(sys.argv[1])
 solve_differential_deflection(**case)
 """
@@ -120,7 +122,7 @@ def newton_problem():
     from lubfric.line_contact import LineContact
     from lubfric.lubricant import Lubricant
 
-    from ..stability.film_map import case_of
+    from ..cases import case_of
 
     case = case_of(20, 5)
     oil = Lubricant(case["viscosity"], case["pressure_viscosity_coefficient"], "roelands", "constant")
@@ -130,7 +132,7 @@ def newton_problem():
     return problem, solve_ehl(**case, tolerance=1e-2).state
 
 
-def points(level: str) -> Iterator[Point]:
+def points(level: str) -> Iterator[Check]:
     """Each size in a process of its own, whose peak memory is its own."""
     quick = level == "quick"
     for label, code, sizes in (
@@ -149,17 +151,9 @@ def points(level: str) -> Iterator[Point]:
     ):
         for size in sizes:
             found = measured(code, size)
-            yield Point(
-                "growth",
-                label,
-                label,
-                str(size),
-                float("nan"),
-                *np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist(),
-                size=found["size"],
-                memory=max(found["memory"], 1),
-                work=found["work"],
-            )
+            seconds = np.quantile(found["seconds"], (0.5, 0.25, 0.75)).tolist()
+            at = {"size": found["size"], "memory": max(found["memory"], 1), "work": found["work"]}
+            yield replace(point(label, label, str(size), seconds[0], seconds, **at), unit="s", source="the clock")
 
 
 def measured(code: str, size: int) -> dict:
@@ -172,10 +166,13 @@ def measured(code: str, size: int) -> dict:
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def exponent(points: list[Point], quantity: str) -> float:
-    """Least-squares slope of log(quantity) over log(size), the larger half of the sizes."""
-    chosen = sorted((p for p in points if getattr(p, quantity) > 0), key=lambda p: p.size)
-    chosen = chosen[len(chosen) // 2 - 1 :] if len(chosen) > 3 else chosen
-    if len(chosen) < 2:
+def exponent(points: list[Check], quantity: str) -> float:
+    """Least-squares slope of log(quantity) over log(size), the larger half of the sizes; quantity: "memory", "work", or
+    "seconds"."""
+    pairs = sorted((p.at["size"], p.seconds if quantity == "seconds" else p.at[quantity]) for p in points)
+    pairs = [(size, value) for size, value in pairs if value > 0]
+    pairs = pairs[len(pairs) // 2 - 1 :] if len(pairs) > 3 else pairs
+    if len(pairs) < 2:
         return float("nan")
-    return float(np.polyfit(np.log([p.size for p in chosen]), np.log([getattr(p, quantity) for p in chosen]), 1)[0])
+    size, value = np.log(np.array(pairs)).T
+    return float(np.polyfit(size, value, 1)[0])

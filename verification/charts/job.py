@@ -8,14 +8,15 @@ import numpy as np
 
 from lubfric import load_scene, stribeck
 
-from .data import Point, interleaved
+from ..check import Check
+from .data import Quartiles, interleaved, point
 
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 TIGHT = 1e-3
 DEFAULT = 0.01
 
 
-def points(level: str) -> Iterator[Point]:
+def points(level: str) -> Iterator[Check]:
     """Tolerances and closures on one grid; then grids at one tolerance."""
     quick = level == "quick"
     n = 48 if quick else 200
@@ -29,16 +30,9 @@ def points(level: str) -> Iterator[Point]:
             for t in tolerances
         }
         for t, (f, seconds) in interleaved(calls, 1 if quick else 3).items():
-            yield point(
-                "whole job, tolerance",
-                name,
-                f"tolerance {t:g}",
-                f,
-                exact,
-                seconds,
-                speeds.size,
-                not numerics and t == DEFAULT,
-                n,
+            default = not numerics and t == DEFAULT
+            yield per_speed(
+                "whole job, tolerance", name, f"tolerance {t:g}", (f, exact), seconds, size=n * n, default=default
             )
     yield from grids(quick, speeds)
 
@@ -69,37 +63,18 @@ def coefficients(pair, speeds) -> np.ndarray:
     return stribeck(model, speeds, raise_on_failure=False).coefficient
 
 
-def point(panel, method, setting, f, exact, seconds, count, default, n, apart=False) -> Point:
-    """Largest relative deviation of f over the speeds; seconds per point, preparation included."""
+def per_speed(panel: str, method: str, setting: str, found: tuple, seconds: Quartiles, **at) -> Check:
+    """Largest relative deviation over the speeds of ``found`` = (f, exact f); seconds per speed, preparation included."""
+    f, exact = found
     off = float(np.nanmax(np.abs(f / exact - 1)))
-    return Point(
-        "job",
-        panel,
-        method,
-        setting,
-        float("nan") if apart else off,
-        *(s / count for s in seconds),
-        discretisation=off if apart else float("nan"),
-        default=default,
-        size=n * n,
-    )
+    return point(panel, method, setting, off, tuple(s / f.size for s in seconds), **at)
 
 
-def grids(quick: bool, speeds) -> Iterator[Point]:
+def grids(quick: bool, speeds) -> Iterator[Check]:
     """One surface on coarser contact grids against the finest."""
     sizes = (40, 50, 100) if quick else (40, 50, 80, 100, 200, 400)
     solved = {n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""] for n in sizes}
     for n in sizes[:-1]:
         f, seconds = solved[n]
-        yield point(
-            "whole job, contact grid",
-            "default",
-            f"{n}²",
-            f,
-            solved[sizes[-1]][0],
-            seconds,
-            speeds.size,
-            n == 200,
-            n,
-            True,
-        )
+        at = {"apart": True, "size": n * n, "default": n == 200}
+        yield per_speed("whole job, contact grid", "default", f"{n}²", (f, solved[sizes[-1]][0]), seconds, **at)

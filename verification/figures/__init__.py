@@ -3,18 +3,23 @@
 Paper: A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribol. Lett. 59:19 (2015),
 doi:10.1007/s11249-015-0536-z. A figure is a function ``name(quick)`` that returns a `PaperFigure`; its
 verdict is written from the numbers of the run. ``--quick`` takes smaller grids and fewer cases, to see that
-all works.
+all works. (fig4 draws Figs. 3 and 4.)
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib
-import sys
 import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
 from pathlib import Path
 
-from .page import write_document, write_figure, write_index
+from ..check import Figure, Item, Table
+from ..frame import Command
+from ..frame import main as run
+from ..report import Report
+from ..studies import Study
+from .page import markdown, write_document
 
 FIGURES = {
     "fig2": "verification.figures.surfaces:generated_surfaces",
@@ -26,49 +31,35 @@ FIGURES = {
     "fig10": "verification.figures.cylinder:sections",
     "film": "verification.figures.options:film_deflection",
 }
+LEVELS = ("full", "quick")
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Exit code 0: all chosen figures written; 2: the command makes no sense."""
-    options = _parser().parse_args(argv)
-    options.out.mkdir(parents=True, exist_ok=True)
-    done, begun = [], time.perf_counter()
-    for name in options.only or FIGURES:
-        start = time.perf_counter()
-        module, _, function = FIGURES[name].partition(":")
-        figure = getattr(importlib.import_module(module), function)(options.quick)
-        seconds = time.perf_counter() - start
-        write_figure(options.out, figure)
-        done.append((figure, seconds))
-        write_index(options.out, done, options.quick)
-        if options.docs:
-            write_document(options.docs, done)
-        print(f"{name}: {seconds:.1f} s  {figure.agrees}", file=sys.stderr, flush=True)
-    print(f"{len(done)} figures in {time.perf_counter() - begun:.0f} s: {options.out / 'index.html'}")
-    return 0
+    """The command."""
+    studies = tuple(Study(name, "verification.figures:figure", name, LEVELS, {"name": name}) for name in FIGURES)
+    command = Command("figures", __doc__, studies, "out/figures", LEVELS, 0, _options, finished=_document)
+    return run(command, [] if argv is None else argv)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser("python -m verification figures", description=__doc__)
-    parser.add_argument(
-        "--only",
-        nargs="+",
-        choices=list(FIGURES),
-        metavar="NAME",
-        help=f"some of: {', '.join(FIGURES)} (fig4 draws Figs. 3 and 4)",
-    )
-    parser.add_argument(
-        "--out",
-        type=Path,
-        default=Path("out/figures"),
-        metavar="DIR",
-        help="where the files go (default: %(default)s)",
-    )
-    parser.add_argument("--quick", action="store_true", help="small grids, few cases")
-    parser.add_argument(
-        "--docs",
-        type=Path,
-        metavar="DIR",
-        help="also write figures.md and images/ there (the project keeps them under docs)",
-    )
-    return parser
+def figure(level: str, name: str) -> Iterator[Item]:
+    """One figure of the paper: its checks, its data, its picture."""
+    begun = time.perf_counter()
+    module, _, function = FIGURES[name].partition(":")
+    made = getattr(importlib.import_module(module), function)(level == "quick")
+    yield from made.checks
+    for stem, (headings, rows) in made.tables.items():
+        yield Table(stem, made.title, headings, tuple(rows))
+    yield Figure(made.name, markdown(made, time.perf_counter() - begun), made.picture, "png")
+
+
+def _options(parser: ArgumentParser) -> None:
+    words = "also write figures.md and images/ there (the project keeps them under docs)"
+    parser.add_argument("--docs", type=Path, metavar="DIR", help=words)
+
+
+def _document(report: Report, options: Namespace) -> str:
+    if not options.docs:
+        return ""
+    made = [f for outcome in report.outcomes for f in outcome.figures]
+    write_document(options.docs, {f.name: f.caption for f in made}, {f.name: f.data for f in made})
+    return f"written: {options.docs / 'figures.md'}"

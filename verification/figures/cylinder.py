@@ -11,6 +11,7 @@ import numpy as np
 import lubfric
 from lubfric.model import prepare
 
+from ..check import AT_LEAST, AT_MOST, Check
 from .draw import axes, image, png
 from .page import PaperFigure
 from .spread import spread
@@ -111,6 +112,16 @@ def stribeck_curves(quick: bool) -> PaperFigure:
                 table,
             ),
         },
+        (
+            Check(
+                "f of the plastic surface against the elastic one: largest change",
+                max(float(np.max(np.abs(c.mean(0)[1] / c.mean(0)[0] - 1))) for c in curves.values()),
+                0.05,
+                0.0,
+                "the paper: plastic deformation changes little",
+                AT_MOST,
+            ),
+        ),
     )
 
 
@@ -283,6 +294,10 @@ def pressure_map(quick: bool) -> PaperFigure:
                 rows,
             )
         },
+        (
+            Check("F_C + F_H, Gaussian", rows[0][1] + rows[0][2], PAPER.bodies.load, 1e-9, "load balance", unit="N"),
+            Check("highest pressure", max(r[5] for r in rows), PAPER.bodies.hardness, 0.0, "hardness", AT_MOST, "Pa"),
+        ),
     )
 
 
@@ -342,6 +357,7 @@ def sections(quick: bool) -> PaperFigure:
         "generated surface of the built-in scene (the paper's is not published).",
         png(canvas),
         {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
+        (Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST),),
     )
 
 

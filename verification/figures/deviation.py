@@ -13,6 +13,7 @@ import lubfric
 from lubfric.rough.asperity_curve import asperity_curve
 from lubfric.rough.contact_curve import contact_curve
 
+from ..check import AT_LEAST, Check
 from .draw import axes, png
 from .flat_model import at_mean_pressure, deviation, film_tables, share, tabulated
 from .page import PaperFigure
@@ -108,6 +109,7 @@ def friction_curves(quick: bool) -> PaperFigure:
         f"figure against `lubfric.friction`: {table:.5f} and {check:.5f} at {at[0]:.2g} m/s (asked for: 1 %).",
         png(canvas),
         {"fig5": (("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)},
+        (Check("f from the tables of this figure", table, check, 0.02, "lubfric.friction, asked for 1 %"),),
     )
 
 
@@ -187,6 +189,16 @@ def deviation_map(quick: bool) -> PaperFigure:
             "fig6": (headings, rows),
             "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter),
         },
+        (
+            Check(
+                "largest d of summits on an exponential surface, %",
+                max(max(pick(rows, length)) for length in LENGTHS),
+                0.0,
+                0.0,
+                "Fig. 6 of the paper: the asperity model lies above",
+                AT_LEAST,
+            ),
+        ),
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 import lubfric
 
+from ..check import AT_MOST, Check
 from .draw import axes, png
 from .page import PaperFigure
 from .spread import spread
@@ -73,6 +74,16 @@ def film_deflection(quick: bool) -> PaperFigure:
         '`numerics.film_deflection = "scaled"` or `"total"`, both off by default.',
         png(canvas),
         {"film": (("scene", "deflection", "speed [m/s]", "f [-]", "F_H/F_T [-]"), rows)},
+        (
+            Check(
+                "f of the paper's light cylinder by another deflection: largest change",
+                max(change[0] for change in most["cylinder"]) / 100,
+                0.02,
+                0.0,
+                "little load, little deflection",
+                AT_MOST,
+            ),
+        ),
     )
 
 

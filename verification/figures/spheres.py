@@ -9,6 +9,7 @@ import numpy as np
 from lubfric.asperity import contact_law
 from lubfric.contact import solve_contact
 
+from ..check import AT_LEAST, AT_MOST, Check
 from .draw import axes, image, png
 from .page import PaperFigure
 
@@ -122,4 +123,15 @@ def sphere_array(quick: bool) -> PaperFigure:
                 rows,
             )
         },
+        (
+            Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST),
+            Check(
+                "load over Hertz with the mean kept falls as spheres come closer: smallest step",
+                float(np.min(np.diff(falls))),
+                0.0,
+                0.0,
+                "Fig. 4 of the paper",
+                AT_LEAST,
+            ),
+        ),
     )

@@ -7,6 +7,7 @@ import numpy as np
 import lubfric
 from lubfric.surface import correlation_length, rms_slope
 
+from ..check import AT_MOST, Check
 from .draw import axes, image, png
 from .page import PaperFigure
 
@@ -65,4 +66,8 @@ def generated_surfaces(quick: bool) -> PaperFigure:
         "smooth; the ripples decide what an asperity is in Figs. 5 and 6.",
         png(canvas),
         {"fig2": (("acf", "L asked [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]"), rows)},
+        (
+            Check("Sq of the last map", rows[-1][2], SQ, 1e-9, "what was asked of the generator", unit="m"),
+            Check("largest error of a measured length", off, 0.25, 0.0, "scatter of one map", AT_MOST),
+        ),
     )

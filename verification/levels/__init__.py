@@ -1,53 +1,85 @@
-"""``python -m verification levels``: is the coefficient within the tolerance, and what does that save?"""
+"""``python -m verification levels``: is the coefficient within the tolerance, and what does that save?
+
+Exit code 1: less than 99 % of the scenes within a tolerance, one beyond three times it, or a switch that shows.
+"""
 
 from __future__ import annotations
 
-import argparse
-import sys
-from pathlib import Path
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ..check import AT_LEAST, AT_MOST, TOLD, Check, Item
+from ..frame import Command
+from ..frame import main as run
+from ..studies import Study
+from .scenes import SEED
+
+LEVELS = ("full", "quick")
+COUNT = {"full": 200, "quick": 16}
+SPEEDS = {"full": 240, "quick": 60}
+STUDIES = (
+    Study(
+        "saving", "verification.levels:scenes_beside_full", "Scenes at every tolerance beside the full model", LEVELS
+    ),
+    Study(
+        "switches",
+        "verification.levels:speeds_through_switches",
+        "f through every switch between levels and grids",
+        LEVELS,
+    ),
+)
 
 
 def main(argv: list[str]) -> int:
-    """Solve the scenes beside their references, say how many are within the tolerance, draw the charts.
+    """The command."""
+    return run(Command("levels", __doc__, STUDIES, "out/levels", LEVELS, 0, _options, _prepared), argv)
 
-    Exit code 0: at least 99 % within each tolerance, none beyond three times it, and every switch continuous.
+
+def scenes_beside_full(level: str, out: str, seed: int) -> Iterator[Item]:
+    """Scenes over the whole range that a user may ask for, each at three tolerances beside everything modelled tightly.
+
+    What is solved is kept in the folder, a line a scene, and not solved again.
     """
-    from . import charts, measure, switches
-    from .scenes import SEED
+    from . import charts, measure
 
-    parser = argparse.ArgumentParser("python -m verification levels", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="16 scenes instead of 200")
-    parser.add_argument("--out", type=Path, default=Path("out/levels"), help="folder of results (default: %(default)s)")
-    parser.add_argument(
-        "--seed", type=int, default=SEED, help="of the scenes (default: %(default)s; others are other scenes)"
-    )
-    options = parser.parse_args(argv)
-    count = 16 if options.quick else 200
-    rows = measure.run(count, options.out / f"scenes-{options.seed}.jsonl", seed=options.seed, tell=_tell)
-    passed = [_verdict(rows, tolerance) for tolerance in measure.TOLERANCES]
-    print(measure.savings(rows))
+    count = COUNT[level]
+    file = measure.file_of(out, seed)
+    found = measure.run(count, file, seed=seed)
+    yield from found
+    for tolerance in measure.TOLERANCES:
+        mine = [c for c in found if c.at["asked"] == tolerance]
+        within = float(np.mean([c.deviation <= tolerance for c in mine]))
+        yield Check(f"share of scenes within {100 * tolerance:g} %", within, 0.99, 0.0, measure.SOURCE, AT_LEAST)
+        for name, value in measure.savings(mine).items():
+            yield Check(f"median time, {name}, over that at {100 * tolerance:g} %", value, 0.0, 0.0, "the clock", TOLD)
     for index in range(0, count, max(count // 10, 4)):
-        coarse, fine = measure.finer_reference(index, measure.points(count, options.seed)[index])
-        print(f"reference {index}: f = {coarse:.6f}, on cells half as long {fine:.6f} ({coarse / fine - 1:+.1e})")
-    scan = switches.scan(points=60 if options.quick else 240)
-    print(f"switches: largest |f - f_full|/f_full along {len(scan)} speeds {max(r['error'] for r in scan):.1e}")
-    charts.error_against_saving(rows, options.out / "levels-saving.png")
-    charts.continuity(scan, options.out / "levels-switches.png")
-    return 0 if all(passed) and max(r["error"] for r in scan) <= switches.TOLERANCE else 1
+        coarse, fine = measure.finer_reference(index, measure.points(count, seed)[index])
+        words = f"reference of scene {index} against cells half as long: relative error"
+        yield Check(words, abs(coarse / fine - 1), 0.0, 0.0, "the same surface on finer cells", TOLD)
+    yield charts.error_against_saving(found)
 
 
-def _verdict(rows, tolerance: float) -> bool:
-    from . import measure
+def speeds_through_switches(level: str) -> Iterator[Item]:
+    """Fine steps of speed along three scenes, each beside the full model: no switch between levels shows."""
+    from . import charts
+    from .switches import TOLERANCE, scan
 
-    errors = measure.errors(rows, tolerance)
-    within = sum(e <= tolerance for e in errors) / len(errors)
-    lost = len(rows) - len(errors)
-    print(
-        f"tolerance {100 * tolerance:g} %: {100 * within:.1f} % of {len(errors)} scenes within, largest "
-        f"{100 * max(errors):.2g} %{f', {lost} not solved' if lost else ''}"
-    )
-    return within >= 0.99 and max(errors) <= 3 * tolerance and lost == 0
+    found = scan(points=SPEEDS[level])
+    yield from found
+    worst = max(c.deviation for c in found)
+    yield Check("largest |f - f_full|/f_full along the speeds", worst, TOLERANCE, 0.0, "the full model", AT_MOST)
+    yield charts.continuity(found)
 
 
-def _tell(row: dict) -> None:
-    print(f"scene {row['index']}: {row['0.01'].get('text', row['0.01'].get('error'))}", file=sys.stderr, flush=True)
+def _options(parser: ArgumentParser) -> None:
+    words = "of the scenes (default: %(default)s; others are other scenes)"
+    parser.add_argument("--seed", type=int, default=SEED, help=words)
+
+
+def _prepared(study: Study, options: Namespace) -> Study:
+    if study.name != "saving":
+        return study
+    return replace(study, options={"out": str(options.out), "seed": options.seed})

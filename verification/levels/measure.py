@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -13,10 +14,13 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.model import prepare
 
+from ..check import Check
+from ..report import finite
 from .scenes import SEED, cells, points, scene
 
 TOLERANCES = (5e-2, 1e-2, 2e-3)
 REFERENCE = 2e-4
+SOURCE = f"everything modelled, at {REFERENCE:g}"
 
 
 def solve(model, tolerance: float, kind: str) -> dict:
@@ -33,71 +37,83 @@ def solve(model, tolerance: float, kind: str) -> dict:
         "seconds": time.process_time() - begun,
         "film": d.film,
         "contact": d.contact,
-        "coarsening": list(d.coarsening),
         "text": d.text,
     }
 
 
-def row(index: int, values: dict) -> dict:
-    """All solves of one scene."""
+def row(index: int, values: dict) -> list[Check]:
+    """One scene at every tolerance, each f beside that of the reference."""
     begun = time.process_time()
     problem = scene(values, index)
     model = prepare(problem)
-    found = {"index": index, "values": values, "cells": cells(problem), "prepare": time.process_time() - begun}
-    found |= {f"{tolerance:g}": solve(model, tolerance, "auto") for tolerance in TOLERANCES}
-    return found | {"full": solve(model, 1e-2, "full"), "reference": solve(model, REFERENCE, "full")}
+    made = time.process_time() - begun
+    found = {tolerance: solve(model, tolerance, "auto") for tolerance in TOLERANCES}
+    full, reference = solve(model, 1e-2, "full"), solve(model, REFERENCE, "full")
+    shared = {
+        "index": index,
+        "cells": cells(problem),
+        "prepare": made,
+        "seconds_full": full["seconds"],
+        "seconds_reference": reference["seconds"],
+    }
+    return [compared(index, tolerance, one, reference, shared) for tolerance, one in found.items()]
 
 
-def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = SEED, tell=None) -> list[dict]:
-    """Rows of the scenes drawn from ``seed``, kept in ``file`` as they come (one line each): those found there are not solved again.
+def compared(index: int, tolerance: float, found: dict, reference: dict, shared: dict) -> Check:
+    """f at one tolerance: allowed three times that, for the share within it is judged apart."""
+    failed = found.get("error") or ("error" in reference and f"reference: {reference['error']}") or ""
+    return Check(
+        f"scene {index} at {100 * tolerance:g} %",
+        math.nan if failed else found["f"],
+        1.0 if failed else reference["f"],
+        3 * tolerance,
+        SOURCE,
+        note=found.get("text", ""),
+        seconds=found["seconds"],
+        refused=failed,
+        at=shared | {"asked": tolerance} | {name: found.get(name) for name in ("film", "contact", "film_share")},
+    )
+
+
+def file_of(folder, seed: int) -> Path:
+    """Where the scenes drawn from ``seed`` are kept."""
+    return Path(folder) / f"scenes-{seed}.jsonl"
+
+
+def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = SEED) -> list[Check]:
+    """Checks of the scenes drawn from ``seed``, kept in ``file`` as they come (one scene a line): those found there are not
+    solved again.
 
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """
     row(0, points(1)[0])  # imports are no part of any time
-    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
-    known = {r["index"] for r in rows}
+    lines = file.read_text().splitlines() if file.is_file() else []
+    found = [Check.from_dict(c) for line in lines for c in json.loads(line)]
+    known = {c.at["index"] for c in found}
     file.parent.mkdir(parents=True, exist_ok=True)
     for index, values in enumerate(points(count, seed)):
         if index % part[1] != part[0] or index in known:
             continue
-        rows.append(row(index, values))
+        new = row(index, values)
         with file.open("a") as out:
-            out.write(json.dumps(rows[-1]) + "\n")
-        if tell:
-            tell(rows[-1])
-    return sorted(rows, key=lambda r: r["index"])
+            out.write(json.dumps(finite([c.as_dict() for c in new])) + "\n")
+        found += new
+    return sorted(found, key=lambda c: (c.at["index"], -c.at["asked"]))
 
 
-def errors(rows: list[dict], tolerance: float) -> list[float]:
-    """|f - f_full|/f_full of the rows that have both, in order."""
-    return [
-        abs(r[f"{tolerance:g}"]["f"] / r["reference"]["f"] - 1)
-        for r in rows
-        if "f" in r[f"{tolerance:g}"] and "f" in r["reference"]
-    ]
+def savings(found: list[Check]) -> dict[str, float]:
+    """Median ratios of times of the scenes at one tolerance."""
+    good = [c for c in found if not c.refused]
 
+    def median(against: str, preparation: str = "") -> float:
+        extra = [c.at[preparation] if preparation else 0.0 for c in good]
+        return float(np.median([(c.at[against] + e) / (c.seconds + e) for c, e in zip(good, extra)]))
 
-def median_saving(rows: list[dict], tolerance: float, against: str, *, preparation: bool) -> float:
-    """Median ratio of times."""
-    extra = (lambda r: r["prepare"]) if preparation else (lambda r: 0.0)
-    return float(
-        np.median([(r[against]["seconds"] + extra(r)) / (r[f"{tolerance:g}"]["seconds"] + extra(r)) for r in rows])
-    )
-
-
-def savings(rows: list[dict]) -> str:
-    """Median ratios of times, in words."""
-    lines = []
-    for tolerance in TOLERANCES:
-        point, whole, same = (
-            median_saving(rows, tolerance, against, preparation=prepared)
-            for against, prepared in (("reference", False), ("reference", True), ("full", False))
-        )
-        lines.append(
-            f"tolerance {100 * tolerance:g} %: median time {point:.3g} times less than the reference ({whole:.3g} "
-            f"with the surface made), {same:.3g} times less than everything at 1 %"
-        )
-    return "\n".join(lines)
+    return {
+        "reference": median("seconds_reference"),
+        "reference with the surface made": median("seconds_reference", "prepare"),
+        "everything at 1 %": median("seconds_full"),
+    }
 
 
 def finer_reference(index: int, values: dict) -> tuple[float, float]:

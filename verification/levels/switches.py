@@ -7,6 +7,8 @@ import numpy as np
 import lubfric
 from lubfric.model import prepare
 
+from ..check import Check
+
 TOLERANCE = 1e-2
 LUBRICANTS = {
     "paper": {},
@@ -15,8 +17,8 @@ LUBRICANTS = {
 }
 
 
-def scan(points: int = 240) -> list[dict]:
-    """Rows (scene, speed, f, full, error, level) of ``points`` speeds shared by the lubricants, cold starts."""
+def scan(points: int = 240) -> list[Check]:
+    """f beside that of the full model at ``points`` speeds shared by the lubricants, cold starts."""
     rows = []
     for name, lubricant in LUBRICANTS.items():
         model = prepare(lubfric.load_scene("paper").with_(lubricant=lubricant, numerics={"tolerance": TOLERANCE}))
@@ -24,23 +26,17 @@ def scan(points: int = 240) -> list[dict]:
             auto = lubfric.friction(model, float(speed))
             full = lubfric.friction(model, float(speed), tolerance=5e-4, model="full")
             d = auto.decision
-            rows.append(
-                {
-                    "scene": name,
-                    "speed": float(speed),
-                    "f": auto.coefficient,
-                    "full": full.coefficient,
-                    "error": abs(auto.coefficient / full.coefficient - 1),
-                    "level": f"{d.film}, {d.contact}" + (f", 1/{d.coarsening[1]}" if d.shape else ""),
-                }
-            )
+            shape = f", 1/{d.coarsening[1]}" if d.shape else ""
+            at = {"scene": name, "speed": float(speed), "level": f"{d.film}, {d.contact}{shape}"}
+            words = f"{name} at {speed:.4g} m/s"
+            rows.append(Check(words, auto.coefficient, full.coefficient, TOLERANCE, "the full model", at=at))
     return rows
 
 
-def jumps(rows: list[dict]) -> list[float]:
+def jumps(rows: list[Check]) -> list[float]:
     """Relative jump of f - f_full over each change of level between neighbouring speeds."""
     return [
-        abs((b["f"] / b["full"]) / (a["f"] / a["full"]) - 1)
+        abs((b.measured / b.expected) / (a.measured / a.expected) - 1)
         for a, b in zip(rows, rows[1:])
-        if a["scene"] == b["scene"] and a["level"] != b["level"]
+        if a.at["scene"] == b.at["scene"] and a.at["level"] != b.at["level"]
     ]

@@ -1,1 +1,36 @@
-"""Stability maps: where methods work, where they say that they do not, and where they would fool their user."""
+"""``python -m verification stability``: map where methods fail, and prove that the default ones say so.
+
+Exit code 1: a cell of a default method is silently wrong, or one inside the promised range failed.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+
+from ..check import Item
+from ..frame import Command
+from ..frame import main as run
+from ..studies import Study
+
+MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing"}
+LEVELS = ("full", "quick")
+
+
+def main(argv: list[str]) -> int:
+    """The command."""
+    studies = tuple(
+        Study(name, "verification.stability:stability_map", title, LEVELS, {"name": name})
+        for name, title in MAPS.items()
+    )
+    return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1), argv)
+
+
+def stability_map(level: str, name: str) -> Iterator[Item]:
+    """Every cell of one map, judged without asking the solver; then their counts and their picture."""
+    from .draw import draw, table
+
+    cells = list(importlib.import_module(f"verification.stability.{name}_map").cells(level))
+    yield from cells
+    yield table(name, cells)
+    yield draw(name, cells)

@@ -5,48 +5,21 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import lubfric
 
+from ..check import AT_MOST, Check
+
 RIGHT, FAILED, WRONG = "right", "reported failure", "silently wrong"
 VERDICTS = (RIGHT, FAILED, WRONG)
-
-
-@dataclass(frozen=True)
-class Cell:
-    """What one method did under one condition.
-
-    Attributes
-    ----------
-    map, panel, method : where it is drawn; ``default``: the method that users get unasked
-    x, y : its condition, on the axes of the map
-    verdict : one of `VERDICTS`
-    error : worst ratio of a measured deviation to what is allowed for it (NaN for a reported failure)
-    note : which deviation was the worst, or the failure as the method told it
-    inside : it lies within the range in which the default promises to answer
-    """
-
-    map: str
-    panel: str
-    method: str
-    x: float
-    y: float
-    verdict: str
-    error: float
-    note: str
-    seconds: float
-    default: bool
-    inside: bool
-
-    def as_dict(self) -> dict:
-        """Plain types, ready for JSON."""
-        return asdict(self)
+SOURCE = "the judge beside this map"
 
 
 @dataclass(frozen=True)
 class Condition:
-    """Where a cell lies; see `Cell`."""
+    """Where a cell lies: map and panel it is drawn on, x and y on its axes; inside: it lies within the range in which the
+    method that users get unasked promises to answer."""
 
     map: str
     panel: str
@@ -55,12 +28,18 @@ class Condition:
     inside: bool = True
 
 
-def judged(condition: Condition, method: str, solve: Callable, check: Callable, default: bool = True) -> Cell:
-    """Run ``solve()``; a result is handed to ``check``, which returns {name: deviation/allowed}.
+def verdict(cell: Check) -> str:
+    """One of `VERDICTS`."""
+    return RIGHT if cell.passed else FAILED if cell.refused else WRONG
+
+
+def judged(condition: Condition, method: str, solve: Callable, check: Callable, default: bool = True) -> Check:
+    """Run ``solve()``; a result is handed to ``check``, which returns {name: deviation/allowed}: the worst is measured.
 
     `lubfric.ConvergenceError` and `lubfric.InputError` are reported failures, and so is the analogue of another
     package (an exception whose class is named like it). Any other exception is a defect and ends the map.
-    A ratio above 1 or not a number makes the cell silently wrong.
+    A ratio above 1 or not a number makes the cell silently wrong. What decides are the cells of the ``default`` method
+    (that users get unasked): none may be silently wrong, none inside its promise may fail.
     """
     begun = time.perf_counter()
     try:
@@ -68,33 +47,35 @@ def judged(condition: Condition, method: str, solve: Callable, check: Callable, 
     except Exception as failure:
         if not (isinstance(failure, lubfric.LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
             raise
-        return _cell(
-            condition,
-            method,
-            FAILED,
-            math.nan,
-            f"{type(failure).__name__}: {failure}"[:300],
-            time.perf_counter() - begun,
-            default,
-        )
+        refused = f"{type(failure).__name__}: {failure}"[:300]
+        return _cell(condition, method, math.nan, refused, refused, time.perf_counter() - begun, default)
     seconds = time.perf_counter() - begun
     ratios = check(result)
     worst = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
-    right = math.isfinite(ratios[worst]) and ratios[worst] <= 1
-    return _cell(condition, method, RIGHT if right else WRONG, float(ratios[worst]), worst, seconds, default)
+    return _cell(condition, method, ratios[worst], worst, "", seconds, default)
 
 
-def _cell(condition, method, verdict, error, note, seconds, default) -> Cell:
-    return Cell(
-        condition.map,
-        condition.panel,
-        method,
-        float(condition.x),
-        float(condition.y),
-        verdict,
-        error,
-        note,
-        seconds,
-        default,
-        bool(condition.inside),
+def _cell(c: Condition, method, ratio, note, refused, seconds, default) -> Check:
+    inside = bool(c.inside)
+    return Check(
+        f"{c.map}; {c.panel}; x = {c.x:g}, y = {c.y:g}; {method}",
+        ratio,
+        1.0,
+        0.0,
+        SOURCE,
+        AT_MOST,
+        unit="of what is allowed",
+        note=note,
+        seconds=seconds,
+        decisive=default and (inside or not refused),
+        refused=refused,
+        at={
+            "map": c.map,
+            "panel": c.panel,
+            "method": method,
+            "x": float(c.x),
+            "y": float(c.y),
+            "default": default,
+            "inside": inside,
+        },
     )

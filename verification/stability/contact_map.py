@@ -11,8 +11,9 @@ from scipy import fft
 import lubfric
 from lubfric import solve_contact
 
+from ..check import Check
 from ..polonsky_keer import polonsky_keer
-from .cell import Cell, Condition, judged
+from .cell import Condition, judged
 from .contact_check import contact_deviations
 
 E_PRIME = 231e9
@@ -65,7 +66,7 @@ def surface(kind: str, nx: int, ny: int, sigma: float = 0.2e-6, spacing: float =
     return z * (sigma / z.std()) if z.std() > 0 else z
 
 
-def cells(level: str) -> Iterator[Cell]:
+def cells(level: str) -> Iterator[Check]:
     """All contact cells of ``level`` ("quick" or "full")."""
     quick = level == "quick"
     yield from loads(quick)
@@ -77,7 +78,7 @@ def cells(level: str) -> Iterator[Cell]:
     yield from precisions(quick)
 
 
-def solved(here: Condition, gap0, spacing, boundary, second=False, solver=solve_contact, **control) -> Cell:
+def solved(here: Condition, gap0, spacing, boundary, second=False, solver=solve_contact, **control) -> Check:
     """One cell of the default solver. ``second``: also against plain Polonsky-Keer, where that converges."""
     tolerance = control.pop("tolerance", 1e-6)
     physical = {k: v for k, v in control.items() if k in ("mean_pressure", "mean_gap", "hardness")}
@@ -117,7 +118,7 @@ def full_contact(heights, spacing: float) -> float:
     return float(-(fft.ifft2(fft.fft2(heights) * E_PRIME * k / 4).real).min())
 
 
-def loads(quick: bool) -> Iterator[Cell]:
+def loads(quick: bool) -> Iterator[Check]:
     """From one touching cell to full contact and beyond, by surface, for each boundary."""
     n = 24 if quick else 48
     shares = (
@@ -139,7 +140,7 @@ def loads(quick: bool) -> Iterator[Cell]:
                 )
 
 
-def hardnesses(quick: bool) -> Iterator[Cell]:
+def hardnesses(quick: bool) -> Iterator[Check]:
     """Elastic to fully plastic: hardness over E', load over hardness up to the whole area yielding."""
     n = 24 if quick else 48
     for kind in ("exponential",) if quick else ("exponential", "gaussian", "sine"):
@@ -158,7 +159,7 @@ def hardnesses(quick: bool) -> Iterator[Cell]:
                     )
 
 
-def sizes(quick: bool) -> Iterator[Cell]:
+def sizes(quick: bool) -> Iterator[Check]:
     """Odd and prime sizes down to one cell, cells up to 50 times as long as wide."""
     shapes = (
         ((1, 1), (2, 3), (31, 17), (64, 1), (36, 60))
@@ -193,7 +194,7 @@ def sizes(quick: bool) -> Iterator[Cell]:
                     )
 
 
-def gaps(quick: bool) -> Iterator[Cell]:
+def gaps(quick: bool) -> Iterator[Check]:
     """The mean gap prescribed, from a millionth of the roughness to almost no touch."""
     n = 24 if quick else 48
     kinds = SURFACES[:3] if quick else SURFACES
@@ -215,7 +216,7 @@ def gaps(quick: bool) -> Iterator[Cell]:
                 )
 
 
-def slopes(quick: bool) -> Iterator[Cell]:
+def slopes(quick: bool) -> Iterator[Check]:
     """Roughness from a picometre to slopes far beyond small-slope theory (which the equations do not know)."""
     for kind in ("exponential",) if quick else ("exponential", "noise", "gaussian"):
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10):
@@ -231,7 +232,7 @@ def slopes(quick: bool) -> Iterator[Cell]:
                 )
 
 
-def tilts(quick: bool) -> Iterator[Cell]:
+def tilts(quick: bool) -> Iterator[Check]:
     """Maps that do not close on themselves: a tilt of so many roughness heights, an offset of a metre."""
     n = 24 if quick else 45
     z = surface("exponential", n, n)
@@ -251,7 +252,7 @@ def tilts(quick: bool) -> Iterator[Cell]:
                     )
 
 
-def precisions(quick: bool) -> Iterator[Cell]:
+def precisions(quick: bool) -> Iterator[Check]:
     """Heights in single and double precision, tolerance 1e-1 to 1e-12, good and absurd starts."""
     z = surface("exponential", 48, 48)
     absurd = np.zeros_like(z)

@@ -1,16 +1,15 @@
-"""Maps and their table."""
+"""Maps and their counts."""
 
 from __future__ import annotations
 
-import json
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 
 from .. import plotting
-from ..charts.draw import compact
-from .cell import FAILED, RIGHT, VERDICTS, WRONG, Cell
+from ..check import Check, Figure, Table
+from .cell import FAILED, RIGHT, VERDICTS, WRONG
+from .cell import verdict as verdict_of
 
 COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
 MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
@@ -46,66 +45,49 @@ LINEAR = {
 }
 
 
-def counts(cells: list[Cell]) -> dict[tuple[str, str, bool], Counter]:
+def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
     """Verdicts by (map, method, default)."""
     table = {}
     for cell in cells:
-        table.setdefault((cell.map, cell.method, cell.default), Counter())[cell.verdict] += 1
+        table.setdefault((cell.at["map"], cell.at["method"], cell.at["default"]), Counter())[verdict_of(cell)] += 1
     return table
 
 
-def table(cells: list[Cell]) -> str:
-    """The counts as text."""
-    lines = [f"{'map':<40}{'method':<28}" + "".join(f"{v:>18}" for v in VERDICTS)]
-    for (name, method, default), found in counts(cells).items():
-        label = method + (" *" if default else "")
-        lines.append(f"{name:<40}{label:<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
-    defaults = [c for c in cells if c.default]
-    found = Counter(c.verdict for c in defaults)
-    lines.append(f"{'default methods (*)':<40}{len(defaults):<28}" + "".join(f"{found[v]:>18}" for v in VERDICTS))
-    promised = sum(c.verdict == FAILED and c.inside for c in defaults)
-    lines.append(f"reported failures of default methods inside the range promised: {promised}")
-    return "\n".join(lines)
-
-
-def save(cells: list[Cell], seconds: float, level: str, out: Path) -> list[Path]:
-    """stability.json and one PNG for each kind of map."""
-    out.mkdir(parents=True, exist_ok=True)
-    (out / "stability.json").write_text(
-        json.dumps({"level": level, "seconds": seconds, "cells": [c.as_dict() for c in cells]}, indent=0)
+def table(kind: str, cells: list[Check]) -> Table:
+    """Verdicts by map and method; a star marks the methods that users get unasked."""
+    rows = [
+        (name, method + (" *" if default else ""), *(found[v] for v in VERDICTS))
+        for (name, method, default), found in counts(cells).items()
+    ]
+    promised = sum(verdict_of(c) == FAILED and bool(c.at["inside"]) for c in cells if c.at["default"])
+    caption = (
+        f"Cells of the {kind} maps by verdict. Reported failures of default methods (*) inside the range promised: "
     )
-    files = []
-    for kind in ("film", "contact", "sharing"):
-        chosen = [c for c in cells if c.map.startswith(kind)]
-        if chosen:
-            figure = draw(kind, chosen)
-            files.append(out / f"stability-{kind}.png")
-            files[-1].write_bytes(compact(figure).data)
-    return files
+    return Table(kind, f"{caption}{promised}", ("map", "method", *VERDICTS), tuple(rows))
 
 
-def draw(kind: str, cells: list[Cell]):
+def draw(kind: str, cells: list[Check]) -> Figure:
     """One panel for each map and method; cells that share a place show the worst verdict."""
-    panels = list(dict.fromkeys((c.map, c.method) for c in cells))
+    panels = list(dict.fromkeys((c.at["map"], c.at["method"]) for c in cells))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     canvas, axes = plotting.axes(rows, columns, width=11, height=2.9 * rows + 0.4, squeeze=False)
     for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, (name, method) in zip(axes.ravel(), panels):
-        panel(ax, [c for c in cells if (c.map, c.method) == (name, method)])
+        panel(ax, [c for c in cells if (c.at["map"], c.at["method"]) == (name, method)])
     handles = [axes[0, 0].plot([], [], MARKS[v], color=COLOURS[v], label=v)[0] for v in VERDICTS]
     canvas.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
-    return plotting.finish(f"stability-{kind}", canvas, f"Stability of the {kind} solvers", format="png")
+    return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
 
 
-def panel(ax, cells: list[Cell]) -> None:
+def panel(ax, cells: list[Check]) -> None:
     """All cells of one map and method."""
-    name, method = cells[0].map, cells[0].method
+    name, method = cells[0].at["map"], cells[0].at["method"]
     linear = LINEAR.get(name, "")
-    found = Counter(c.verdict for c in cells)
+    found = Counter(verdict_of(c) for c in cells)
     for verdict in VERDICTS:
-        places = np.array([(c.x, c.y) for c in cells if c.verdict == verdict]).reshape(-1, 2)
+        places = np.array([(c.at["x"], c.at["y"]) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
         ax.plot(
             places[:, 0],
             places[:, 1],
@@ -114,7 +96,7 @@ def panel(ax, cells: list[Cell]) -> None:
             markersize=4,
             zorder=1 + VERDICTS.index(verdict),
         )
-    for axis, values in (("x", [c.x for c in cells]), ("y", [c.y for c in cells])):
+    for axis, values in (("x", [c.at["x"] for c in cells]), ("y", [c.at["y"] for c in cells])):
         if axis not in linear and min(values) > 0:
             getattr(ax, f"set_{axis}scale")("log")
         elif axis not in linear or name.startswith("sharing: speed") and axis == "x":

@@ -11,10 +11,11 @@ import numpy as np
 from lubfric import LubfricError, solve_differential_deflection, solve_ehl
 from lubfric.analytic.film import moes_film
 
-from .cell import Cell, Condition, judged
+from ..cases import E_PRIME, RADIUS, VISCOSITY, case_of
+from ..check import Check
+from .cell import Condition, judged
 from .film_check import film_deviations
 
-ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
 TOLERANCE = 3e-3  # the default of `solve_ehl`
 FILM = 2.0  # times the tolerance asked for: allowed difference of films to the judge
 OWN = {"elastic": 1e-3, "load": 1e-3, "tension": 1e-3, "gap": 1e-3, "flow": 0.01}
@@ -24,23 +25,7 @@ LAWS = (("roelands", "constant"), ("barus", "constant"), ("roelands", "dowson-hi
 PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
 
 
-def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:
-    """SI arguments with the Moes numbers M and L; L = 0 is the constant viscosity."""
-    law, effective = ("constant", 5.0) if L == 0 else (law, L)
-    u1 = (effective / (ALPHA * E_PRIME)) ** 4
-    return {
-        "load_per_width": M * math.sqrt(u1) * E_PRIME * RADIUS,
-        "radius": RADIUS,
-        "e_prime": E_PRIME,
-        "entrainment_speed": u1 * E_PRIME * RADIUS / (2 * VISCOSITY),
-        "viscosity": VISCOSITY,
-        "pressure_viscosity_coefficient": ALPHA,
-        "viscosity_law": law,
-        "density": density,
-    }
-
-
-def cells(level: str) -> Iterator[Cell]:
+def cells(level: str) -> Iterator[Check]:
     """All film cells of ``level`` ("quick" or "full")."""
     quick = level == "quick"
     yield from load_and_material(quick)
@@ -104,7 +89,7 @@ def promised(M: float, L: float) -> bool:
     return 0.99e-3 <= M <= 1001 and L <= 20.01
 
 
-def load_and_material(quick: bool) -> Iterator[Cell]:
+def load_and_material(quick: bool) -> Iterator[Check]:
     """M by L for each law; all methods and the formula where the law is Roelands' at constant density."""
     loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), (3e3, 1e4))
     materials = (0.0, 5.0, 20.0) if quick else (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
@@ -118,7 +103,7 @@ def load_and_material(quick: bool) -> Iterator[Cell]:
                     yield from other_methods(here, case, float(M), L)
 
 
-def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[Cell]:
+def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[Check]:
     """The paper's discretisation, judged by the tight default, and Moes' formula."""
 
     smallest, flow = _tight(tuple(sorted(case.items())))
@@ -136,7 +121,7 @@ def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[C
     yield judged(here, "Moes formula", lambda: moes_film(M, L), formula, False)
 
 
-def speeds(quick: bool) -> Iterator[Cell]:
+def speeds(quick: bool) -> Iterator[Check]:
     """The paper's steel cylinder: speeds from 1e-8 m/s, either way, by load."""
     for speed in np.geomspace(1e-8, 10, 3 if quick else 10):
         for load in np.geomspace(1e-2, 1e4, 2 if quick else 7):
@@ -152,7 +137,7 @@ def speeds(quick: bool) -> Iterator[Cell]:
             )
 
 
-def tolerances(quick: bool) -> Iterator[Cell]:
+def tolerances(quick: bool) -> Iterator[Check]:
     """From one tenth, where grids are far too coarse, to 1e-4: the error has to be what was asked for."""
     points = (
         ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
@@ -187,7 +172,7 @@ def tolerances(quick: bool) -> Iterator[Cell]:
             )
 
 
-def starts(quick: bool) -> Iterator[Cell]:
+def starts(quick: bool) -> Iterator[Check]:
     """Started from the solution of a contact that may be a million times lighter, or of another lubricant."""
     points = (
         ((1e-2, 5), (10, 5), (1000, 20))
@@ -213,7 +198,7 @@ def starts(quick: bool) -> Iterator[Cell]:
             yield judged(here, "solve_ehl", lambda case=case, film=film: solve_ehl(**case, start=film), checked(case))
 
 
-def starved(quick: bool) -> Iterator[Cell]:
+def starved(quick: bool) -> Iterator[Check]:
     """The lubricant begins at a distance of the dry contact (in half-widths plus inlet lengths)."""
     for M in (0.1, 10, 1000) if quick else (1e-3, 1e-2, 0.1, 1, 3, 10, 30, 100, 300, 1000):
         for share in (0.5, 5) if quick else (0.3, 0.5, 1, 2, 5, 20):

@@ -23,13 +23,14 @@ from lubfric import (
 )
 from lubfric.model import Model, prepare
 
-from .cell import Cell, Condition, judged
+from ..check import Check
+from .cell import Condition, judged
 from .film_check import viscosity_ratio
 
 ALLOWED = {"friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 
 
-def cells(level: str) -> Iterator[Cell]:
+def cells(level: str) -> Iterator[Check]:
     """All load-sharing cells of ``level`` ("quick" or "full")."""
     quick = level == "quick"
     yield from curves("flat", quick)
@@ -210,7 +211,7 @@ def _log_mean(eta) -> np.ndarray:
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))
 
 
-def curves(name: str, quick: bool) -> Iterator[Cell]:
+def curves(name: str, quick: bool) -> Iterator[Check]:
     """Lambda 0.01 to 10 by roughness 1 nm to 2 um, both closures; the paper's closure is not the default."""
     roughness = [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5)
     ratios = np.geomspace(0.01, 10, 3 if quick else 10)
@@ -231,7 +232,7 @@ def curves(name: str, quick: bool) -> Iterator[Cell]:
                 )
 
 
-def special_speeds(quick: bool) -> Iterator[Cell]:
+def special_speeds(quick: bool) -> Iterator[Check]:
     """Nearly all film, nearly all contact, no entrainment, reversed entrainment."""
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
@@ -248,7 +249,7 @@ def special_speeds(quick: bool) -> Iterator[Cell]:
         yield from shares(model, name, quick)
 
 
-def shares(model: Model, name: str, quick: bool) -> Iterator[Cell]:
+def shares(model: Model, name: str, quick: bool) -> Iterator[Check]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
     for share in (

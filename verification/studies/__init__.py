@@ -1,4 +1,4 @@
-"""The list of studies. A study is named here and imported only when it runs.
+"""The list of studies of the plain command. A study is named here and imported only when it runs.
 
 A study is a function ``name(level)`` with ``level`` one of "quick", "default", "full". It either yields
 `Check`, `Table`, `Figure` and `Field` objects as it goes (then each check is timed, and what was yielded
@@ -8,19 +8,21 @@ report. To add one: put the function in a module of this package and add a line 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ..check import LEVELS, file_name
 
 
 @dataclass(frozen=True)
 class Study:
-    """Where a study is: ``target`` is "package.module:function"; ``levels`` are those it runs at."""
+    """Where a study is: ``target`` is "package.module:function"; ``levels`` are those it runs at; ``options``: keywords
+    of the function beside the level."""
 
     name: str
     target: str
     title: str
     levels: tuple[str, ...] = LEVELS
+    options: dict = field(default_factory=dict)
 
     def __post_init__(self):
         file_name(self.name)

@@ -112,7 +112,7 @@ def test_what_must_not_change_the_coefficient():
 
 def test_neither_start_nor_floor_changes_the_answer():
     fast = solve_point(rough(48, 917.0, 0.03))
-    warm = solve_point(LIGHT, start=state_on(LIGHT, fast))
+    warm = solve_point(LIGHT, starts=[lambda: state_on(LIGHT, fast)])
     assert warm.coefficient == pytest.approx(FOUND.coefficient, rel=1e-4)
     assert warm.report.iterations < FOUND.report.iterations
     low = solve_point(replace(LIGHT, floor=0.5e-9))
@@ -155,12 +155,13 @@ def test_the_rule_for_spots_hardly_moves_with_its_two_numbers():
 
 
 def test_finer_cells_change_little_and_the_estimate_tells():
-    found = solve_refined(lambda n: rough(n, 917.0, 0.01), (24, 48, 96), tolerance=0.0)
+    grids = [(24, 24), (48, 48), (96, 96)]
+    found = solve_refined(lambda shape: rough(shape[0], 917.0, 0.01), grids, tolerance=0.0)
     coarse, middle, fine = (r.coefficient for r in found.results)
     assert abs(fine - middle) < abs(middle - coarse) < 0.1 * fine
     assert found.error == estimate([coarse, middle, fine]) < 0.02
-    started = refined_start(found.problems[0], found.problems[1], found.results[0])
-    assert solve_point(found.problems[1], start=started).report.iterations < FOUND.report.iterations
+    started = refined_start(rough(24, 917.0, 0.01), LIGHT, found.results[0])
+    assert solve_point(LIGHT, starts=[lambda: started]).report.iterations < FOUND.report.iterations
     assert estimate([1.0, 1.2, 1.3]) == pytest.approx(0.1 / 1.3) and estimate([1.0]) is None
 
 

@@ -1,0 +1,56 @@
+"""What a pressure amounts to: gap, approach and residuals of the whole patch, from the pressure alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .residual import contact_residuals, deflection_scale, dot
+
+
+@dataclass(frozen=True)
+class State:
+    """pressure [Pa] with its displacement and gap [m] (nx, ny), approach [m], the length ``scale`` [m] that residuals
+    are measured in, and the worst of complementarity and penetration; all in the precision of the operator used."""
+
+    pressure: np.ndarray
+    displacement: np.ndarray
+    gap: np.ndarray
+    approach: float
+    scale: float
+    overlap: float
+    residual: float
+
+
+def look(problem, operator, pressure, level=None) -> State:
+    """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
+    displacement = operator.apply(pressure)
+    gap = problem.gap0 + displacement
+    approach = _approach(problem, pressure, gap) if level is None else level
+    gap -= approach
+    scale = deflection_scale(dot(pressure, displacement), pressure.sum(), problem.roughness, operator)
+    residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
+    return State(
+        pressure,
+        displacement,
+        gap,
+        approach,
+        scale,
+        max(0.0, -float(gap.min())),
+        max(residuals["complementarity"], residuals["penetration"]),
+    )
+
+
+def _approach(problem, pressure, height) -> float:
+    """The approach at which the mean gap over elastic contact is zero; where nothing is elastic, halfway between the
+    highest yielded cell and the lowest free one."""
+    inside = pressure > 0
+    if problem.hardness < np.inf:
+        inside &= pressure < problem.hardness
+    touching = np.flatnonzero(inside)
+    if touching.size:
+        return float(height.ravel()[touching].mean())
+    yielded = pressure > 0
+    highest = height[yielded].max()
+    return float(0.5 * (highest + (height[~yielded].min() if not yielded.all() else highest)))

@@ -1,0 +1,119 @@
+"""Rounds of search and check: single precision on the cells that may touch, then double precision everywhere.
+
+The loop ends by what a `look` at the whole patch in double precision says of the pressure, never by what the search
+believes. Keeping conjugate directions while the set changes has no convergence proof: rounds that gain nothing end the
+solve as stagnated.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED
+from .cells import Cells
+from .descent import FIRST_PACE, REACH, Descent
+from .looked import State, look
+from .projection import rescaled
+
+MARGIN = 0.8  # of the tolerance, aimed at by the search
+FALL = 1e-5  # of the residual within a round: as far as single precision goes
+LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
+RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
+WASTED = 4  # rounds without halving the residual
+
+
+@dataclass(frozen=True)
+class Found:
+    """Where the rounds ended (``state``) and how, what they cost, and the pace that a next search should begin with."""
+
+    state: State
+    status: str
+    iterations: int
+    convolutions: float
+    history: tuple[float, ...]
+    pace: float
+    solver: str = "preconditioned conjugate gradient, candidates in single precision"
+    notes: tuple[str, ...] = ()
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """[Pa] (nx, ny)"""
+        return self.state.pressure
+
+
+def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
+    """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
+    operator, fast = problem.operator, problem.operator.single
+    state, exact = look(problem, fast, pressure, level), False
+    best, wasted, iterations, convolutions, history = math.inf, 0, 0, 1.0, []
+    while True:
+        status = _status(problem, state.residual, exact, iterations, wasted)
+        if status:
+            return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
+        goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
+        if state.residual > goal and iterations < problem.max_iterations:
+            descent = Descent(
+                problem,
+                Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap)),
+                state.pressure,
+                state.gap,
+                load,
+                state.scale,
+                LOAD_ERROR * min(1.0, state.residual),
+                pace,
+                careful=wasted > 0 or _rigid(problem),
+            )
+            pressure, state = state.pressure, None
+            descent.run(goal, problem.max_iterations - iterations)
+            pressure = _admissible(descent.found(pressure), pressure, load, problem.hardness)
+            iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
+            history += descent.history[:-1]
+            convolutions += descent.convolutions
+            del descent
+        else:
+            pressure, state = state.pressure, None
+        state, exact = look(problem, operator, pressure, level), True
+        convolutions += 1
+        best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
+
+
+def _admissible(found, begun, load, hardness) -> np.ndarray:
+    """``found`` with the load; where single precision has lost it, what the search had ``begun`` with."""
+    total = found.sum()
+    if not np.isfinite(total) or load is not None and total <= 0:
+        return begun
+    return found if load is None else rescaled(found, load, hardness)
+
+
+def _rigid(problem) -> bool:
+    """Cells yield before they bend noticeably: which ones is all that is to be found."""
+    bent = problem.hardness * min(problem.operator.spacing) / problem.operator.e_prime
+    return bent < RIGID * problem.roughness
+
+
+def _status(problem, residual, exact, iterations, wasted) -> str | None:
+    """How the solve has ended, if it has."""
+    if not exact:
+        return None
+    if residual <= problem.tolerance:
+        return CONVERGED
+    if iterations >= problem.max_iterations:
+        return ITERATION_LIMIT
+    return STAGNATED if wasted > WASTED else None
+
+
+def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
+    """One round in single precision throughout: a start for a finer grid."""
+    fast = problem.operator.single
+    state = look(problem, fast, pressure, level)
+    if not state.residual:
+        return Found(state, "", 0, 1.0, (), pace)
+    cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
+    descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace, _rigid(problem))
+    descent.run(MARGIN * problem.tolerance, problem.max_iterations)
+    found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
+    state = State(found, None, None, state.approach, state.scale, 0.0, descent.history[-1])
+    return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)

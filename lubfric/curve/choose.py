@@ -1,0 +1,47 @@
+"""Which speed to solve next, so that a Stribeck curve is known everywhere from few points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .interpolate import Interpolant, Samples, knee_of
+
+FIRST = 5  # speeds at first, evenly spread in their logarithm, from the fastest down
+CLOSE = 1.06  # ratio of the slowest film without contact to lift-off that pins the knee down
+APART = 1.015  # least ratio of neighbouring speeds
+SHARE = 0.8  # of the tolerance that the estimate of the error may reach
+GRID = 400
+
+
+def first_speeds(low: float, high: float) -> np.ndarray:
+    """The speeds [m/s] to begin with, fastest first."""
+    return np.geomspace(high, low, FIRST)
+
+
+def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | None, float]:
+    """(speed [m/s] to solve next or None where the curve is known, largest estimated relative error of f now).
+
+    ``tried``: speeds that failed, which are left alone.
+
+    First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which the
+    error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
+    """
+    speeds, knee = samples.speed, knee_of(samples)
+    curve = Interpolant(samples, knee)
+    at = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
+    taken = np.append(speeds, np.asarray(tried, dtype=float))
+    error = np.where(_free(at, taken), curve.error(at), 0.0)
+    largest = float(error.max())
+    if knee is not None and speeds[samples.contacts] > CLOSE * knee:
+        above = 0.5 * (1 + CLOSE) * knee
+        if _free(np.array([above]), taken)[0]:
+            return float(above), largest
+    if largest <= SHARE * tolerance:
+        return None, largest
+    return float(at[error.argmax()]), largest
+
+
+def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """Where ``at`` is not too close to a speed that is solved."""
+    ratio = np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1)
+    return ratio > np.log(APART)

@@ -1,0 +1,7 @@
+"""Parameters of a scene from a measured Stribeck or traction curve."""
+
+from .fit import fit
+from .measured import Measured, read_measured
+from .result import FitResult
+
+__all__ = ["FitResult", "Measured", "fit", "read_measured"]

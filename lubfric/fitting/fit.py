@@ -1,0 +1,107 @@
+"""`fit`: bounded least squares of a scene to a measured curve, and how far the data tell its parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InputError
+from ..model import scene_of
+from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..scene import Scene
+from .measured import Measured
+from .parameters import Parameters, parameters_of
+from .predict import Predictor, jacobian, predictor
+from .result import FitResult
+
+STEP, LAST_STEP = (
+    0.04,
+    0.03,
+)  # of the bounds, of the differences on the way and at the end: above the scatter of the solves
+CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
+MOST = 30  # curves on the way, beside those of the differences
+
+
+def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None) -> FitResult:
+    """The values of ``parameters`` with which ``scene`` comes closest to a ``measured`` curve.
+
+    Parameters
+    ----------
+    scene : what is known, with the numerics to be used
+    measured : from `lubfric.read_measured`, or `lubfric.Measured(speeds, coefficients)`
+    parameters : {"section.key": (lowest, highest)} numbers of the scene to be found between bounds
+    start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
+    executor : for the speeds of a curve, as in `lubfric.stribeck`
+
+    Minimises sum ((f - measured)/deviation)² (relative deviations where none are given) by a trust region within the bounds
+    (`scipy.optimize.least_squares`, "trf") with differences of 4 % of the bounds, which stay above the tolerance on f. Stops
+    when a step moves the parameters by <= 0.2 % of their bounds or changes the sum by <= 1e-4 of it. The covariance is
+    s² (JᵀJ)⁻¹, with s² the sum over n - p where no deviations are given; a parameter whose 95 % interval is as wide as its
+    bounds is one that the data cannot tell.
+
+    Raises `InputError` before any work, `ConvergenceError` with the result when the search does not end or a curve fails.
+    """
+    from scipy.optimize import least_squares
+
+    if scene_of(scene) is not scene:
+        raise InputError("a fit changes a scene; allowed: what lubfric.load_scene returned, not a model of it")
+    if not isinstance(measured, Measured):
+        raise InputError(
+            f"measured = {measured!r}; allowed: lubfric.read_measured(...) or lubfric.Measured(x, coefficient)"
+        )
+    found = parameters_of(scene, parameters)
+    if measured.x.size <= len(found.keys):
+        raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; allowed: more points")
+    begin = _begin(scene, found, {} if start is None else start)
+    predict = predictor(scene, measured, found, executor)
+    scale = measured.coefficient if measured.deviation is None else measured.deviation
+    curves = {}  # f by position: the differences begin where the residuals were taken
+
+    def at(unit):
+        key = unit.tobytes()
+        if key not in curves:
+            curves[key] = predict.at(unit)
+        return curves[key]
+
+    search = least_squares(
+        lambda unit: (at(unit) - measured.coefficient) / scale,
+        begin,
+        lambda unit: jacobian(predict, unit, at(unit), STEP) / scale[:, None],
+        bounds=(0.0, 1.0),
+        xtol=CLOSE,
+        ftol=1e-4,
+        gtol=1e-12,
+        max_nfev=MOST,
+    )
+    result = _result(predict, scale, np.clip(search.x, 0.0, 1.0), search)
+    result.report.raise_if_failed(result)
+    return result
+
+
+def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
+    values = []
+    for key, low, high in zip(found.keys, found.low, found.high):
+        section, _, name = key.partition(".")
+        value = start.get(key, getattr(getattr(scene, section), name))
+        number = isinstance(value, (int, float)) and low < value < high
+        values.append(float(value) if number else np.nan)
+    for key in start:
+        if key not in found.keys:
+            raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found.keys)}")
+    middle = found.values(np.full(len(values), 0.5))
+    return np.clip(found.unit(np.where(np.isnan(values), middle, values)), 0.02, 0.98)
+
+
+def _result(predict: Predictor, scale, unit, search) -> FitResult:
+    f = predict.at(unit)
+    slopes = jacobian(predict, unit, f, LAST_STEP)
+    residuals = (f - predict.measured.coefficient) / scale
+    n, p = slopes.shape
+    squares = float(residuals @ residuals)
+    variance = squares / (n - p) if predict.measured.deviation is None else 1.0
+    _, singular, axes = np.linalg.svd(slopes / scale[:, None], full_matrices=False)
+    known = np.maximum(singular, 1e-8 * max(singular[0], 1e-300))  # a direction without any effect: a huge variance
+    covariance = variance * (axes.T / known**2) @ axes
+    status = CONVERGED if search.status > 0 else ITERATION_LIMIT
+    move = 0.0 if status == CONVERGED else 1.0
+    report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, {"sum of squares": squares})
+    return FitResult(predict.scene, predict.measured, predict.parameters, unit, covariance, f, slopes, scale, report)

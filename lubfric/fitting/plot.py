@@ -1,0 +1,50 @@
+"""A fit drawn: the curve among the points, and what is left between them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..plot import BLUE, GREY, RED
+from .measured import SPEED
+from .result import FitResult, x_label
+
+
+def plot_fit(result: FitResult, ax=None):
+    """See `FitResult.plot`."""
+    axes = _axes(ax)
+    x, (low, high) = np.abs(result.measured.x), result.band
+    order = np.argsort(x)
+    error = None if result.measured.deviation is None else 1.96 * result.measured.deviation
+    axes.errorbar(x, result.measured.coefficient, error, fmt="o", ms=4, color=RED, lw=1, label=result.measured.source)
+    axes.plot(x[order], result.predicted[order], color=BLUE, label="fit")
+    axes.fill_between(x[order], low[order], high[order], color=BLUE, alpha=0.2, lw=0, label="95 % band of the curve")
+    _finish(axes, result, "friction coefficient (-)")
+    axes.set_ylim(bottom=0)
+    axes.legend(frameon=False)
+    return axes
+
+
+def plot_residuals(result: FitResult, ax=None):
+    """See `FitResult.plot_residuals`."""
+    axes = _axes(ax)
+    miss = 100 * (result.measured.coefficient / result.predicted - 1)
+    axes.axhline(0, color=GREY, lw=0.8)
+    axes.plot(np.abs(result.measured.x), miss, "o", ms=4, color=RED)
+    reach = 1.15 * max(np.abs(miss).max(), 1e-3)
+    axes.set_ylim(-reach, reach)
+    _finish(axes, result, "measured over fitted, less one (%)")
+    return axes
+
+
+def _axes(ax):
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+
+    return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
+
+
+def _finish(axes, result: FitResult, label: str) -> None:
+    if result.measured.over == SPEED:
+        axes.set_xscale("log")
+    axes.set(xlabel=x_label(result.measured), ylabel=label)

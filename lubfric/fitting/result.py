@@ -1,0 +1,138 @@
+"""What a fit found, and how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..report import Report
+from ..scene import Scene
+from .measured import SPEED, Measured
+from .parameters import Parameters
+
+LEVEL = 0.95
+AT_BOUND = 5e-3  # of the bounds
+
+
+@dataclass(frozen=True, eq=False)
+class FitResult:
+    """values, deviations: of the parameters by key; scene: with the values put in; predicted (n,): f at the measured points.
+
+    unit (p,): positions between the bounds, whose covariance (p, p) is ``unit_covariance``; slopes (n, p): df/d(unit).
+    """
+
+    base: Scene
+    measured: Measured
+    parameters: Parameters
+    unit: np.ndarray
+    unit_covariance: np.ndarray
+    predicted: np.ndarray
+    slopes: np.ndarray
+    scale: np.ndarray
+    report: Report
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters."""
+        return dict(zip(self.parameters.keys, self.parameters.values(self.unit).tolist()))
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of the parameters, (p, p) in their units, to first order."""
+        slopes = self.parameters.slopes(self.unit)
+        return self.unit_covariance * slopes[:, None] * slopes
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviations of the parameters."""
+        return dict(zip(self.parameters.keys, np.sqrt(np.diag(self.covariance)).tolist()))
+
+    @property
+    def correlation(self) -> np.ndarray:
+        """Between the parameters, (p, p)."""
+        spread = np.sqrt(np.diag(self.unit_covariance))
+        return self.unit_covariance / np.outer(spread, spread)
+
+    @property
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """95 % intervals of the parameters, cut at their bounds."""
+        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
+        low = self.parameters.values(np.clip(self.unit - reach, 0.0, 1.0))
+        high = self.parameters.values(np.clip(self.unit + reach, 0.0, 1.0))
+        return dict(zip(self.parameters.keys, zip(low.tolist(), high.tolist())))
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Parameters that the data cannot tell: their 95 % interval is as wide as their bounds."""
+        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
+        return tuple(key for key, r in zip(self.parameters.keys, reach) if not 2 * r < 1.0)
+
+    @property
+    def at_bounds(self) -> tuple[str, ...]:
+        """Parameters that ended on a bound: the data ask for more than it allows."""
+        edge = np.minimum(self.unit, 1.0 - self.unit) < AT_BOUND
+        return tuple(key for key, there in zip(self.parameters.keys, edge) if there)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene with the values found."""
+        return self.parameters.into(self.base, self.parameters.values(self.unit))
+
+    @property
+    def band(self) -> tuple[np.ndarray, np.ndarray]:
+        """(low, high) of f at the measured points: where the model's curve lies with 95 %."""
+        reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
+        return self.predicted - reach, self.predicted + reach
+
+    def contains(self, values: dict[str, float]) -> bool:
+        """Whether parameters lie in the joint 95 % region (F distribution of p and n - p)."""
+        from scipy.stats import f
+
+        away = self.parameters.unit(np.array([values[key] for key in self.parameters.keys])) - self.unit
+        p, n = away.size, self.predicted.size
+        distance = away @ np.linalg.solve(self.unit_covariance, away) / p
+        return bool(distance <= f.ppf(LEVEL, p, n - p))
+
+    def explain(self) -> str:
+        """Values, intervals, correlations, and what the data cannot tell."""
+        lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
+        for key, (low, high) in self.intervals.items():
+            told = " - the data cannot tell it" if key in self.undetermined else ""
+            told += " - on its bound" if key in self.at_bounds else ""
+            lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{told}")
+        keys, correlation = self.parameters.keys, self.correlation
+        for i in range(len(keys)):
+            for j in range(i):
+                if abs(correlation[i, j]) > 0.9:
+                    lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
+        scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
+        return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f"])
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
+        return f"<FitResult: {found}; cannot tell: {', '.join(self.undetermined) or 'none'}>"
+
+    def plot(self, ax=None):
+        """Measured points, fitted curve and its 95 % band; returns the axes."""
+        from .plot import plot_fit
+
+        return plot_fit(self, ax)
+
+    def plot_residuals(self, ax=None):
+        """Deviation of the points from the fitted curve, relative; returns the axes."""
+        from .plot import plot_residuals
+
+        return plot_residuals(self, ax)
+
+    @property
+    def _student(self) -> float:
+        from scipy.stats import t
+
+        return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))
+
+
+def x_label(measured: Measured) -> str:
+    """Of the axis of a measured curve."""
+    return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"

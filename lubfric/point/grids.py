@@ -1,0 +1,118 @@
+"""The contact on finer and finer grids, and what its grid makes f wrong by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from .. import budget
+from ..rough.contract import ContactState, RoughContact
+from .balance import Balance
+from .one_grid import Stage, on_grid
+from .operating_point import OperatingPoint
+
+LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
+LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
+WORST_GRID = 2.0  # relative error of the film's load that the coarsest grid may make
+LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
+
+
+@dataclass(frozen=True)
+class Refined:
+    """The grid reached (its index), what the volume residual changed by from grid to grid on the way there, and the point
+    and balance, moved from a coarser grid to where this one should have its own."""
+
+    index: int
+    changes: tuple[float, ...]
+    point: OperatingPoint
+    balance: Balance
+
+
+def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
+    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be halved."""
+    contacts = [contact]
+    while (coarse := contacts[0].coarsened()) is not None:
+        if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
+            break
+        contacts.insert(0, coarse)
+    return contacts
+
+
+def on_enough_cells(
+    point: OperatingPoint, grids: Sequence[RoughContact], start: Balance | None
+) -> tuple[Stage, int, float]:
+    """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid, and
+    that error (infinite: unknown)."""
+    limit = budget.CONTACT_GRID * point.scene.numerics.tolerance
+    index, last = 0, len(grids) - 1
+    point = replace(point, contact=grids[0])
+    changes: tuple[float, ...] = ()
+    while True:
+        stage = on_grid(point, grids[index], start)
+        error = grid_error(changes, stage.balance, limit) if changes else math.inf
+        if index == last or error <= limit:
+            return stage, index, error
+        if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
+            index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None
+        else:
+            finer = refined(stage, grids, index, changes, limit)
+            index, changes, point, start = finer.index, finer.changes, finer.point, finer.balance
+
+
+def refined(
+    stage: Stage, grids: Sequence[RoughContact], index: int, changes: tuple[float, ...], limit: float
+) -> Refined:
+    """Contact on grids finer than ``grids[index]`` under the film and load of ``stage``, until the rest is within ``limit``.
+
+    What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
+    load would: no film is solved.
+    """
+    balance, contact, state, total = stage.balance, stage.point.contact, stage.balance.contact, 0.0
+    while index < len(grids) - 1:
+        index += 1
+        contact, found = under_the_film(stage, grids[index], contact, state)
+        change = found.volume_residual - state.volume_residual
+        changes, total, state = (*changes, change), total + change, found
+        if grid_error(changes, balance, limit) <= limit:
+            break
+    step = 0.0 if not balance.slope else min(max(-total / balance.slope, -LARGEST_MOVE), LARGEST_MOVE)
+    point = replace(stage.point, contact=contact)
+    return Refined(index, changes, point, replace(balance, contact=state).moved(step))
+
+
+def under_the_film(
+    stage: Stage, whole: RoughContact, coarser: RoughContact, state: ContactState
+) -> tuple[RoughContact, ContactState]:
+    """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state; from
+    ``state``, found on ``coarser``. It is solved to its own tolerance: between grids no more is asked."""
+    film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, coarser)
+    thickness, shape = stage.point.imposed_on(part, film)
+    found = part.close(thickness, load, state, shape)
+    if part is whole:
+        return whole, found
+    thickness, shape = stage.point.imposed_on(whole, film)
+    if whole.holds(part, shape, found):
+        return part, found
+    return whole, whole.close(thickness, load, found, shape)
+
+
+def grid_error(changes: Sequence[float], balance: Balance, limit: float) -> float:
+    """Estimated relative error of f from the contact grid; infinite where nothing can be said.
+
+    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
+    last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
+    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1
+    were small by chance; times 2 ``sensitivity``, the effect of a residual on f.
+    """
+    if balance.contact_load == 0:
+        return math.inf
+    sensitivity = balance.forces.sensitivity
+    bound = WORST_GRID * sensitivity
+    if bound <= limit:
+        return bound
+    if not changes:
+        return math.inf
+    d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
+    ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
+    return 2 * sensitivity * max(d1 * ratio / (1 - ratio), d2 / 12)

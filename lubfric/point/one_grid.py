@@ -1,0 +1,73 @@
+"""The balance on one contact grid, at the film level and tolerances that its own sensitivity asks for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from .. import budget
+from ..film.contract import LeftOut
+from ..film.ladder import given_level, higher, lowest_level
+from ..rough.contract import RoughContact
+from .balance import Balance, balanced
+from .operating_point import OperatingPoint, Settings
+from .tolerances import allowed_left_out, contact_tolerance, film_tolerance, least_cells, volume_tolerance
+
+ROUNDS = 8  # each with a higher level or tighter tolerances
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A point, its balance, and what its film leaves out."""
+
+    point: OperatingPoint
+    balance: Balance
+    left_out: LeftOut
+
+
+def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -> Stage:
+    """The balance on the point's contact, a part of ``whole``; on all of it where the part is not enough.
+
+    It is found again, from the last, until its settings are those that it shows to be needed.
+    """
+    for _ in range(ROUNDS):
+        balance = balanced(point, start)
+        if not point.suffices(whole, balance.film, balance.contact):
+            point = replace(point, contact=whole)
+            continue
+        line = point.line(balance.film_load)
+        stage = Stage(point, balance, point.settings.level.left_out(balance.film, line, math.inf))
+        settings = needed_settings(stage)
+        if settings is None:
+            break
+        point, start = replace(point, settings=settings), balance
+    whole.check(stage.balance.contact)
+    return stage
+
+
+def needed_settings(stage: Stage) -> Settings | None:
+    """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its own
+    will do. Beside a level given, the levels are those that leave out no more than is allowed."""
+    point, balance, settings = stage.point, stage.balance, stage.point.settings
+    numerics, levels = point.scene.numerics, point.model.film_levels
+    sensitivity = max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
+    allowed = allowed_left_out(numerics, sensitivity)
+    if given_level(levels, numerics) is None and not stage.left_out.total <= allowed:
+        lowest = lowest_level(levels, point.line(balance.film_load), allowed)[0]
+        level = higher(levels, settings.level, lowest)
+        if level != settings.level:  # the sensitivity found without it is no guide to tolerances
+            return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
+    film, volume = film_tolerance(numerics, sensitivity), volume_tolerance(numerics, sensitivity)
+    cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
+    if contact == settings.contact_tolerance:
+        fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
+        closed = abs(balance.contact.volume_residual) <= budget.SLACK * volume
+        if not balance.report.converged or closed and (fine or not settings.level.numerical):
+            return None
+    return replace(
+        settings,
+        film_tolerance=min(film, settings.film_tolerance),
+        volume_tolerance=min(volume, budget.SLACK * settings.volume_tolerance),
+        film_cells=cells,
+        contact_tolerance=contact,
+    )

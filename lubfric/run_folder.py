@@ -1,0 +1,82 @@
+"""The folder of ``lubfric run``: one writer, files that are whole, result.json last, the unfinished kept apart."""
+
+from __future__ import annotations
+
+import io
+import json
+import shutil
+from collections.abc import Callable
+from contextlib import contextmanager
+from pathlib import Path
+
+from .errors import InputError
+from .store import FolderLock, whole_file, write_whole
+from .store.whole import clear_parts, saying
+
+RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
+OUTPUTS = (  # of sweeps and of runs in time; the result, which says that a folder is complete, first to go and last to come
+    RESULT,
+    "stribeck.csv",
+    "stribeck.png",
+    "contact.png",
+    "history.csv",
+    "history.png",
+    "animation.gif",
+    "fields.npz",
+)
+
+
+class RunFolder:
+    """``path`` and the names of the files ``written`` to it. Made by `run_folder`."""
+
+    def __init__(self, path: Path, name: str):
+        self.path = path
+        self.unfinished = path / UNFINISHED / name[:16]
+        self.written: list[str] = []
+
+    def clear(self) -> None:
+        """Remove the results of an earlier run, now that those of this one are there to be written."""
+        with saying(f"results of an earlier run in {self.path} were not removed"):
+            for name in OUTPUTS:
+                (self.path / name).unlink(missing_ok=True)
+
+    def write(self, name: str, content: bytes) -> None:
+        """A file of the run, whole or not at all."""
+        write_whole(self.path / name, content)
+        self.written.append(name)
+
+    def draw(self, name: str, plot: Callable, *arguments) -> None:
+        """A figure: ``plot(file, *arguments)``."""
+        buffer = io.BytesIO()
+        plot(buffer, *arguments)
+        self.write(name, buffer.getvalue())
+
+    def make(self, name: str, save: Callable, *arguments) -> None:
+        """A file that ``save(path, *arguments)`` can only write by name."""
+        with whole_file(self.path / name) as part:
+            save(part, *arguments)
+        self.written.append(name)
+
+    def finish(self, record: dict) -> None:
+        """Write result.json, which names what belongs to it: the run is complete, and what it kept for a resume goes."""
+        files = sorted([*self.written, RESULT])
+        self.write(RESULT, json.dumps({"files": files} | record, indent=1, allow_nan=False).encode())
+        shutil.rmtree(self.unfinished, ignore_errors=True)
+        with saying(f"{self.unfinished.parent} was not removed"):
+            if self.unfinished.parent.is_dir() and not any(self.unfinished.parent.iterdir()):
+                self.unfinished.parent.rmdir()
+
+
+@contextmanager
+def run_folder(path, fingerprint: str):
+    """A `RunFolder` for the run of that ``fingerprint`` in ``path``.
+
+    Raises `InputError` for a file and for a folder that another process writes to, `OutputError` where it cannot be used.
+    What an interrupted run of the same fingerprint kept is in ``.unfinished``; that of others is left alone.
+    """
+    path = Path(path)
+    if path.exists() and not path.is_dir():
+        raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
+    with FolderLock(path):
+        clear_parts(path)
+        yield RunFolder(path, fingerprint)

@@ -1,0 +1,129 @@
+"""``lubfric run`` on a steady scene: its Stribeck curve, written to a folder."""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+
+import numpy as np
+
+from . import validate
+from .console import keeping, say
+from .deterministic.output import deterministic_bytes, plot_deterministic
+from .errors import ConvergenceError, InputError, ValidityError
+from .model import prepare
+from .output import csv_bytes, curve_record, fields_bytes, read_csv
+from .plot import plot_contact, plot_stribeck
+from .run_folder import RunFolder, run_folder
+from .scene import Scene
+from .store import fingerprint
+from .sweep import stribeck
+
+MOST = 10**6  # speeds of a curve
+
+
+def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -> int:
+    """Compute and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
+
+    The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
+    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run has
+    is written, then `ConvergenceError` raised.
+    """
+    asked = parse_speeds(speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    asked, chosen = _with_chosen(asked, parse_speeds(fields) or [scene.motion.entrainment_speed])
+    validate.array("speeds", asked, "m/s", ndim=1)
+    begun, counted = time.perf_counter(), [0]
+    say(f"{scene.name}: preparing the height map and the contact")
+    model = prepare(scene)
+    say(model.surface.describe())
+
+    def on_point(done, total, speed, outcome):
+        counted[0] = done
+        _progress(done, total, speed, outcome)
+
+    def kept() -> str:
+        return (
+            f"interrupted; {counted[0]} of {len(asked)} points are kept in {out}: the same command goes on from there"
+        )
+
+    with keeping(kept), run_folder(out, fingerprint(model, asked, chosen)) as folder:
+        curve = stribeck(
+            model, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
+        )
+        _write(folder, model, curve, chosen)
+        folder.finish(curve_record(model, curve, time.perf_counter() - begun))
+    for text in curve.validity:
+        say(text)
+    if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
+        say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
+    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
+    if curve.errors:
+        raise _unsolved(curve)
+    return 0
+
+
+def _unsolved(curve) -> ConvergenceError:
+    """How many speeds failed and how many were refused, and the first of them."""
+    total, failed = curve.speed.size, sum(not isinstance(error, ValidityError) for error in curve.errors.values())
+    counts = [f"{failed} of {total} speeds failed"] if failed else []
+    if len(curve.errors) > failed:
+        counts.append(f"{len(curve.errors) - failed} of {total} speeds refused (--accept keeps them, marked)")
+    return ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
+
+
+def _write(folder: RunFolder, model, curve, chosen) -> None:
+    """All but the result."""
+    folder.clear()
+    folder.write("stribeck.csv", csv_bytes(curve))
+    if len(curve.errors) < curve.speed.size:
+        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), model.scene.name)
+    points = [p for p in curve.points if p is not None and p.balance is not None]
+    if points:
+        points.sort(key=lambda p: chosen.index(p.speed))
+        folder.write("fields.npz", fields_bytes(model, points))
+        folder.draw("contact.png", plot_contact, model, points[0])
+    whole = [p for p in curve.points if p is not None and p.deterministic is not None]
+    if whole:
+        whole.sort(key=lambda p: chosen.index(p.speed))
+        folder.write("fields.npz", deterministic_bytes([p.deterministic.result for p in whole]))
+        folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, model.scene.bodies.half_width)
+
+
+def parse_speeds(text: str | None) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
+    if not text:
+        return []
+    allowed = f"allowed: '0.001,0.01' or 'low:high:count' with 0 < low, 1 <= count <= {MOST}, in m/s"
+    try:
+        if ":" in text:
+            low, high, count = text.split(":")
+            if not 1 <= int(count) <= MOST:
+                raise InputError(f"speeds = {text!r} with a count of {count}; {allowed}")
+            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
+        return [float(u) for u in text.split(",")]
+    except (ValueError, FloatingPointError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"speeds = {text!r}; {allowed}") from None
+
+
+def _with_chosen(speeds, chosen):
+    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
+    own = []
+    for speed in chosen:
+        near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
+        own.append(near[0] if near else speed)
+        speeds = speeds if near else [*speeds, speed]
+    return speeds, own
+
+
+def _progress(done, total, speed, outcome) -> None:
+    if isinstance(outcome, Exception):
+        verb = "refused" if isinstance(outcome, ValidityError) else "failed"
+        say(f"[{done}/{total}] U = {speed:.4g} m/s {verb}: {outcome}")
+    else:
+        say(
+            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
+            f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
+        )

@@ -1,0 +1,126 @@
+"""The curve between its points: known curves come back, the knee is found, few solves, resume, what is refused."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.curve import Interpolant, Samples, next_speed
+from lubfric.curve.choose import first_speeds
+from lubfric.curve.interpolate import knee_of
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+)
+
+
+class Made:
+    """A curve in closed form: contact share (1 - (U/U0)^a)^(3/2), film friction a power of U."""
+
+    def __init__(self, lift_off, exponent, friction=0.1):
+        self.lift_off, self.exponent, self.friction = lift_off, exponent, friction
+
+    def at(self, speed):
+        share = np.maximum(1 - (speed / self.lift_off) ** self.exponent, 0.0) ** 1.5
+        return self.friction * share, 0.03 * speed**0.45 * (1 - 0.8 * share)
+
+    def samples(self, speeds):
+        boundary, film = self.at(np.sort(speeds))
+        clearance = 3.0 * ((np.sort(speeds) / self.lift_off) ** 0.65 - 1)
+        return Samples(np.sort(speeds), boundary, film, boundary > 0, np.where(boundary > 0, np.nan, clearance))
+
+
+@pytest.mark.parametrize("lift_off", [0.003, 0.05, 0.4])
+@pytest.mark.parametrize("exponent", [0.5, 0.8, 1.2])
+@pytest.mark.parametrize("tolerance", [0.01, 0.05])
+def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, exponent, tolerance):
+    curve, speeds = Made(lift_off, exponent), list(first_speeds(1e-4, 1.0))
+    while len(speeds) < 25:
+        speed, error = next_speed(curve.samples(np.array(speeds)), tolerance)
+        if speed is None:
+            break
+        assert 1e-4 < speed < 1.0 and min(abs(np.log(speed / np.array(speeds)))) > 0.01
+        speeds.append(speed)
+    samples = curve.samples(np.array(speeds))
+    found = Interpolant(samples, knee_of(samples))
+    at = np.geomspace(1e-4, 1.0, 2000)
+    true = sum(curve.at(at))
+    assert np.abs(found.at(at) / true - 1).max() <= tolerance
+    assert found.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
+    assert len(speeds) <= (14 if tolerance == 0.01 else 11)
+
+
+@pytest.mark.parametrize("lift_off", [1e-6, 100.0])
+def test_curves_without_a_knee(lift_off):
+    curve, speeds = Made(lift_off, 0.8), list(first_speeds(1e-4, 1.0))
+    while (speed := next_speed(curve.samples(np.array(speeds)), 0.01)[0]) is not None:
+        speeds.append(speed)
+    samples = curve.samples(np.array(speeds))
+    at = np.geomspace(1e-4, 1.0, 500)
+    assert knee_of(samples) is None and len(speeds) <= 10
+    np.testing.assert_allclose(Interpolant(samples, None).at(at), sum(curve.at(at)), rtol=0.01)
+
+
+def test_speeds_that_failed_are_left_alone():
+    curve = Made(0.05, 0.8)
+    samples = curve.samples(first_speeds(1e-4, 1.0))
+    speed, _ = next_speed(samples, 0.01)
+    other, _ = next_speed(samples, 0.01, tried=[speed])
+    assert abs(np.log(other / speed)) > 0.01
+
+
+@pytest.fixture(scope="module")
+def auto():
+    return lubfric.stribeck(SCENE, "auto")
+
+
+def test_an_adaptive_curve_is_that_of_many_solves(auto):
+    assert auto.report.converged and auto.speed.size <= 14 and auto.report.residual <= 0.01
+    assert auto.speed[0] == pytest.approx(SCENE.motion.speeds[0]) and auto.speed[-1] == pytest.approx(1.0)
+    speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
+    direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)
+    np.testing.assert_allclose(auto.at(speeds), direct.coefficient, rtol=0.01)
+    assert direct.contact_load[speeds < auto.lift_off][-1] > 0 == direct.contact_load[speeds > auto.lift_off][0]
+
+
+def test_a_cut_adaptive_curve_goes_on_to_the_same_bits(auto, tmp_path):
+    class Cut(Exception):
+        pass
+
+    def cutting(done, *_):
+        if done == 8:
+            raise Cut
+
+    with pytest.raises(Cut):
+        lubfric.stribeck(SCENE, "auto", store=tmp_path, on_point=cutting)
+    again = lubfric.stribeck(SCENE, "auto", store=tmp_path)
+    np.testing.assert_array_equal(again.speed, auto.speed)
+    np.testing.assert_array_equal(again.coefficient, auto.coefficient)
+
+
+def test_fields_of_an_adaptive_curve():
+    curve = lubfric.stribeck(SCENE.with_(numerics={"tolerance": 0.1}), "auto", fields=[0.02])
+    (kept,) = [p for p in curve.points if p.balance is not None]
+    assert kept.speed == 0.02 and kept.balance.contact.pressure.shape == (64, 64)
+
+
+def test_the_range_where_a_scene_has_no_speeds():
+    from lubfric.curve.span import span
+
+    scene = SCENE.with_(motion={"speeds": ()})
+    low, high = span(lubfric.prepare(scene))
+    ends = lubfric.stribeck(scene, [low, high])
+    assert ends.coefficient[0] == pytest.approx(0.09, rel=0.02)
+    assert 5 < ends.film_to_roughness_ratio[1] < 12 and ends.contact_load[1] == 0
+    with pytest.raises(lubfric.InputError, match="speed_range"):
+        span(lubfric.prepare(scene.with_(surface={"sq": 0.0})))
+
+
+def test_what_an_interpolation_refuses(auto):
+    for speed in (1e-5, 2.0, [0.1, 3.0]):
+        with pytest.raises(lubfric.InputError, match="where the curve is known"):
+            auto.at(speed)
+    with pytest.raises(lubfric.InputError, match="2 speeds are solved"):
+        lubfric.stribeck(SCENE, [0.1, 0.2]).at(0.15)
+    with pytest.raises(lubfric.InputError, match="fields"):
+        lubfric.stribeck(SCENE, "auto", fields=True)
+    assert np.shape(auto.at(0.1)) == () and auto.at([0.1, 0.2]).shape == (2,)

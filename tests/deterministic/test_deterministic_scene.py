@@ -1,0 +1,126 @@
+"""numerics.model = "deterministic" in friction and stribeck: the same words, what is refused, grids by the tolerance."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.deterministic.point import grids
+from lubfric.store.codec import decode, encode
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"model": "deterministic", "grid": "given"}
+)
+MODEL = lubfric.prepare(SCENE)
+POINT = lubfric.friction(MODEL, 0.01)
+
+
+def test_the_words_of_a_result_keep_their_meaning():
+    found, b = POINT.deterministic.result, SCENE.bodies
+    assert POINT.contact_load + POINT.film_load == pytest.approx(b.load)
+    assert POINT.coefficient * b.load == pytest.approx(POINT.boundary_force + POINT.shear_force)
+    assert POINT.boundary_force == pytest.approx(0.09 * POINT.contact_load)
+    (dx, dy), ny = found.spacing, found.pressure.shape[1]
+    spots = found.pressure[found.spots].sum() * dx * dy * b.width / (ny * dy)
+    assert spots == pytest.approx(POINT.contact_load)
+    assert POINT.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))
+    assert POINT.balance is None and np.isnan(POINT.volume_residual) and POINT.report.converged
+    assert "deterministic" in POINT.decision.film and "estimated error" in POINT.report.notes[0]
+
+
+def test_it_is_not_far_from_load_sharing_and_not_the_same():
+    shared = lubfric.friction(lubfric.prepare(SCENE.with_(numerics={"model": "full"}), like=MODEL), 0.01)
+    assert POINT.coefficient == pytest.approx(shared.coefficient, rel=0.25)
+    assert abs(POINT.coefficient / shared.coefficient - 1) > 1e-3
+
+
+def test_no_entrainment_and_the_other_way_round():
+    still = lubfric.friction(MODEL, 0.0)
+    assert still.coefficient == pytest.approx(0.09) and still.film_load == 0
+    surface = MODEL.surface
+    from dataclasses import replace
+
+    turned = lubfric.prepare(SCENE, surface=replace(surface, heights=surface.heights[::-1]))
+    assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(POINT.coefficient, rel=1e-6)
+
+
+def test_a_sweep_starts_from_neighbours_and_keeps_fields_only_where_asked():
+    speeds = [0.02, 0.01, 0.005]
+    curve = lubfric.stribeck(MODEL, speeds, fields=[0.005])
+    assert np.all(np.diff(curve.contact_load) > 0) and np.all(np.isfinite(curve.mean_gap))
+    assert curve.coefficient[1] == pytest.approx(POINT.coefficient, rel=1e-4)
+    assert curve.points[1].deterministic is None and curve.points[2].deterministic.result.pressure.shape[1] == 64
+    alone = lubfric.friction(MODEL, 0.005).deterministic.result.report.iterations
+    assert curve.points[2].deterministic.result.report.iterations < alone + 1
+
+
+def test_a_result_can_be_stored_and_started_from_again():
+    again = decode(encode(POINT))
+    assert np.array_equal(again.deterministic.result.pressure, POINT.deterministic.result.pressure)
+    assert lubfric.friction(MODEL, 0.008, start=again).coefficient == pytest.approx(
+        lubfric.friction(MODEL, 0.008, start=POINT).coefficient, rel=1e-12
+    )
+
+
+def test_the_tolerance_chooses_the_grid():
+    scene = SCENE.with_(numerics={"grid": "auto"})
+    assert grids(scene, MODEL.surface)[:2] == ((32, 32), (64, 64))
+    loose = lubfric.friction(scene, 0.03, tolerance=0.2).deterministic
+    tight = lubfric.friction(scene, 0.03, tolerance=0.01).deterministic
+    assert len(loose.results) == 2 < len(tight.results) and tight.error <= 0.01 < loose.error
+    assert abs(loose.result.coefficient / tight.result.coefficient - 1) < 2 * loose.error
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"contact": {"geometry": "flat"}},
+        {"contact": {"model": "summits"}},
+        {"contact": {"region": "box"}},
+        {"motion": {"slide_roll_ratio": 0.5}},
+        {"numerics": {"closure": "separation"}},
+        {"numerics": {"film_deflection": "scaled"}},
+        {"numerics": {"film_level": "ehl"}},
+        {"numerics": {"contact_level": "semi-periodic"}},
+        {"numerics": {"cavitated_shear": "striated"}},
+    ],
+    ids=lambda change: ".".join([*change, *next(iter(change.values()))]),
+)
+def test_what_it_does_not_take_is_refused_before_any_work(change):
+    key = next(iter(next(iter(change.values()))))
+    with pytest.raises(lubfric.InputError, match=f"{key}.*deterministic"):
+        lubfric.prepare(SCENE.with_(**change))
+    with pytest.raises(lubfric.InputError, match=key):
+        lubfric.stribeck(SCENE.with_(**change), [0.01])
+
+
+def test_a_transient_is_refused():
+    with pytest.raises(lubfric.InputError, match="deterministic"):
+        lubfric.transient(SCENE, [0.0, 1e-3])
+
+
+def test_heat_is_refused_and_not_left_out_in_silence():
+    with pytest.raises(lubfric.InputError, match="isothermal"):
+        lubfric.prepare(
+            SCENE.with_(numerics={"heat": "on"}, lubricant={"temperature": 313.0, "temperature_coefficient": 0.04})
+        )
+
+
+def test_a_newtonian_film_beyond_its_range_is_told():
+    heavy = SCENE.with_(bodies={"load": 60.0}, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
+    told = {entry.what for entry in lubfric.friction(heavy, 0.1).validity}
+    assert "share of the load on a saturated film" in told and any("pressure" in what for what in told)
+
+
+def test_the_command_writes_its_fields(tmp_path):
+    from lubfric.cli import main
+
+    scene = tmp_path / "scene.toml"
+    text = (Path(lubfric.__file__).parent / "scenes" / "paper.toml").read_text()
+    text = text.replace("shape = [200, 200]", "shape = [32, 32]").replace("spacing = 0.45e-6", "spacing = 2.8125e-6")
+    scene.write_text(text + '\n[numerics]\nmodel = "deterministic"\ngrid = "given"\n')
+    assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--speeds", "0.01,0.003", "--fields", "0.003"]) == 0
+    fields = np.load(tmp_path / "out" / "fields.npz")
+    assert fields["pressure_0"].shape == fields["gap_0"].shape and fields["speed"] == 0.003
+    assert (tmp_path / "out" / "contact.png").stat().st_size > 10_000

@@ -1,0 +1,168 @@
+"""Fits: made-up data come back within their regions, what data cannot tell is said, files are read by name and unit."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.fitting.parameters import parameters_of
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6},
+    surface={"correlation_length": 4e-6},
+    lubricant={"eyring_stress": 5e6},
+)
+SPEEDS = np.geomspace(1e-3, 0.5, 10)
+TRUTH = {"bodies.boundary_friction_coefficient": 0.12, "lubricant.viscosity": 0.2}
+BOUNDS = {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.viscosity": (0.05, 1.0)}
+
+
+def made_up(seed, noise=0.05):
+    scene = SCENE.with_(bodies={"boundary_friction_coefficient": 0.12}, lubricant={"viscosity": 0.2})
+    true = lubfric.stribeck(scene, SPEEDS, tolerance=2e-3).coefficient
+    return lubfric.Measured(SPEEDS, true * (1 + noise * np.random.default_rng(seed).normal(size=SPEEDS.size)))
+
+
+@pytest.fixture(scope="module")
+def fitted():
+    return lubfric.fit(SCENE, made_up(1), BOUNDS)
+
+
+def test_the_true_values_are_in_the_region(fitted):
+    assert fitted.contains(TRUTH) and fitted.report.converged and not fitted.undetermined and not fitted.at_bounds
+    for key, (low, high) in fitted.intervals.items():
+        assert low < TRUTH[key] < high and high / low < 1.5
+    assert not fitted.contains({**TRUTH, "lubricant.viscosity": 0.4})
+    assert fitted.scene.lubricant.viscosity == pytest.approx(fitted.values["lubricant.viscosity"])
+    low, high = fitted.band
+    assert np.all(low < fitted.predicted) and np.all(fitted.predicted < high)
+
+
+def test_the_fit_is_a_minimum(fitted):
+    """No neighbour within the bounds comes closer to the data, judged by curves of another tolerance."""
+
+    def squares(values):
+        sections = {"bodies": {}, "lubricant": {}}
+        for key, value in values.items():
+            section, _, name = key.partition(".")
+            sections[section][name] = value
+        f = lubfric.stribeck(SCENE.with_(**sections), SPEEDS, tolerance=2e-3).coefficient
+        return np.sum((f / fitted.measured.coefficient - 1) ** 2)
+
+    least = squares(fitted.values)
+    for key, deviation in fitted.deviations.items():
+        for sign in (-1, 1):
+            assert squares(fitted.values | {key: fitted.values[key] + sign * deviation}) > least
+
+
+def test_covariance_is_that_of_the_slopes(fitted):
+    """Against s² (JᵀJ)⁻¹ from central differences in the parameters' own units."""
+    columns = []
+    for key, width in (("bodies.boundary_friction_coefficient", 0.006), ("lubricant.viscosity", 0.01)):
+        section, _, name = key.partition(".")
+        ends = [
+            lubfric.stribeck(
+                fitted.scene.with_(**{section: {name: fitted.values[key] + sign * width}}), SPEEDS, tolerance=1e-3
+            ).coefficient
+            for sign in (-1, 1)
+        ]
+        columns.append((ends[1] - ends[0]) / (2 * width) / fitted.measured.coefficient)
+    slopes = np.stack(columns, axis=1)
+    residuals = fitted.predicted / fitted.measured.coefficient - 1
+    expected = residuals @ residuals / (SPEEDS.size - 2) * np.linalg.inv(slopes.T @ slopes)
+    np.testing.assert_allclose(np.sqrt(np.diag(fitted.covariance)), np.sqrt(np.diag(expected)), rtol=0.1)
+    found = fitted.correlation[0, 1]
+    assert found == pytest.approx(expected[0, 1] / np.sqrt(expected[0, 0] * expected[1, 1]), abs=0.1)
+
+
+def test_what_the_data_cannot_tell_is_said():
+    """A film at some tens of MPa and thin rates hardly feels a far higher Eyring stress."""
+    found = lubfric.fit(
+        SCENE, made_up(2), {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.eyring_stress": (4e7, 4e8)}
+    )
+    assert "lubricant.eyring_stress" in found.undetermined and "the data cannot tell it" in found.explain()
+    assert "bodies.boundary_friction_coefficient" not in found.undetermined
+
+
+@pytest.mark.slow
+def test_ninety_of_a_hundred_regions_hold_the_truth():
+    held = sum(lubfric.fit(SCENE, made_up(seed), BOUNDS).contains(TRUTH) for seed in range(100))
+    assert held >= 90
+
+
+def test_a_traction_curve():
+    slips = np.array([0.02, 0.05, 0.1, 0.2, 0.5, 1.0])
+    scene = SCENE.with_(motion={"entrainment_speed": 0.3})
+    true = [
+        lubfric.friction(
+            scene.with_(motion={"slide_roll_ratio": float(s)}, lubricant={"eyring_stress": 1e5}), tolerance=2e-3
+        ).coefficient
+        for s in slips
+    ]
+    measured = lubfric.Measured(slips, np.array(true), over="slide_roll_ratio")
+    found = lubfric.fit(scene, measured, {"lubricant.eyring_stress": (1e4, 2e6)})
+    assert found.values["lubricant.eyring_stress"] == pytest.approx(1e5, rel=0.05)
+
+
+def test_parameters_between_their_bounds():
+    found = parameters_of(
+        SCENE, {"lubricant.viscosity": (0.05, 1.0), "bodies.boundary_friction_coefficient": (0.1, 0.2)}
+    )
+    unit = np.array([0.3, 0.7])
+    np.testing.assert_allclose(found.unit(found.values(unit)), unit, rtol=1e-12)
+    np.testing.assert_allclose(found.values(np.array([0.0, 1.0])), [0.05, 0.2])
+    assert found.logarithmic.tolist() == [True, False]
+    moved = (found.values(unit + 1e-6) - found.values(unit - 1e-6)) / 2e-6
+    np.testing.assert_allclose(found.slopes(unit), moved, rtol=1e-6)
+
+
+def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
+    path = tmp_path / "m.csv"
+    path.write_text("# rig 3\nU [mm/s],mu (-),s\n100,0.05,0.001\n1,0.1,0.002\n")
+    found = lubfric.read_measured(path, coefficient="mu (-)", speed="U [mm/s]", deviation="s")
+    np.testing.assert_allclose(found.x, [1e-3, 0.1])
+    np.testing.assert_allclose(found.coefficient, [0.1, 0.05])
+    np.testing.assert_allclose(found.deviation, [0.002, 0.001])
+    path.write_text("SRR [%];mu\n50;0,05\n10;0,02\n")
+    found = lubfric.read_measured(path, coefficient="mu", slide_roll_ratio="SRR [%]")
+    np.testing.assert_allclose(found.x, [0.1, 0.5])
+    np.testing.assert_allclose(found.coefficient, [0.02, 0.05])
+
+
+@pytest.mark.parametrize(
+    "text, names, words",
+    [
+        ("U [m/s],mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.' .did you mean"),
+        ("U,mu\n1,0.1\n", {"speed": "U", "coefficient": "mu"}, "names no unit"),
+        ("U [rpm],mu\n1,0.1\n", {"speed": "U [rpm]", "coefficient": "mu"}, "'rpm' is not known"),
+        ("U [m/s],mu\n1,x\n", {"speed": "U [m/s]", "coefficient": "mu"}, "holds no numbers"),
+        ("U [m/s],mu\n1,0.1,3\n", {"speed": "U [m/s]", "coefficient": "mu"}, "row 2"),
+        ("U [m/s],mu\n1,0.1\n1,0.2\n", {"speed": "U [m/s]", "coefficient": "mu"}, "twice"),
+        ("U [m/s],mu\n1,-0.1\n", {"speed": "U [m/s]", "coefficient": "mu"}, "not positive"),
+        ("", {"speed": "U [m/s]", "coefficient": "mu"}, "no heading"),
+        ("U [m/s],mu\n1,0.1\n", {"coefficient": "mu"}, "one axis"),
+    ],
+)
+def test_bad_files(tmp_path, text, names, words):
+    (tmp_path / "m.csv").write_text(text)
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.read_measured(tmp_path / "m.csv", **names)
+
+
+@pytest.mark.parametrize(
+    "parameters, words",
+    [
+        ({}, "must be a dict"),
+        ({"lubricant.viscosity": 0.1}, "a pair"),
+        ({"lubricant.viscosity": (0.2, 0.1)}, "highest"),
+        ({"lubricant.viscosty": (0.1, 0.2)}, "viscosty"),
+        ({"numerics.tolerance": (0.1, 0.2)}, "a number of"),
+        ({"motion.entrainment_speed": (0.1, 0.2)}, "measured, not fitted"),
+        ({"bodies.load": (-1.0, 2.0)}, "bodies.load"),
+    ],
+)
+def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
+    measured = lubfric.Measured(np.array([0.1, 0.2]), np.array([0.1, 0.1]))
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.fit(SCENE, measured, parameters)
+    with pytest.raises(lubfric.InputError, match="more points"):
+        lubfric.fit(SCENE, measured, BOUNDS)

@@ -1,0 +1,300 @@
+"""The folder of a run: nothing lost, torn or mixed by kills, interrupts, full disks, broken streams and other runs."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric import output
+from lubfric.cli import main
+from lubfric.store import FolderLock
+
+ROOT = Path(__file__).parents[2]
+SCENE = """
+[bodies]
+radius = 2e-3
+width = 6e-3
+load = 5.5
+e_prime = 231e9
+boundary_friction_coefficient = 0.09
+[lubricant]
+viscosity = 0.36
+pressure_viscosity_coefficient = 25e-9
+[motion]
+entrainment_speed = 0.01
+speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
+[surface]
+sq = 1e-7
+correlation_length = 4e-6
+[contact]
+shape = [48, 48]
+spacing = 1.1e-6
+"""
+HISTORY = '[transient]\nduration = 0.01\noutputs = 10\nspeed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
+COUNTED = """
+import sys
+from lubfric.studies import chain
+real = chain.friction
+def counted(*arguments, **options):
+    found = real(*arguments, **options)
+    print("solved", flush=True)
+    return found
+chain.friction = counted
+from lubfric.cli import main
+sys.exit(main(["run", sys.argv[1], "--out", sys.argv[2]]))
+"""
+
+
+def written(folder, text=SCENE):
+    (folder / "scene.toml").write_text(text)
+    return str(folder / "scene.toml")
+
+
+def start(scene, out, code=COUNTED, **options):
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
+    return subprocess.Popen([sys.executable, "-c", code, scene, str(out)], env=environment, **options)
+
+
+def same(one: Path, other: Path):
+    """The same numbers to the last bit, but for the time taken."""
+    name = "stribeck.csv" if (one / "stribeck.csv").is_file() else "history.csv"
+    here, there = (output.read_csv(folder / name) for folder in (one, other))
+    for column in here.keys() - {"seconds"}:
+        np.testing.assert_array_equal(here[column], there[column], err_msg=column)
+    with np.load(one / "fields.npz") as here, np.load(other / "fields.npz") as there:
+        assert here.files == there.files
+        for column in here.files:
+            np.testing.assert_array_equal(here[column], there[column], err_msg=column)
+
+
+def complete(out: Path):
+    """Nothing in the folder but what its result names."""
+    record = json.loads((out / "result.json").read_text())
+    assert record["files"] == sorted(path.name for path in out.iterdir()), list(out.iterdir())
+    return record
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("whole")
+    assert main(["run", written(folder), "--out", str(folder / "out")]) == 0
+    return folder / "out"
+
+
+@pytest.fixture(scope="module")
+def whole_history(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("whole")
+    assert main(["run", written(folder, SCENE + HISTORY), "--out", str(folder / "out")]) == 0
+    return folder / "out"
+
+
+def readable(out: Path):
+    """Every file of the outputs that is there is whole."""
+    for path in out.glob("*"):
+        if path.suffix == ".csv":
+            assert len(output.read_csv(path)) > 10
+        elif path.suffix == ".json":
+            json.loads(path.read_text())
+        elif path.suffix == ".npz":
+            with np.load(path) as fields:
+                assert all(fields[name].size for name in fields.files)
+        elif path.suffix == ".png":
+            assert path.read_bytes()[-8:-4] == b"IEND"
+
+
+def killed_until_done(scene, out, rng, kills):
+    """(points solved in all runs together, kills): killed at random moments from the start to the last file."""
+    solved = used = 0
+    while True:
+        process = start(scene, out)
+        if used < kills:
+            first = process.stdout.readline()  # beyond the imports
+            time.sleep(rng.exponential(0.05))
+            process.kill()
+            used += process.poll() is None or process.wait() == -signal.SIGKILL
+        else:
+            first = ""
+        text = first + process.communicate()[0]
+        solved += text.count("solved")
+        if out.is_dir():
+            readable(out)
+        if process.returncode == 0:
+            return solved, used
+        assert process.returncode == -signal.SIGKILL, process.returncode
+
+
+@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
+def test_killed_sweeps_lose_repeat_and_tear_nothing(whole, tmp_path, kills):
+    rng, left = np.random.default_rng(kills), kills
+    for run in range(100):
+        out = tmp_path / str(run)
+        solved, used = killed_until_done(written(tmp_path), out, rng, min(left, 4))
+        complete(out)
+        same(out, whole)
+        assert solved <= 5 + used  # a kill costs at most the point that is being solved
+        left -= used
+        if left <= 0:
+            break
+
+
+@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
+def test_killed_runs_in_time_lose_repeat_and_tear_nothing(whole_history, tmp_path, kills):
+    rng, left = np.random.default_rng(kills), kills
+    for run in range(100):
+        out, used = tmp_path / str(run), 0
+        while True:
+            process = start(written(tmp_path, SCENE + HISTORY), out)
+            if used < min(left, 4):
+                while (
+                    process.poll() is None and not (out / "checkpoint").is_dir() and not (out / "result.json").is_file()
+                ):
+                    time.sleep(0.01)
+                time.sleep(rng.exponential(0.3))
+                process.kill()
+                used += 1
+            process.communicate()
+            readable(out)
+            if process.returncode == 0:
+                break
+        complete(out)
+        same(out, whole_history)
+        left -= used
+        if left <= 0:
+            break
+
+
+def signalling(sent, after):
+    """`lubfric.friction` that sends its own process a signal after some calls."""
+    count = [0]
+
+    def solve(*arguments, **options):
+        count[0] += 1
+        if count[0] == after:
+            os.kill(os.getpid(), sent)
+        return lubfric.friction(*arguments, **options)
+
+    return solve
+
+
+@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkeypatch, capsys, sent, code):
+    out = tmp_path / "out"
+    monkeypatch.setattr("lubfric.studies.chain.friction", signalling(sent, 4))
+    assert main(["run", written(tmp_path), "--out", str(out)]) == code
+    said = capsys.readouterr().err.splitlines()
+    assert said[-1] == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there"
+    assert not (out / "result.json").exists()
+    monkeypatch.setattr("lubfric.studies.chain.friction", signalling(sent, 3))
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 0  # two points were left
+    same(out, whole)
+
+
+def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
+    from lubfric.unsteady import checkpoint
+
+    real, count = checkpoint.Checkpoint.save, [0]
+
+    def save(*arguments):
+        real(*arguments)
+        count[0] += 1
+        if count[0] == 7:
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(checkpoint.Checkpoint, "save", save)
+    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 143
+    assert "is kept in" in capsys.readouterr().err.splitlines()[-1]
+    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 0
+    complete(tmp_path / "out")
+    same(tmp_path / "out", whole_history)
+
+
+@pytest.mark.parametrize("text", [SCENE, pytest.param(SCENE + HISTORY, marks=pytest.mark.slow)])
+def test_broken_streams_never_stop_a_computation(tmp_path, text):
+    process = start(
+        written(tmp_path, text),
+        tmp_path / "out",
+        "import sys; from lubfric.cli import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
+    )
+    process.stderr.close(), process.stdout.close()
+    assert process.wait() == 0
+    complete(tmp_path / "out")
+
+
+def test_a_closed_stdout_is_no_error_of_info():
+    code = "import sys; from lubfric.cli import main; sys.exit(main(['info', sys.argv[1]]))"
+    process = start("paper", "-", code)
+    process.stdout.close()
+    with process.stderr as stderr:
+        assert process.wait() == 0 and stderr.read() == ""
+
+
+def test_the_results_of_an_earlier_run_stay_until_the_new_ones_are_there(tmp_path, monkeypatch, capsys):
+    out = tmp_path / "out"
+    assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.3"]) == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    for text in (
+        SCENE.replace("load = 5.5", "load = -1"),
+        SCENE.replace("1.1e-6", "1e-4"),
+        SCENE + "[transient]\nduration = 1\nload = 99.0",
+    ):
+        assert main(["run", written(tmp_path, text), "--out", str(out)]) == 2
+        assert {path.name: path.read_bytes() for path in out.iterdir()} == before
+    assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "nan"]) == 2
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == before
+    assert (
+        main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(out)]) == 0
+    )  # a sweep and a run in time do not mix
+    assert "history.csv" in complete(out)["files"] and not (out / "stribeck.csv").exists()
+
+
+def test_a_second_writer_is_refused(tmp_path, capsys):
+    with FolderLock(tmp_path / "out"):
+        assert main(["run", written(tmp_path), "--out", str(tmp_path / "out")]) == 2
+    assert "is being written by another run" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["fields.npz", "result.json"])
+def test_a_full_disk_is_one_line_and_the_points_are_kept(tmp_path, whole, monkeypatch, capsys, name):
+    real = os.replace
+
+    def full(part, path):
+        if Path(path).name == name:
+            raise OSError(28, "No space left on device")
+        real(part, path)
+
+    monkeypatch.setattr(os, "replace", full)
+    assert main(["run", written(tmp_path), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert said[-1].endswith(f"{name} was not written: No space left on device") and "Traceback" not in "".join(said)
+    assert not (tmp_path / "out" / "result.json").exists()
+    monkeypatch.setattr(os, "replace", real)
+    monkeypatch.setattr("lubfric.studies.chain.friction", None)  # every point is there
+    assert main(["run", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
+    same(tmp_path / "out", whole)
+
+
+def test_a_folder_that_cannot_be_written_is_one_line(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    for out in (tmp_path / "file", tmp_path / "file" / "out", Path("/proc/out")):
+        assert main(["run", written(tmp_path), "--out", str(out)]) == 2
+        assert capsys.readouterr().err.splitlines()[-1].startswith("lubfric: ")
+
+
+def test_another_unfinished_run_in_the_folder_is_kept(tmp_path, whole, monkeypatch):
+    out = tmp_path / "out"
+    monkeypatch.setattr("lubfric.studies.chain.friction", signalling(signal.SIGINT, 3))
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 130
+    assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
+    assert json.loads((out / "result.json").read_text())["points"][0]["speed"] == 0.3
+    assert len(list((out / "unfinished").iterdir())) == 1
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 0
+    complete(out)
+    same(out, whole)

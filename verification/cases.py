@@ -1,0 +1,23 @@
+"""Smooth line contacts by their Moes numbers, as arguments of the film solvers."""
+
+from __future__ import annotations
+
+import math
+
+ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
+
+
+def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:
+    """SI arguments with the Moes numbers M and L; L = 0 is the constant viscosity."""
+    law, effective = ("constant", 5.0) if L == 0 else (law, L)
+    u1 = (effective / (ALPHA * E_PRIME)) ** 4
+    return {
+        "load_per_width": M * math.sqrt(u1) * E_PRIME * RADIUS,
+        "radius": RADIUS,
+        "e_prime": E_PRIME,
+        "entrainment_speed": u1 * E_PRIME * RADIUS / (2 * VISCOSITY),
+        "viscosity": VISCOSITY,
+        "pressure_viscosity_coefficient": ALPHA,
+        "viscosity_law": law,
+        "density": density,
+    }

@@ -1,0 +1,150 @@
+"""The frame of every command: what may be asked, the studies run, page and files written, the exit code.
+
+A command is a list of studies and little else (`Command`); its studies hand over checks, tables, figures and fields
+(`check`), and the run fails when a check that decides does.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from . import report as reports
+from .check import Check
+from .run import run
+from .studies import Study
+
+
+@dataclass(frozen=True)
+class Command:
+    """What makes one command different from the others.
+
+    Attributes
+    ----------
+    name : "" for the plain command; summary : for ``--help``
+    studies : what there is to run; out : default folder of its files
+    levels : those it offers, the default one first
+    workers : processes it starts unasked, each for one study; 0: it runs in the process at hand
+    add_options : adds its own options to the parser
+    prepared : the studies as the parsed options want them
+    finished : writes what else belongs to the report, and returns text for the terminal
+    """
+
+    name: str
+    summary: str
+    studies: tuple[Study, ...]
+    out: str
+    levels: tuple[str, ...] = ("default", "quick", "full")
+    workers: int = 0
+    add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
+    prepared: Callable[[Study, argparse.Namespace], Study] = lambda study, options: study
+    finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
+
+    @property
+    def program(self) -> str:
+        """As it is typed."""
+        return f"python -m verification {self.name}".strip()
+
+
+def main(command: Command, argv: list[str]) -> int:
+    """Exit code: 0 no check failed, 1 a check failed or a study raised, 2 the command makes no sense,
+    130 stopped from the keyboard (the report then holds the studies that had finished)."""
+    p = parser(command)
+    options = p.parse_args(argv)
+    studies = choose(command, p, options)
+    if options.list:
+        print("\n".join(f"{s.name:<16} {s.title} [{', '.join(s.levels)}]" for s in studies))
+        return 0
+    return run_all(command, tuple(command.prepared(s, options) for s in studies), options)
+
+
+def parser(command: Command) -> argparse.ArgumentParser:
+    """The command line."""
+    p = argparse.ArgumentParser(command.program, description=command.summary)
+    level = p.add_mutually_exclusive_group()
+    for name, words in (("quick", "small and few"), ("full", "the finest and all")):
+        if name in command.levels:
+            level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
+    p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
+    p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
+    p.add_argument("--list", action="store_true", help="name the parts and stop")
+    if command.workers:
+        p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
+    command.add_options(p)
+    p.set_defaults(level=command.levels[0])
+    return p
+
+
+def choose(command: Command, p: argparse.ArgumentParser, options: argparse.Namespace) -> tuple[Study, ...]:
+    """The studies asked for, in the order of the list; an unknown name ends the program with code 2."""
+    names = [s.name for s in command.studies]
+    for name in options.only or ():
+        if name not in names:
+            p.error(f"unknown study {name!r}{did_you_mean(name, names)}; known: {', '.join(names)}")
+    chosen = [s for s in command.studies if not options.only or s.name in options.only]
+    if options.list:
+        return tuple(chosen)
+    offered = tuple(s for s in chosen if options.level in s.levels)
+    missing = [f"{s.name} ({', '.join(s.levels)})" for s in chosen if s not in offered]
+    if missing and options.only:
+        p.error(f"not offered at level {options.level!r}: {'; '.join(missing)}")
+    for name in missing:
+        print(f"not part of level {options.level!r}: {name}", file=sys.stderr)
+    return offered
+
+
+def did_you_mean(word: str, options) -> str:
+    """' (did you mean ...?)' or an empty string."""
+    found = difflib.get_close_matches(word, list(options), n=1, cutoff=0.4)
+    return f" (did you mean {found[0]!r}?)" if found else ""
+
+
+def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Namespace) -> int:
+    """Run, write the report after every study so that a killed process loses only the one at work."""
+    out, level = options.out, options.level
+    out.mkdir(parents=True, exist_ok=True)
+    begun = time.perf_counter()
+    so_far = reports.Report(
+        level,
+        tuple(s.name for s in studies),
+        (),
+        False,
+        time.strftime("%Y-%m-%d %H:%M:%S %z"),
+        0.0,
+        reports.environment(),
+    )
+
+    def save(report: reports.Report) -> reports.Report:
+        report = replace(report, seconds=time.perf_counter() - begun)
+        reports.save(report, out)
+        return report
+
+    so_far, interrupted = save(so_far), False
+    workers = options.workers if command.workers else 0
+    try:
+        for outcome in run(studies, level, tell_check, lambda s: tell_study(s, so_far.selected), workers):
+            so_far = save(replace(so_far, outcomes=(*so_far.outcomes, reports.save_files(outcome, out))))
+    except KeyboardInterrupt:
+        interrupted = True
+    result = save(replace(so_far, complete=not interrupted))
+    print(reports.terminal_table(result))
+    words = command.finished(result, options)
+    if words:
+        print(words)
+    print(f"report: {out / 'report.html'}")
+    return 130 if interrupted else 0 if result.passed else 1
+
+
+def tell_study(study: Study, names: tuple[str, ...]) -> None:
+    """Progress on stderr: which study starts."""
+    print(f"[{names.index(study.name) + 1}/{len(names)}] {study.name}: {study.title}", file=sys.stderr, flush=True)
+
+
+def tell_check(check: Check) -> None:
+    """Progress on stderr: a check as it comes in."""
+    print(f"    {'FAIL' if check.failed else 'ok  '} {check.name}", file=sys.stderr, flush=True)
