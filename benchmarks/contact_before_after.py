@@ -1,6 +1,7 @@
 """Two versions of the library on the same dry contacts: CPU time at one measured pressure error.
 
-    OMP_NUM_THREADS=1 python benchmarks/contact_before_after.py BEFORE [AFTER] [--only 816 line] [--repeats 5] [--target 1e-5]
+    OMP_NUM_THREADS=1 python benchmarks/contact_before_after.py BEFORE [AFTER] [--only 816 line] [--repeats 5] [--target
+    1e-5]
 
 BEFORE and AFTER (default: the tree of this file) are folders that hold a ``lubfric`` package. Each is imported in a
 process of its own; solves of the two are interleaved, one thread each. Error: relative L2 distance of the pressure

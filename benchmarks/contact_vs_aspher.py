@@ -7,7 +7,8 @@ A periodic surface (exponential ACF, 1/e length 34 um, sigma 240 nm, spacing 2 u
 pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12 confirms. For each solver the loosest
 tolerance of a decade ladder (two a decade) whose measured error is at most the target; repeats interleaved, medians
 with quartiles; a solve of more than a minute is timed once. tamaas, whose solves take tens of minutes, is stopped after
-``--bound`` times the time of lubfric and its error told: above the target, it is slower by more than that. Needs ``pip install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
+``--bound`` times the time of lubfric and its error told: above the target, it is slower by more than that. Needs ``pip
+install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ LONG = 60.0  # seconds: not repeated
 
 
 def loosest(solve, load, reference, target, first):
-    """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of it."""
+    """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
+    it."""
     best = (np.nan, np.inf, np.nan)
     for tolerance in LADDER:
         if tolerance > first * 1.01:

@@ -27,6 +27,12 @@ _HOME = {
     "EHLResult": "ehl",
     "solve_differential_deflection": "paper.differential",
     "Scene": "scene",
+    "Lubricant": "lubricant",
+    "Numerics": "scene",
+    "Patch": "scene",
+    "Roughness": "scene",
+    "Motion": "scene",
+    "Bodies": "scene",
     "load_scene": "scene_file",
     "friction": "steady",
     "prepare": "model",
@@ -47,6 +53,8 @@ _HOME = {
     "StudyPlan": "studies",
     "StudyResult": "studies",
     "stribeck": "sweep",
+    "traction": "curves",
+    "TractionResult": "curves",
     "StribeckResult": "sweep",
 }
 _PACKAGES = ("oil",)

@@ -15,6 +15,7 @@ SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
 CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
 CONTACT = 1e-2  # solver of the rough contact
+DEFLECTION = 0.5  # leaving the pressure of the contact out of the deflection of the film
 HEAT = 0.2  # what leaving heat out changes: of the film by the inlet, of f by film and flash temperature
 CURVE = 0.3  # interpolation of a contact curve
 

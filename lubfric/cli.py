@@ -24,6 +24,9 @@ def main(argv=None) -> int:
     except LubfricError as error:
         say(f"lubfric: {error}")
         return 2
+    except OSError as error:  # a folder that cannot be written, a disk that is full
+        say(f"lubfric: {error}")
+        return 2
     except Interrupted as error:
         say(f"lubfric: {error}")
         return error.code
@@ -38,11 +41,12 @@ def _parser() -> argparse.ArgumentParser:
     run = commands.add_parser("run", help="compute the Stribeck curve of a scene and write it to a folder")
     run.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
     run.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1' or 'low:high:count'")
+    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1', 'low:high:count' or 'auto'")
     run.add_argument(
         "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
     )
-    run.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
+    _add_maps(run)
     run.add_argument(
         "--animation",
         action="store_true",
@@ -53,10 +57,12 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="keep results outside the range of the model, marked, instead of refusing them",
     )
+    run.add_argument("--report", action="store_true", help="also write report.html, one page that needs nothing else")
+    run.add_argument("--vtk", action="store_true", help="also write the contacts of --fields for ParaView")
     run.set_defaults(command=_run)
     info = commands.add_parser("info", help="say what a scene is and what will be solved, without solving it")
     info.add_argument("scene")
-    info.add_argument("--surface", help="height map to use instead of the scene's surface.file")
+    _add_maps(info)
     info.set_defaults(command=_info)
     study = commands.add_parser("study", help="vary anything in a scene: many points, kept as they end")
     study.add_argument("study", help="TOML file that says what is varied")
@@ -68,12 +74,20 @@ def _parser() -> argparse.ArgumentParser:
     study.set_defaults(command=_study)
     plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
+    plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
+    plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
+    plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
     plot.set_defaults(command=_plot)
     oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
     oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
     oils.add_argument("name", nargs="?", help="its name")
     oils.set_defaults(command=_oils)
     return parser
+
+
+def _add_maps(command: argparse.ArgumentParser) -> None:
+    for body in ("surface", "counterface"):
+        command.add_argument(f"--{body}", metavar="FILE", help=f"height map to use instead of the scene's {body}")
 
 
 def _oils(arguments) -> int:
@@ -89,16 +103,25 @@ def _oils(arguments) -> int:
 def _run(arguments) -> int:
     from .scene_file import load_scene
 
-    scene = load_scene(arguments.scene, surface_file=arguments.surface)
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
+    if arguments.ratios and scene.transient is None:
+        from .curves.command import run_traction
+
+        return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
+        from .errors import InputError
         from .unsteady.command import run_history
 
-        return run_history(scene, arguments.out, arguments.animation)
-    from .run_sweep import run_sweep
+        if arguments.report or arguments.vtk:
+            raise InputError("--report and --vtk show a Stribeck curve; allowed: a scene without [transient]")
 
-    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields)
+        return run_history(scene, arguments.out, arguments.animation)
+    from .run_sweep import Extras, run_sweep
+
+    more = Extras(arguments.report, arguments.vtk)
+    return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
 
 
 def _study(arguments) -> int:
@@ -111,7 +134,8 @@ def _info(arguments) -> int:
     from .describe import describe_scene
     from .scene_file import load_scene
 
-    put(sys.stdout, describe_scene(load_scene(arguments.scene, surface_file=arguments.surface)) + "\n")
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    put(sys.stdout, describe_scene(scene) + "\n")
     return 0
 
 
@@ -119,6 +143,7 @@ def _plot(arguments) -> int:
     from .errors import InputError
     from .output import read_csv
     from .plot import plot_stribeck
+    from .store import whole_file
     from .unsteady.command import plot_again
 
     if plot_again(arguments.folder):
@@ -127,6 +152,24 @@ def _plot(arguments) -> int:
     for needed in (source, arguments.folder / "result.json"):
         if not needed.is_file():
             raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
-    record = json.loads((arguments.folder / "result.json").read_text())
-    plot_stribeck(arguments.folder / "stribeck.png", read_csv(source), record["scene"]["name"])
+    record = arguments.folder / "result.json"
+    try:
+        name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
+    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
+    measured = _measured(arguments)
+    with whole_file(arguments.folder / "stribeck.png") as part:
+        plot_stribeck(part, read_csv(source), str(name), measured)
     return 0
+
+
+def _measured(arguments):
+    """The measured curve of ``lubfric plot --measured``, or None."""
+    from .errors import InputError
+    from .fitting.measured import read_measured
+
+    if arguments.measured is None:
+        return None
+    if arguments.speed is None or arguments.coefficient is None:
+        raise InputError("--measured needs --speed and --coefficient; allowed: the headings of its columns")
+    return read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)

@@ -29,7 +29,8 @@ def describe_scene(scene: Scene) -> str:
         f"{bodies.mean_hertz_pressure / 1e6:.1f} MPa, peak {peak / 1e6:.1f} MPa",
         f"  bodies         R = {bodies.radius:g} m, B = {bodies.width:g} m, F_T = {bodies.load:g} N, "
         f"E' = {bodies.e_prime / 1e9:g} GPa, {limit}, f_b = {bodies.boundary_friction_coefficient:g}",
-        f"  lubricant      {lubricant.viscosity:g} Pa s, alpha = {lubricant.pressure_viscosity_coefficient * 1e9:g} /GPa, "
+        f"  lubricant      {lubricant.viscosity:g} Pa s, alpha = "
+        f"{lubricant.pressure_viscosity_coefficient * 1e9:g} /GPa, "
         f"{lubricant.viscosity_law}, density {lubricant.density_law}",
         f"  surface        {surface.describe()}",
         *_map_lines(scene, surface),

@@ -41,8 +41,8 @@ class ConvergenceError(LubfricError, RuntimeError):
 class ValidityError(LubfricError, ValueError):
     """A converged solution outside the range of the model, so that its coefficient is no answer.
 
-    ``entries`` are the `lubfric.Validity` entries that refuse it; ``result`` is the whole result (or ``None``), so that nothing
-    computed is lost. ``numerics.accept = true`` returns it instead. Survives pickling.
+    ``entries`` are the `lubfric.Validity` entries that refuse it; ``result`` is the whole result (or ``None``), so that
+    nothing computed is lost. ``numerics.accept = true`` returns it instead. Survives pickling.
     """
 
     def __init__(self, message: str, entries=(), result=None):

@@ -44,8 +44,8 @@ class Lubricant:
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
         doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
-    temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at ambient
-        pressure [1/K]; None: the heat of the film is not known
+    temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
+        ambient pressure [1/K]; None: the heat of the film is not known
     conductivity : thermal, of the film [W/(m K)]
     oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 

@@ -14,6 +14,7 @@ from .rough.height_map import contact_map
 from .rough.make import rough_contact
 from .scene import Scene
 from .surface import Surface
+from .validate import instance
 from .validity.beforehand import beforehand
 from .validity.entry import Validity
 
@@ -50,8 +51,11 @@ def prepare(
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
+    instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if scene.numerics.model == "deterministic":
         check_scene(scene)
+    if like is not None:
+        instance("like", like, Model, "what lubfric.prepare returned")
     levels = tuple(film_levels) if like is None else like.film_levels
     _check_levels(scene, levels)
     if like is not None:
@@ -67,11 +71,7 @@ def scene_of(scene: Scene | Model) -> Scene:
     """The scene of a model, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Model):
         return scene.scene
-    if not isinstance(scene, Scene):
-        raise InputError(
-            f"scene = {scene!r} is a {type(scene).__name__}; allowed: what lubfric.load_scene or "
-            "lubfric.prepare returned"
-        )
+    instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
     return scene
 
 
@@ -87,6 +87,7 @@ def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
         raise InputError("like = a model brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
+        ("counterface", scene.counterface, old.counterface),
         ("contact", scene.contact, old.contact),
         ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
         ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),

@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from . import __version__
+from .errors import InputError
 from .model import Model
 from .result import FrictionResult
 from .scene import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
+from .validate import shown
 
 UNITS = {
     "speed": "m/s",
@@ -64,7 +66,8 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold there."""
+    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold
+    there."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
     texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
     return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
@@ -79,12 +82,24 @@ def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
     return file.getvalue().encode()
 
 
-def read_csv(path: Path) -> dict[str, np.ndarray]:
-    """The columns of a table that `table_bytes` made, by name."""
-    with Path(path).open() as file:
-        heading, *rows = list(csv.reader(file))
-    columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-    return {name: np.array(column, str if name == "validity" else float) for name, column in columns.items()}
+class Columns(dict):
+    """Columns of a table by name; one that is not there is an `InputError`."""
+
+    def __missing__(self, name: str):
+        raise InputError(f"the table has no column {name!r}; allowed: a table written by 'lubfric run', which has one")
+
+
+def read_csv(path: Path) -> Columns:
+    """The columns that `write_csv` wrote, by name. Raises `InputError` for a table that is torn or another one."""
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            heading, *rows = list(csv.reader(file))
+        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+        return Columns({n: np.array(c, str if n == "validity" else float) for n, c in columns.items()})
+    except (ValueError, IndexError, csv.Error) as problem:
+        raise InputError(
+            f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"
+        ) from None
 
 
 def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
@@ -95,8 +110,9 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
         "spacing": np.array(model.surface.spacing),
         "contact_x": model.contact.x,
     }
-    for i, point in enumerate(points):
-        film, contact = point.balance.film, point.balance.contact.fields
+    balances = [point.balance for point in points if point.balance is not None]
+    for i, balance in enumerate(balances):
+        film, contact = balance.film, balance.contact.fields
         if film is not None:
             arrays |= {
                 f"film_x_{i}": film.x,
@@ -111,7 +127,7 @@ def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
     """``arrays`` as a compressed ``.npz`` file."""
     file = io.BytesIO()
-    np.savez_compressed(file, **arrays)
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return file.getvalue()
 
 
@@ -128,9 +144,9 @@ def _statistics(surface) -> dict:
 
 def _point(curve: StribeckResult, index: int) -> dict:
     told = {"validity": [asdict(entry) for entry in curve.entries(index)]}
-    if curve.points[index] is None:
-        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     point = curve.points[index]
+    if point is None:
+        return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
     return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
 
 

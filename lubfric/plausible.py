@@ -1,7 +1,7 @@
 """Likely slips: values far from what machines have, and the unit they may have been meant in.
 
-A value outside the usual range is no error: it gets a sentence that names the unit under which it would be usual. The ranges
-are wide: what line contacts of machines and test rigs have, with a margin of a few times on both sides.
+A value outside the usual range is no error: it gets a sentence that names the unit under which it would be usual. The
+ranges are wide: what line contacts of machines and test rigs have, with a margin of a few times on both sides.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ MICRO, NANO, GIGA = 1e-6, 1e-9, 1e9
 
 @dataclass(frozen=True)
 class Usual:
-    """Range of a quantity in SI, its unit, and units that are mistaken for it ("unit" or "unit|advice") with their factors."""
+    """Range of a quantity in SI, its unit, and units that are mistaken for it ("unit" or "unit|advice") with their
+    factors."""
 
     low: float
     high: float
@@ -67,8 +68,8 @@ def slip(name: str, value) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant as, or None: usual, or nothing fits."""
     usual = USUAL.get(name)
     numbers = value if isinstance(value, (list, tuple)) else (value,)
-    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool)]
-    strange = [v for v in numbers if usual and v == v and abs(v) != float("inf") and not usual.holds(v)]
+    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
+    strange = [v for v in numbers if usual and not usual.holds(v)]
     if not strange or (strange[0] == 0 and name in NOUGHT):
         return None
     v = strange[0]
@@ -81,7 +82,8 @@ def slip(name: str, value) -> str | None:
 
 @dataclass(frozen=True)
 class Doubt:
-    """A value [unit] of a key outside its usual range, the bound it is beyond, and what it may have been meant as ("")."""
+    """A value [unit] of a key outside its usual range, the bound it is beyond, and what it may have been meant as
+    ("")."""
 
     name: str
     value: float
@@ -111,7 +113,8 @@ def doubts(scene) -> tuple[Doubt, ...]:
 
 @contextmanager
 def told_slips(section: str, values: dict):
-    """An `InputError` about one of ``values`` leaves with the likely slip, where one fits, at the end of its message."""
+    """An `InputError` about one of ``values`` leaves with the likely slip, where one fits, at the end of its
+    message."""
     try:
         yield
     except InputError as error:

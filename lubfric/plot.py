@@ -19,25 +19,31 @@ def _figure(*args, **kwargs):
     return figure
 
 
-def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
+def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
     ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
+    ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """
     from matplotlib.ticker import LogLocator, NullFormatter
 
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
-    c = {k: v[order] for k, v in columns.items()}
+    c = type(columns)((k, v[order]) for k, v in columns.items())
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
     figure = _figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
     top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
     top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
     top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    if measured is not None:
+        error = None if measured.deviation is None else 1.96 * measured.deviation
+        top.errorbar(np.abs(measured.x), measured.coefficient, error, fmt="D", ms=4, color="k", mfc="none", lw=1)
+        top.plot([], [], "D", ms=4, color="k", mfc="none", label=measured.source)
     _mark(figure, top, speed, c)
     top.set_ylabel("friction coefficient (-)")
-    top.set_ylim(bottom=min(0, 1.1 * c["coefficient"].min()))
+    lowest = c["coefficient"].min() if measured is None else min(c["coefficient"].min(), measured.coefficient.min())
+    top.set_ylim(bottom=min(0, 1.1 * lowest))
     top.set_title(title)
     top.legend(frameon=False)
     middle.fill_between(speed, 0, c["contact_load"] / total, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
@@ -78,8 +84,8 @@ def plot_contact(path: Path, model, point) -> None:
     """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
     ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
-    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in which
-    u has zero mean over the section.
+    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in
+    which u has zero mean over the section.
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)

@@ -14,22 +14,23 @@ from .point.balance import Balance
 from .point.decision import Decision
 from .point.judge import judged_validity
 from .report import Report
+from .show.point import PointShown
 from .validity.entry import Validity
 
 
-@dataclass(frozen=True)
-class FrictionResult:
+@dataclass(frozen=True, repr=False)
+class FrictionResult(PointShown):
     """One operating point. Forces in N, lengths in m, speed in m/s, fractions of the area A.
 
     coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
     carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
-    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the film, by the
-    heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and (mean across) of the film above
-    them (1, 0, 0 where heat is left out). The residuals are relative: load
+    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the
+    film, by the heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and
+    (mean across) of the film above them (1, 0, 0 where heat is left out). The residuals are relative: load
     (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
     (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
-    (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged by
-    (``decision.text`` in words); ``validity``: the assumptions that do not hold
+    (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged
+    by (``decision.text`` in words); ``validity``: the assumptions that do not hold
     (`lubfric.Validity`); a severe one is there only where it was accepted.
     """
 
@@ -77,8 +78,8 @@ def result_of(model: Model, speed: float, point: Solved, begun: float) -> Fricti
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
     passed = judged_validity(model, speed, balance)
-    oil = scene.lubricant.oil
-    known = (estimate_in_words(oil, scene.lubricant.temperature),) if oil else ()
+    oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
+    known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
     sq = model.surface.sq
     return FrictionResult(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,8 +12,8 @@ from .report import CONVERGED, ITERATION_LIMIT
 
 @dataclass(frozen=True)
 class Root:
-    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last two
-    points (None where they tell nothing)."""
+    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last
+    two points (None where they tell nothing)."""
 
     x: float
     value: float
@@ -35,8 +36,8 @@ def increasing_root(
 ) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
-    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when |value| <=
-    tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when
+    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
     "iteration_limit". Where ``slope`` is roughly known, the first step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
@@ -53,13 +54,13 @@ class _Search:
     def __init__(self, f, tolerance: float, max_evaluations: int, first):
         self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
         self.points: list[tuple[float, float]] = []
-        self.best: tuple[float, float, Any] | None = None
+        self.best: tuple[float, float, Any] = (math.nan, math.inf, None)
 
     def at(self, x: float) -> tuple[float, float]:
         """(x, f(x))."""
         value, self.last = self.f(x, self.last)
         self.points.append((x, value))
-        if self.best is None or abs(value) < abs(self.best[1]):
+        if len(self.points) == 1 or abs(value) < abs(self.best[1]):
             self.best = (x, value, self.last)
         return x, value
 
@@ -71,7 +72,8 @@ class _Search:
     def root(self) -> Root:
         """What was found."""
         status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
-        return Root(*self.best, tuple(abs(value) for _, value in self.points), status, self._slope())
+        x, value, payload = self.best
+        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, self._slope())
 
     def _slope(self) -> float | None:
         if len(self.points) < 2:
@@ -103,8 +105,8 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
 
 
 def _close_in(search: _Search, a, b) -> None:
-    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to rounding
-    and f still jumps in it."""
+    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to
+    rounding and f still jumps in it."""
     fraction, c = _secant(a, b), None
     while True:
         x = a[0] + fraction * (b[0] - a[0])

@@ -14,15 +14,19 @@ from .store import FolderLock, whole_file, write_whole
 from .store.whole import clear_parts, saying
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
-OUTPUTS = (  # of sweeps and of runs in time; the result, which says that a folder is complete, first to go and last to come
+# of sweeps and of runs in time; the result, which says that a folder is complete, first to go and last to come
+OUTPUTS = (
     RESULT,
     "stribeck.csv",
     "stribeck.png",
     "contact.png",
+    "traction.csv",
+    "traction.png",
     "history.csv",
     "history.png",
     "animation.gif",
     "fields.npz",
+    "report.html",
 )
 
 
@@ -37,8 +41,8 @@ class RunFolder:
     def clear(self) -> None:
         """Remove the results of an earlier run, now that those of this one are there to be written."""
         with saying(f"results of an earlier run in {self.path} were not removed"):
-            for name in OUTPUTS:
-                (self.path / name).unlink(missing_ok=True)
+            for path in (*(self.path / name for name in OUTPUTS), *self.path.glob("contact_*.vtk")):
+                path.unlink(missing_ok=True)
 
     def write(self, name: str, content: bytes) -> None:
         """A file of the run, whole or not at all."""
@@ -58,7 +62,8 @@ class RunFolder:
         self.written.append(name)
 
     def finish(self, record: dict) -> None:
-        """Write result.json, which names what belongs to it: the run is complete, and what it kept for a resume goes."""
+        """Write result.json, which names what belongs to it: the run is complete, and what it kept for a resume
+        goes."""
         files = sorted([*self.written, RESULT])
         self.write(RESULT, json.dumps({"files": files} | record, indent=1, allow_nan=False).encode())
         shutil.rmtree(self.unfinished, ignore_errors=True)
@@ -71,8 +76,8 @@ class RunFolder:
 def run_folder(path, fingerprint: str):
     """A `RunFolder` for the run of that ``fingerprint`` in ``path``.
 
-    Raises `InputError` for a file and for a folder that another process writes to, `OutputError` where it cannot be used.
-    What an interrupted run of the same fingerprint kept is in ``.unfinished``; that of others is left alone.
+    Raises `InputError` for a file and for a folder that another process writes to, `OutputError` where it cannot be
+    used. What an interrupted run of the same fingerprint kept is in ``.unfinished``; that of others is left alone.
     """
     path = Path(path)
     if path.exists() and not path.is_dir():

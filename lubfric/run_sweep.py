@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,24 +17,32 @@ from .model import prepare
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import plot_contact, plot_stribeck
 from .run_folder import RunFolder, run_folder
-from .scene import Scene
+from .scene import FASTEST, Scene
+from .show.report import report_page
 from .store import fingerprint
-from .sweep import stribeck
+from .sweep import AUTO, stribeck
+from .vtk import vtk_bytes
 
 MOST = 10**6  # speeds of a curve
 
 
-def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -> int:
+@dataclass(frozen=True)
+class Extras:
+    """What else is written: report.html, and contact_0.vtk ... for ParaView."""
+
+    report: bool = False
+    vtk: bool = False
+
+
+def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, more: Extras = Extras()) -> int:
     """Compute and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
 
     The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run has
-    is written, then `ConvergenceError` raised.
+    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run
+    has is written, then `ConvergenceError` raised.
     """
-    asked = parse_speeds(speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    asked, chosen = _with_chosen(asked, parse_speeds(fields) or [scene.motion.entrainment_speed])
-    validate.array("speeds", asked, "m/s", ndim=1)
-    begun, counted = time.perf_counter(), [0]
+    asked, chosen = _asked(scene, speeds, fields)
+    begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")
     model = prepare(scene)
     say(model.surface.describe())
@@ -43,16 +52,16 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None) -
         _progress(done, total, speed, outcome)
 
     def kept() -> str:
-        return (
-            f"interrupted; {counted[0]} of {len(asked)} points are kept in {out}: the same command goes on from there"
-        )
+        return f"interrupted; {counted[0]} of {total} points are kept in {out}: the same command goes on from there"
 
     with keeping(kept), run_folder(out, fingerprint(model, asked, chosen)) as folder:
         curve = stribeck(
             model, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
         )
         _write(folder, model, curve, chosen)
-        folder.finish(curve_record(model, curve, time.perf_counter() - begun))
+        record = curve_record(model, curve, time.perf_counter() - begun)
+        _write_more(folder, model, curve, record, more)
+        folder.finish(record)
     for text in curve.validity:
         say(text)
     if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
@@ -70,6 +79,17 @@ def _unsolved(curve) -> ConvergenceError:
     if len(curve.errors) > failed:
         counts.append(f"{len(curve.errors) - failed} of {total} speeds refused (--accept keeps them, marked)")
     return ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
+
+
+def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
+    """The speeds [m/s] of a command, or "auto", and those of them whose fields are wanted."""
+    chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
+    if speeds == AUTO:
+        return AUTO, [abs(u) for u in chosen if u != 0]
+    asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    asked, chosen = _with_chosen(asked, chosen)
+    validate.array("speeds", asked, "m/s", ndim=1)
+    return asked, chosen
 
 
 def _write(folder: RunFolder, model, curve, chosen) -> None:
@@ -90,22 +110,40 @@ def _write(folder: RunFolder, model, curve, chosen) -> None:
         folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, model.scene.bodies.half_width)
 
 
-def parse_speeds(text: str | None) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in m/s."""
-    if not text:
+def _write_more(folder: RunFolder, model, curve, record: dict, more: Extras) -> None:
+    """The page and the files for ParaView, where they are asked for."""
+    if more.vtk:
+        touching = [p for p in curve.points if p is not None and p.shows_contact]
+        for i, point in enumerate(touching):
+            folder.write(f"contact_{i}.vtk", vtk_bytes(model, point))
+        if not touching:
+            say("no .vtk file: none of the speeds of --fields has a contact with fields")
+    if more.report:
+        captions = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
+        images = {text: (folder.path / name).read_bytes() for name, text in captions.items() if name in folder.written}
+        folder.write("report.html", report_page(model, curve, record, images))
+
+
+def parse_speeds(option: str, text: str | None) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in m/s, of a command's ``option``."""
+    if text is None:
         return []
-    allowed = f"allowed: '0.001,0.01' or 'low:high:count' with 0 < low, 1 <= count <= {MOST}, in m/s"
+    refusal = InputError(
+        f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
+        f"1 <= count <= {MOST}, in m/s"
+    )
+    ranged = ":" in text
     try:
-        if ":" in text:
-            low, high, count = text.split(":")
-            if not 1 <= int(count) <= MOST:
-                raise InputError(f"speeds = {text!r} with a count of {count}; {allowed}")
-            return [float(u) for u in np.geomspace(float(low), float(high), int(count))]
-        return [float(u) for u in text.split(",")]
-    except (ValueError, FloatingPointError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"speeds = {text!r}; {allowed}") from None
+        numbers = [float(word) for word in text.split(":" if ranged else ",")]
+    except ValueError:
+        raise refusal from None
+    for speed in numbers[:2] if ranged else numbers:
+        validate.number(option, speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    if not ranged:
+        return numbers
+    if len(numbers) != 3 or not (0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST and numbers[2] % 1 == 0):
+        raise refusal
+    return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
 
 
 def _with_chosen(speeds, chosen):

@@ -11,19 +11,20 @@ from .errors import InputError
 from .history.plan import Transient
 from .lubricant import Lubricant
 from .plausible import told_slips
+from .roughness import Roughness, as_given, counterface, named
 from .short_forms import resolve, short_keys
-from .surface.prepare import FORMS
-from .surface.table import DECIMALS
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
 LARGEST = 2**26  # cells of a contact grid
+FASTEST = 1e6  # m/s
+MOST_THREADS = 1024
 CAVITATED_SHEAR = ("none", "striated")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 HEATS = ("auto", "on", "off")
 CLOSURES = ("load", "separation")
-FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
+FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
 MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
@@ -37,7 +38,8 @@ class Bodies:
     radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
     e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
     contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
-    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away (steel).
+    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away
+    (steel).
     """
 
     radius: float
@@ -50,13 +52,15 @@ class Bodies:
     volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
 
     def __post_init__(self):
-        validate.positive("bodies.radius", self.radius, "m", maximum=1e3)
-        validate.positive("bodies.width", self.width, "m")
-        validate.positive("bodies.load", self.load, "N")
+        validate.positive("bodies.radius", self.radius, "m", minimum=1e-9, maximum=1e3)
+        validate.positive("bodies.width", self.width, "m", minimum=1e-9, maximum=1e3)
+        validate.positive("bodies.load", self.load, "N", minimum=1e-12, maximum=1e12)
         validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
-        validate.nonnegative("bodies.boundary_friction_coefficient", self.boundary_friction_coefficient, "(-)")
+        validate.nonnegative(
+            "bodies.boundary_friction_coefficient", self.boundary_friction_coefficient, "(-)", maximum=10.0
+        )
         if self.hardness is not None:
-            validate.positive("bodies.hardness", self.hardness, "Pa")
+            validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
             if self.mean_hertz_pressure >= self.hardness:
                 raise InputError(
                     f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
@@ -100,59 +104,13 @@ class Motion:
     speeds: tuple[float, ...] = ()
 
     def __post_init__(self):
-        validate.number("motion.entrainment_speed", self.entrainment_speed, "m/s")
-        validate.number("motion.slide_roll_ratio", self.slide_roll_ratio, "(-)")
-        for speed in self.speeds:
-            validate.number("motion.speeds", speed, "m/s")
-
-
-@dataclass(frozen=True)
-class Roughness:
-    """Where the height map comes from: a file, or a generated surface.
-
-    file: path of a height map (`lubfric.read_surface`), or None to generate one.
-    sq [m]: standard deviation of the heights; a file is scaled to it when given.
-    correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf.
-    motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
-    form: taken off a file by least squares, "plane" or "quadratic" (second order: cylinder or paraboloid too).
-    spacing [m], unit ("m", "mm", "um", "nm"): of a file that does not carry its own; decimal: "." or "," of a text file
-    in which commas can be either. oversize: a generated map is made this many times
-    as long in x and y, its middle cut out (for lengths that do not fit the patch) and scaled to sq.
-    """
-
-    file: str | None = None
-    sq: float | None = None
-    correlation_length: float | tuple[float, float] | None = None
-    acf: str = "exponential"
-    decay_level: float = math.exp(-1)
-    seed: int = 0
-    motion_axis: str = "x"
-    spacing: float | tuple[float, float] | None = None
-    unit: str | None = None
-    oversize: int = 1
-    form: str = "plane"
-    decimal: str | None = None
-
-    def __post_init__(self):
-        validate.integer("surface.oversize", self.oversize, minimum=1)
-        if self.file is None:
-            if self.sq is None or self.correlation_length is None:
-                raise InputError("surface needs either 'file', or 'sq' and 'correlation_length' in m")
-            if self.form != "plane":
-                raise InputError(f"surface.form = {self.form!r} applies to a map from a file; allowed: leave it out")
-        elif self.correlation_length is not None:
-            raise InputError("surface.correlation_length applies to a generated surface; remove it or 'file'")
-        if self.sq is not None:
-            validate.nonnegative("surface.sq", self.sq, "m")
-        if self.correlation_length is not None:
-            validate.spacing("surface.correlation_length", self.correlation_length)
-        validate.choice("surface.acf", self.acf, ("exponential", "gaussian"))
-        validate.number("surface.decay_level", self.decay_level, "(-)", above=0, maximum=0.99)
-        validate.integer("surface.seed", self.seed, minimum=0)
-        validate.choice("surface.motion_axis", self.motion_axis, ("x", "y"))
-        validate.choice("surface.form", self.form, FORMS)
-        if self.decimal is not None:
-            validate.choice("surface.decimal", self.decimal, DECIMALS)
+        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", 1e6)):
+            value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
+            object.__setattr__(self, name, value)
+        speeds = () if len(self.speeds) == 0 else validate.array("motion.speeds", self.speeds, "m/s", ndim=1)
+        limits = {"minimum": -FASTEST, "maximum": FASTEST}
+        checked = tuple(validate.number("motion.speeds", u, "m/s", **limits) for u in speeds)
+        object.__setattr__(self, "speeds", checked)
 
 
 @dataclass(frozen=True)
@@ -183,12 +141,21 @@ class Patch:
         validate.choice("contact.region", self.region, REGIONS)
         if self.shape is not None:
             if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
-                raise InputError(f"contact.shape = {self.shape!r} must be a pair (nx, ny) of whole numbers >= 1")
-            cells = math.prod(validate.integer("contact.shape", n, minimum=1) for n in self.shape)
+                raise InputError(
+                    f"contact.shape = {validate.shown(self.shape)} must be a pair (nx, ny) of whole numbers >= 1"
+                )
+            object.__setattr__(
+                self, "shape", tuple(validate.integer("contact.shape", n, minimum=1) for n in self.shape)
+            )
+            cells = math.prod(self.shape)
             if cells > LARGEST:
-                raise InputError(f"contact.shape = {self.shape!r} has {cells:.3g} cells; allowed: up to {LARGEST:.3g}")
+                raise InputError(
+                    f"contact.shape = {validate.shown(self.shape)} has {float(min(cells, 10**300)):.3g} cells; "
+                    f"allowed: up to {LARGEST:.3g}"
+                )
         if self.spacing is not None:
-            validate.spacing("contact.spacing", self.spacing)
+            pair = validate.spacing("contact.spacing", self.spacing)
+            object.__setattr__(self, "spacing", pair if isinstance(self.spacing, (list, tuple)) else pair[0])
 
 
 @dataclass(frozen=True)
@@ -198,13 +165,14 @@ class Numerics:
 
     closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
     on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total").
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total");
+    "auto": the first where that changes f by less than its share of the tolerance, else the second.
 
     What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md). film_level,
-    contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it matters and
-    the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside the range of
-    the model are returned, marked, instead of refused.
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md).
+    film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
+    matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
+    the range of the model are returned, marked, instead of refused.
     """
 
     tolerance: float = 0.01
@@ -214,7 +182,7 @@ class Numerics:
     cavitated_shear: str = "none"
     workers: int = 1
     closure: str = "load"
-    film_deflection: str = "hydrodynamic"
+    film_deflection: str = "auto"
     model: str = "auto"
     film_level: str = "auto"
     contact_level: str = "auto"
@@ -245,9 +213,8 @@ class Numerics:
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
         validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
-        validate.integer("numerics.workers", self.workers, minimum=1)
-        if not isinstance(self.accept, bool):
-            raise InputError(f"numerics.accept = {self.accept!r}; allowed: true or false")
+        validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
+        validate.boolean("numerics.accept", self.accept)
 
     @property
     def forced_film_level(self) -> str:
@@ -274,7 +241,11 @@ class Numerics:
 
 @dataclass(frozen=True)
 class Scene:
-    """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else."""
+    """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
+
+    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in
+    contact.
+    """
 
     bodies: Bodies
     lubricant: Lubricant
@@ -284,11 +255,13 @@ class Scene:
     numerics: Numerics = field(default_factory=Numerics)
     name: str = "unnamed"
     transient: Transient | None = None
+    counterface: Roughness | None = None
 
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an oil (lubricant.grade, "
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an "
+                "oil (lubricant.grade, "
                 "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
             )
 
@@ -306,15 +279,23 @@ class Scene:
             changed[section] = _changed(section, getattr(self, section), values)
         return replace(self, **changed)
 
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from .scene_text import scene_as_toml
+
+        return scene_as_toml(self)
+
 
 def _changed(section: str, old, values):
     """``old`` with the fields in the dict ``values``, or ``values`` itself where it is of the section's type."""
-    kind = {"name": str, "transient": Transient}.get(section, type(old))
-    if isinstance(values, kind) or (section == "transient" and values is None):
+    kind = {"name": str, "transient": Transient, "counterface": Roughness}.get(section, type(old))
+    if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):
         return values
+    if section == "counterface" and old is None and isinstance(values, dict):
+        return counterface(values)
     if not isinstance(values, dict) or not isinstance(old, kind) or kind is str:
         by_field = "a dict of its fields, or " if kind is not str and old is not None else ""
-        shown = repr(values) if len(repr(values)) <= 60 else f"a {type(values).__name__}"
+        shown = repr(values) if isinstance(values, (str, float, int)) else f"a {type(values).__name__}"
         raise InputError(f"{section} = {shown}; allowed: {by_field}a {kind.__name__}")
     allowed = (*old.__dataclass_fields__, *short_keys(section))
     for key in values:
@@ -322,7 +303,9 @@ def _changed(section: str, old, values):
             raise InputError(
                 f"{section} has no field {key!r}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
             )
-    with told_slips(section, values):
+    if isinstance(old, Roughness):
+        values = as_given(old, values)
+    with told_slips(section, values), named(section):
         return replace(old, **resolve(section, values, old))
 
 

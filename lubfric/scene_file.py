@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
+from copy import deepcopy
 from dataclasses import MISSING, fields
 from importlib import resources
 from pathlib import Path
@@ -13,7 +15,8 @@ from .history.plan import Transient
 from .history.read import history
 from .lubricant import Lubricant
 from .plausible import told_slips
-from .scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
+from .roughness import GENERATED, Roughness, check_keys, named
+from .scene import Bodies, Motion, Numerics, Patch, Scene
 from .short_forms import resolve, short_keys
 
 SECTIONS = {
@@ -21,6 +24,7 @@ SECTIONS = {
     "lubricant": Lubricant,
     "motion": Motion,
     "surface": Roughness,
+    "counterface": Roughness,
     "contact": Patch,
     "numerics": Numerics,
     "transient": Transient,
@@ -34,8 +38,8 @@ INSTEAD = {  # of a missing key
     ("bodies", "radius"): " in m, or radii of both bodies",
     ("bodies", "load"): " in N, or hertz_pressure in Pa",
 }
-OPTIONAL = ("contact", "numerics", "transient")
-GENERATED = ("sq", "correlation_length", "acf", "decay_level", "seed", "oversize")
+OPTIONAL = ("counterface", "contact", "numerics", "transient")
+ROUGH = ("surface", "counterface")
 HISTORIES = {
     "speed": ("motion", "entrainment_speed"),
     "sliding": ("motion", "sliding_speed"),
@@ -45,37 +49,58 @@ HISTORIES = {
 }
 
 
-def load_scene(source, *, surface_file=None) -> Scene:
-    """The scene in a TOML file, or a built-in one: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
+    """The scene in a TOML file, in a dict of its tables, or built in: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
 
-    ``surface_file``: a height map to use instead of the scene's own surface; in place of a generated one it keeps its
-    own grid.
+    ``surface_file``, ``counterface_file``: height maps to use instead of the scene's own; in place of a generated
+    surface a map keeps its own grid.
 
     Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
-    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder.
+    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder,
+    that of a dict to the working folder.
     """
-    text, folder, name = _text(source)
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(
-            f"scene {source} is not valid TOML: {error} (numbers have a decimal point and no unit)"
-        ) from None
-    if surface_file is not None:
-        _put_surface(table, Path(surface_file))
+    if isinstance(source, dict):
+        table, folder, name = deepcopy(source), Path(), "unnamed"
+    else:
+        text, folder, name = _text(source)
+        table = _parsed(text, source)
+    for section, path in zip(ROUGH, (surface_file, counterface_file)):
+        if path is not None:
+            _put_map(table, section, path)
     return scene_from_table(table, folder, name)
 
 
-def _put_surface(table: dict, path: Path) -> None:
-    if not path.is_file():
-        raise InputError(f"surface = {str(path)!r}: no such file")
-    surface, contact = table.setdefault("surface", {}), table.setdefault("contact", {})
-    if isinstance(surface, dict) and isinstance(contact, dict) and "file" not in surface:
-        for key in GENERATED:
-            surface.pop(key, None)
-        contact.pop("shape", None), contact.pop("spacing", None)
-    if isinstance(surface, dict):
-        surface["file"] = str(path.absolute())
+def _parsed(text: str, source) -> dict:
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
+        raise InputError(
+            f"scene {source} is not valid TOML: {validate.shown(str(error))} (numbers have a decimal point and no unit)"
+        ) from None
+
+
+def _put_map(table: dict, section: str, path) -> None:
+    path = _map_path(f"{section}_file", path, Path())
+    rough, contact = table.setdefault(section, {}), table.setdefault("contact", {})
+    if not isinstance(rough, dict) or not isinstance(contact, dict):
+        return  # told by what reads the tables
+    if "file" not in rough:
+        for key in ("sq", *GENERATED):
+            rough.pop(key, None)
+        if section == "surface":
+            contact.pop("shape", None), contact.pop("spacing", None)
+    rough["file"] = str(path)
+
+
+def _map_path(name: str, given, folder: Path) -> Path:
+    """An existing file, its path absolute."""
+    try:
+        path = (folder / given).absolute()
+        if path.is_file():
+            return path
+    except (TypeError, ValueError, OSError):
+        pass
+    raise InputError(f"{name} = {validate.shown(str(given))}: no such file{f' in {folder}' if folder.name else ''}")
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -94,13 +119,22 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
     table, plan = _plan(table, folder)
-    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in ("surface", "transient")}
-    surface = dict(table["surface"])
-    if isinstance(surface.get("file"), str):
-        surface["file"] = str((folder / surface["file"]).resolve())
-        if not Path(surface["file"]).is_file():
-            raise InputError(f"surface.file = {table['surface']['file']!r}: no such file in {folder}")
-    return Scene(**parts, surface=_build("surface", surface), name=str(table.get("name", name)), transient=plan)
+    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in (*ROUGH, "transient")}
+    for section in ROUGH:
+        if section in table:
+            parts[section] = _rough(section, dict(table[section]), folder)
+    if not isinstance(table.get("name", name), str):
+        raise InputError(f"name = {validate.shown(table['name'])}; allowed: words in quotes")
+    return Scene(**parts, name=table.get("name", name), transient=plan)
+
+
+def _rough(section: str, given: dict, folder: Path) -> Roughness:
+    _known(f"[{section}]", given, [f.name for f in fields(Roughness)])
+    if isinstance(given.get("file"), str):
+        given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
+    with named(section):
+        check_keys(given)
+        return _build(section, given)
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
@@ -129,12 +163,17 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
 
 
 def _text(source) -> tuple[str, Path, str]:
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError(
+            f"scene {validate.shown(source)} is a {type(source).__name__}; allowed: a path, or one of "
+            f"{builtin_scenes()}"
+        )
     if str(source) in builtin_scenes():
         return (resources.files("lubfric") / "scenes" / f"{source}.toml").read_text(), Path(), str(source)
     path = Path(source)
-    if not path.is_file():
+    if "\0" in str(source) or not path.is_file():
         raise InputError(
-            f"scene {str(source)!r} is neither a file nor a built-in scene"
+            f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
             f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"
         )
     try:
@@ -147,7 +186,8 @@ def _known(where: str, table: dict, allowed) -> None:
     for key in table:
         if key not in allowed:
             raise InputError(
-                f"unknown key {key!r} in {where}{validate.nearest(key, allowed)}; allowed: {', '.join(allowed)}"
+                f"unknown key {validate.shown(key)} in {where}{validate.nearest(key, allowed)}; allowed: "
+                f"{', '.join(allowed)}"
             )
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import time
 
 from . import validate
 from .deterministic.answer import deterministic_result
 from .deterministic.point import deterministic_point
+from .errors import InputError
 from .model import Model, at_tolerance
-from .point.adapt import solved
+from .point.deflection import solved_as_deflected
 from .result import FrictionResult, result_of
-from .scene import Scene
+from .scene import FASTEST, Scene
 from .validity.entry import refused
 
 
@@ -31,24 +33,35 @@ def friction(
     entrainment the contact carries everything; when the film clears the summits no contact is solved.
 
     ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``: no
-    load is shared, one pressure carries it (docs/deterministic.md).
+    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``:
+    no load is shared, one pressure carries it (docs/deterministic.md).
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
     not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
-    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always raises).
+    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always
+    raises).
     """
     begun = time.perf_counter()
     ready = at_tolerance(scene, tolerance, model)
-    speed = ready.scene.motion.entrainment_speed if speed is None else validate.number("speed", speed, "m/s")
+    if speed is None:
+        speed = ready.scene.motion.entrainment_speed
+    speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    if start is not None:
+        validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
     if ready.scene.numerics.model == "deterministic" and speed != 0:
         found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
         result = deterministic_result(ready, speed, found, begun)
     else:
-        point = solved(ready, speed, start.balance if start else None, given_grid=fields)
-        result = result_of(ready, speed, point, begun)
+        chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
+        result = result_of(chosen, speed, point, begun)
+    if not math.isfinite(result.coefficient):
+        raise InputError(
+            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "
+            "viscosities and stresses "
+            "of a lubricated contact"
+        )
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, ready.scene.numerics.accept, result)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
 from .scene import Scene
+from .show import Shown
 from .store import fingerprint
 from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
 from .studies.chain import Chain, make_chain
@@ -29,13 +31,14 @@ NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic")
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
-@dataclass(frozen=True)
-class StribeckResult:
+@dataclass(frozen=True, repr=False)
+class StribeckResult(Shown):
     """Arrays over speed (in the order asked for), NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the range
-    of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the speeds.
+    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
+    range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
+    speeds.
     """
 
     speed: np.ndarray
@@ -72,6 +75,11 @@ class StribeckResult:
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        contact, film = self.parts_at(speed)
+        return contact + film
+
+    def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
+        """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
         curve = self._interpolant
         known = curve.samples.speed
         at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
@@ -79,11 +87,12 @@ class StribeckResult:
             raise InputError(
                 f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
             )
-        return curve.at(at).reshape(np.shape(speed))
+        return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach it."""
+        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach
+        it."""
         return self._interpolant.lift_off
 
     @cached_property
@@ -95,6 +104,24 @@ class StribeckResult:
             )
         samples = samples_of(points)
         return Interpolant(samples, knee_of(samples))
+
+    def plot(self, ax=None, **style):
+        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
+        from .show.axes import curve_axes
+
+        return curve_axes(self, ax, **style)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {"": f"{self.speed.size} speeds"}
+        if self.speed.size > len(self.errors):
+            good = np.isfinite(self.coefficient)
+            facts |= {
+                "U": f"{self.speed[good].min():.4g} to {self.speed[good].max():.4g} m/s",
+                "f": f"{self.coefficient[good].min():.4g} to {self.coefficient[good].max():.4g}",
+            }
+        facts["failed"] = str(len(self.errors))
+        facts["not held"] = str(len(self.validity))
+        return facts
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -116,28 +143,30 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on f
-    everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication
-    to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other.
-    Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are solved
-    again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult` or an
-    exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the scene's own
-    contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every point as it ends;
-    the same call goes on from there, to the same bits (the folder is the caller's to remove).
+    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on
+    f everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary
+    lubrication to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the
+    other. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
+    solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
+    or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
+    scene's own contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every
+    point as it ends; the same call goes on from there, to the same bits (the folder is the caller's to remove).
     A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the whole
-    curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes through
-    as it is, with the points so far as its ``result``.
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the
+    whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes
+    through as it is, with the points so far as its ``result``.
     """
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
         return _auto(at_tolerance(scene, tolerance, model), fields, store, on_point, raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
     model = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points, errors = [None] * speeds.size, {}

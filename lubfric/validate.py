@@ -15,11 +15,26 @@ from .errors import InputError
 
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
+LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
+SANE = {  # unit: least and largest magnitude of a quantity given; far beyond what exists, so that nothing overflows
+    "m": (1e-30, 1e6),
+    "m/s": (1e-30, 1e30),
+    "N": (1e-30, 1e15),
+    "N/m": (1e-30, 1e15),
+    "Pa": (1e-12, 1e18),
+    "Pa s": (1e-12, 1e12),
+    "1/Pa": (1e-30, 1e6),
+    "s": (1e-18, 1e12),
+    "Hz": (1e-12, 1e18),
+    "1/K": (1e-30, 1e6),
+    "(-)": (1e-60, 1e60),
+}
 NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
 
 def shown(value: Any) -> str:
-    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000 digits)."""
+    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000
+    digits)."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):
@@ -28,7 +43,8 @@ def shown(value: Any) -> str:
 
 
 def _real(value: Any) -> float:
-    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float holds."""
+    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float
+    holds."""
     if type(value) in (float, int):
         return float(value)
     if isinstance(value, (np.ma.MaskedArray, str, bytes)):
@@ -46,9 +62,24 @@ def _real(value: Any) -> float:
 def number(
     name: str, value: Any, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
 ) -> float:
-    """A finite real number with ``above < value``, ``minimum <= value <= maximum``."""
+    """A finite real number with ``above < value``, ``minimum <= value <= maximum``.
+
+    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `LEAST`.
+    """
+    return _within(name, value, unit, above, minimum, maximum, LEAST if unit in SANE else 0.0)
+
+
+def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum: float = math.inf) -> float:
+    """A finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
+    least = max(minimum, SANE.get(unit, (LEAST, LARGEST))[0])
+    return _within(name, value, unit, 0.0, -math.inf, maximum, least)
+
+
+def _within(name, value, unit, above, minimum, maximum, least) -> float:
+    largest = SANE.get(unit, (LEAST, LARGEST))[1]
+    minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
-    allowed = f"allowed: a finite number in {low}, {maximum:g}{')' if math.isinf(maximum) else ']'} {unit}"
+    allowed = f"allowed: a finite number in {low}, {maximum:g}] {unit}"
     try:
         x = _real(value)
     except OverflowError:
@@ -57,12 +88,9 @@ def number(
         raise InputError(f"{name} = {shown(value)} is not a number; {allowed}") from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
         raise InputError(f"{name} = {x:g} {unit} is out of range; {allowed}")
+    if 0 < abs(x) < least:
+        raise InputError(f"{name} = {x:g} {unit} is too small; {allowed}, of at least {least:g} where it is not 0")
     return x
-
-
-def positive(name: str, value: Any, unit: str, *, minimum: float = -math.inf, maximum: float = math.inf) -> float:
-    """A finite number > 0, in [minimum, maximum]."""
-    return number(name, value, unit, above=0.0, minimum=minimum, maximum=maximum)
 
 
 def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) -> float:
@@ -86,6 +114,12 @@ def boolean(name: str, value: Any) -> bool:
     return bool(value)
 
 
+def instance(name: str, value: Any, kind: type, allowed: str) -> None:
+    """``value`` is of ``kind``; ``allowed``: where such a value comes from, in words."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name} = {shown(value)} is a {type(value).__name__}; allowed: {allowed}")
+
+
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """A non-empty array of finite floats with ``ndim`` axes: ``value`` itself where it is one.
 
@@ -106,6 +140,9 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         raise InputError(
             f"{name} has {bad} of {a.size} values that are NaN or infinite; allowed: finite values in {unit}"
         )
+    most = SANE.get(unit, (LEAST, LARGEST))[1]
+    if max(a.max(), -a.min()) > most:
+        raise InputError(f"{name} reaches {max(a.max(), -a.min()):g} {unit}; allowed: up to {most:g} {unit}")
     return a
 
 
@@ -159,4 +196,5 @@ def spacing(name: str, value: Any) -> tuple[float, float]:
     if several and len(value) != 2:
         raise InputError(f"{name} = {shown(value)} must be one length or a pair (dx, dy) in m")
     pair = tuple(value) if several else (value, value)
-    return tuple(positive(f"{name}[{axis}]", step, "m") for axis, step in enumerate(pair))  # type: ignore[return-value]
+    # type: ignore[return-value]
+    return tuple(positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))

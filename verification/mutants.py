@@ -182,7 +182,6 @@ MUTANTS = (
         {
             "lubfric.contact.descent:Descent._look": without_overlap,
             "lubfric.contact.looked:contact_residuals": no_penetration,
-            "lubfric.contact.solve:contact_residuals": no_penetration,
         },
     ),
     Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.rough.half_space:solve_contact": half_load}),

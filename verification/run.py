@@ -1,4 +1,5 @@
-"""Run studies, one after another or each in a process of its own; one that raises is a failed check and stops nothing else."""
+"""Run studies, one after another or each in a process of its own; one that raises is a failed check and stops nothing
+else."""
 
 from __future__ import annotations
 
@@ -71,8 +72,8 @@ class Collector:
             self.add(item)
 
     def add(self, item: Item) -> None:
-        """Put one item with its kind; two of one name would overwrite each other's file, or hide each other. Checks that
-        say where they were measured are told apart by that."""
+        """Put one item with its kind; two of one name would overwrite each other's file, or hide each other. Checks
+        that say where they were measured are told apart by that."""
         kind = type(item)
         if kind not in self.items:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")

@@ -4,34 +4,47 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..halfspace.strip import rounded
+
 DENSE = 0.8  # share of the cells from which all are taken: gathering costs more than it saves
 
 
 class Cells:
-    """``index``: flat, within the part of the patch with ``shape`` that ``operator`` (single precision) is for; None: all
-    its cells."""
+    """Cells ``index`` (flat; None: all) of the ``rows`` of a patch (``whole``: its shape).
 
-    def __init__(self, operator, index):
-        self.operator, self.shape, self.index = operator, operator.shape, index
+    ``operator``: their deflection under pressure on them, in single precision.
+    """
+
+    def __init__(self, operator, index, rows: slice, whole: tuple[int, int]):
+        self.operator, self.index, self.rows, self.whole, self.shape = operator, index, rows, whole, operator.shape
         self._field = None if index is None else np.zeros(self.shape, np.float32)
 
     @staticmethod
     def flagged(operator, flags) -> Cells:
-        """Cells whose ``flags`` are set, or all where that is most of them."""
+        """Cells whose ``flags`` are set, or all where that is most; of a free axis x beside a periodic y only the rows
+        that hold some."""
+        whole, rows = flags.shape, slice(None)
+        if operator.boundary == ("free", "periodic"):
+            touched = np.flatnonzero(flags.any(axis=1))
+            count = rounded(int(touched[-1] - touched[0]) + 1, whole[0])
+            first = min(int(touched[0]), whole[0] - count)
+            operator, rows = operator.window(count), slice(first, first + count)
+        flags = flags[rows]
         many = np.count_nonzero(flags) > DENSE * flags.size
-        return Cells(operator, None if many else np.flatnonzero(flags))
+        return Cells(operator, None if many else np.flatnonzero(flags), rows, whole)
 
     def narrowed(self, kept) -> Cells:
         """Only those of these cells with positions ``kept``."""
-        return Cells(self.operator, kept if self.index is None else self.index.take(kept))
+        index = kept if self.index is None else self.index.take(kept)
+        return Cells(self.operator, index, self.rows, self.whole)
 
     def gather(self, field) -> np.ndarray:
-        """Values of a field of the part, one axis."""
+        """Values of a field of the rows, one axis."""
         flat = field.ravel()
         return flat if self.index is None else flat.take(self.index)
 
     def field(self, values) -> np.ndarray:
-        """Field of the part in single precision with these values, zero elsewhere; valid until the next call."""
+        """Field of the rows in single precision with these values, zero elsewhere; valid until the next call."""
         if self.index is None:
             return values.reshape(self.shape)
         self._field.ravel()[self.index] = values
@@ -39,15 +52,16 @@ class Cells:
 
     def take(self, field, dtype=float, factor: float = 1.0) -> np.ndarray:
         """Copy of the values of a field of the whole patch, times ``factor``, in ``dtype``."""
-        flat = field.ravel()
+        flat = field[self.rows].ravel()
         values = flat.copy() if self.index is None else flat.take(self.index)
         values *= factor
         return values.astype(dtype, copy=False)
 
     def spread(self, values) -> np.ndarray:
         """Field of the whole patch with these values, zero elsewhere."""
+        field = np.zeros(self.whole)
         if self.index is None:
-            return values.reshape(self.shape)
-        field = np.zeros(self.shape)
-        field.ravel()[self.index] = values
+            field[self.rows] = values.reshape(self.shape)
+        else:
+            field[self.rows].ravel()[self.index] = values
         return field

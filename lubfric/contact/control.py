@@ -10,6 +10,7 @@ import numpy as np
 from ..report import CONVERGED
 from ..roots import increasing_root
 from .nested import approach_controlled, load_controlled
+from .residual import volume
 
 FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
 LOOSEST = 1e-2  # tolerance of a solve whose mean gap is far off
@@ -63,10 +64,9 @@ def by_load(problem, mean_gap: float, guess: float, start=None):
             found = load_controlled(replace(problem, tolerance=tolerance), math.exp(log_pressure), pressure)
             pressure = found.pressure
             spent, iterations = spent + found.convolutions, iterations + found.iterations
-            volume = np.maximum(found.state.gap, 0.0).mean()
-            scale = found.state.scale
+            open_gap, scale = volume(found.state.gap), found.state.scale
             smaller = min(mean_gap, scale)
-            value, doubt = (mean_gap - volume) / smaller, CERTAIN * tolerance * scale / smaller
+            value, doubt = (mean_gap - open_gap) / smaller, CERTAIN * tolerance * scale / smaller
             if tolerance == finest or abs(value) > doubt:
                 return value, found
             tolerance = max(finest, tolerance * min(0.1, abs(value) / doubt))

@@ -26,7 +26,7 @@ LEARNING = 0.3  # power of the relative length of a step in the next pace
 STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
 TRANSFORMED = 0.7  # share of contact from which the preconditioner is the transform, not nine points
-REACH = 0.5  # of the deepest overlap: cells with a gap below it may come into touch
+REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
 NARROWINGS, WORTH = (4, 8, 16, 32), 0.7
 FORGOTTEN = 1e-6
 FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
@@ -74,7 +74,8 @@ class Descent:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
-        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit`` times."""
+        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit``
+        times."""
         best, waiting = math.inf, 0
         while True:
             free, weight, residue, worst = self._look()
@@ -217,11 +218,18 @@ class Descent:
         base = np.negative(self.lower, dtype=float)
         limit = self.hardness / self.unit
         pressure = with_load(base + aim, self.target + float(base.sum()), limit)
-        return self._within((pressure - base).astype(np.float32))
+        return self._rounded(pressure, base, np.s_[:])
 
     def _within(self, values) -> np.ndarray:
         np.maximum(values, self.lower, out=values)
         return values if self.upper is None else np.minimum(values, self.upper, out=values)
+
+    def _rounded(self, pressure, base, cells) -> np.ndarray:
+        """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
+        change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
+        if self.upper is not None:
+            change = np.where(pressure >= self.hardness / self.unit, self.upper[cells], change)
+        return change
 
     def _move_carefully(self, free, residue) -> None:
         """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
@@ -239,10 +247,9 @@ class Descent:
             new = with_load(new, share, limit)
         else:
             np.clip(new, 0.0, limit, out=new)
-        way = np.zeros_like(self.change)
-        way[free] = (new - base).astype(np.float32) - self.change[free]
-        self.change += way
-        self._within(self.change)
+        way = np.negative(self.change)
+        self.change[free] = self._rounded(new, base, free)
+        way += self.change
         self.gap += self._answer(way)
         self.known[:] = self.change
 

@@ -12,15 +12,26 @@ from .residual import contact_residuals, deflection_scale, dot
 @dataclass(frozen=True)
 class State:
     """pressure [Pa] with its displacement and gap [m] (nx, ny), approach [m], the length ``scale`` [m] that residuals
-    are measured in, and the worst of complementarity and penetration; all in the precision of the operator used."""
+    are measured in, and complementarity and penetration; all in the precision of the operator used."""
 
     pressure: np.ndarray
     displacement: np.ndarray
     gap: np.ndarray
     approach: float
     scale: float
-    overlap: float
-    residual: float
+    residuals: dict[str, float]
+
+    @property
+    def residual(self) -> float:
+        """The worst."""
+        return max(self.residuals.values())
+
+    @property
+    def overlap(self) -> float:
+        """Deepest overlap [m] of cells that have not yielded."""
+        return (
+            self.residuals["penetration"] * self.scale if np.isfinite(self.scale) else max(0.0, -float(self.gap.min()))
+        )
 
 
 def look(problem, operator, pressure, level=None) -> State:
@@ -31,15 +42,8 @@ def look(problem, operator, pressure, level=None) -> State:
     gap -= approach
     scale = deflection_scale(dot(pressure, displacement), pressure.sum(), problem.roughness, operator)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
-    return State(
-        pressure,
-        displacement,
-        gap,
-        approach,
-        scale,
-        max(0.0, -float(gap.min())),
-        max(residuals["complementarity"], residuals["penetration"]),
-    )
+    del residuals["load"]
+    return State(pressure, displacement, gap, approach, scale, residuals)
 
 
 def _approach(problem, pressure, height) -> float:

@@ -115,5 +115,5 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace, _rigid(problem))
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
-    state = State(found, None, None, state.approach, state.scale, 0.0, descent.history[-1])
+    state = State(found, None, None, state.approach, state.scale, {"search": descent.history[-1]})
     return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)

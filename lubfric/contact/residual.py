@@ -38,14 +38,24 @@ def deflection_scale(energy: float, total: float, roughness: float, operator) ->
 
 def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:
     """Complementarity, penetration and load residuals, dimensionless; see `solve_contact` for formulas."""
-    saturated = pressure >= hardness
-    overlap = np.where(saturated, 0.0, -gap).max()
-    misfit = np.where(saturated, np.maximum(gap, 0.0), np.abs(gap))
-    total = pressure.sum()
+    touching = np.flatnonzero(pressure)
+    p, g = pressure.ravel()[touching], gap.ravel()[touching]
+    yielded = p >= hardness
+    deepest = gap
+    if yielded.any():
+        deepest = gap.flatten()
+        deepest[touching[yielded]] = 0.0
+    overlap, total = max(0.0, -float(deepest.min())), float(p.sum())
+    misfit = np.where(yielded, np.maximum(g, 0.0), np.abs(g))
     if total == 0:
         return {"complementarity": 0.0, "penetration": math.inf if overlap > 0 else 0.0, "load": 0.0}
     return {
-        "complementarity": dot(pressure, misfit) / (total * scale),
-        "penetration": max(0.0, float(overlap) / scale),
+        "complementarity": dot(p, misfit) / (total * scale),
+        "penetration": overlap / scale,
         "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure),
     }
+
+
+def volume(gap) -> float:
+    """Mean of the gap [m] where it is open, over all cells: overlap counts zero."""
+    return float((gap.sum() - gap[gap < 0].sum()) / gap.size)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..report import Report
+from ..show import Shown
 
 
-@dataclass(frozen=True)
-class ContactResult:
+@dataclass(frozen=True, repr=False)
+class ContactResult(Shown):
     """Fields and means of one contact; arrays (nx, ny), means over the whole array.
 
     pressure [Pa]: 0 <= p <= hardness. displacement [m]: u = K p, in the gauge of the half-space
@@ -29,3 +30,13 @@ class ContactResult:
     contact_area_fraction: float
     plastic_area_fraction: float
     report: Report
+
+    def _facts(self) -> dict[str, str]:
+        nx, ny = self.pressure.shape
+        return {
+            "": f"{nx} x {ny} cells",
+            "mean pressure": f"{self.mean_pressure:.4g} Pa",
+            "mean gap": f"{self.mean_gap:.4g} m",
+            "contact area": f"{100 * self.contact_area_fraction:.3g} %",
+            "status": self.report.status,
+        }

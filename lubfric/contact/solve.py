@@ -10,7 +10,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from .control import gap_controlled
 from .nested import load_controlled
 from .problem import check_control, make_problem, starting_pressure
-from .residual import contact_residuals
+from .residual import volume
 from .result import ContactResult
 
 
@@ -99,13 +99,12 @@ def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
     state = found.state
     pressure, gap, scale = state.pressure, state.gap, state.scale
     carried = float(pressure.mean())
-    residuals = contact_residuals(
-        pressure, gap, scale, problem.hardness, carried if mean_pressure is None else mean_pressure
-    )
-    volume = float(np.maximum(gap, 0.0).mean())
-    if mean_gap is not None:
-        del residuals["load"]
-        residuals["volume"] = abs(volume - mean_gap) / min(scale, mean_gap)
+    mean = volume(gap)
+    residuals = dict(state.residuals)
+    if mean_gap is None:
+        residuals["load"] = abs(carried - mean_pressure) / mean_pressure
+    else:
+        residuals["volume"] = abs(mean - mean_gap) / min(scale, mean_gap)
     worst = max(residuals.values())
     status = (
         CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED else ITERATION_LIMIT)
@@ -121,14 +120,16 @@ def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
         found.convolutions,
         tuple(found.notes),
     )
-    saturated = float(np.count_nonzero(pressure >= problem.hardness)) / pressure.size
+    saturated = (
+        np.count_nonzero(pressure >= problem.hardness) / pressure.size if math.isfinite(problem.hardness) else 0.0
+    )
     return ContactResult(
         pressure,
         gap,
         state.displacement,
         float(state.approach) + problem.offset,
         carried,
-        volume,
+        mean,
         np.count_nonzero(pressure) / pressure.size,
         saturated,
         report,

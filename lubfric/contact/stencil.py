@@ -13,7 +13,8 @@ SPARSE = 0.15  # share of the cells below which their neighbours are gathered on
 
 
 def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
-    """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no waves."""
+    """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no
+    waves."""
     turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
     x, y = turns[0][:, None], turns[1]
     k = np.hypot(x / spacing[0], y / spacing[1])

@@ -23,8 +23,8 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
 
     ``tried``: speeds that failed, which are left alone.
 
-    First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which the
-    error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
+    First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which
+    the error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

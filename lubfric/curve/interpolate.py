@@ -1,9 +1,10 @@
-"""Friction between the solved speeds: the two parts of f in coordinates in which each is smooth, with a knee at lift-off.
+"""Friction between the solved speeds: the two parts of f in coordinates in which each is smooth, with a knee at
+lift-off.
 
 The boundary part b = f_b F_C/F_T falls to zero at lift-off as a power of the remaining speed, about 3/2 as of one Hertz
-asperity: b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is close to a
-power of the speed on either side: ln g over ln U. Both by cubic splines; shape-preserving cubics beside them tell how sure
-that is.
+asperity: b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is close to
+a power of the speed on either side: ln g over ln U. Both by cubic splines; shape-preserving cubics beside them tell how
+sure that is.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ CLOSER = 1.0 / 5.0  # error between points over that with every other one left o
 class Samples:
     """What is known of a curve: arrays (n,) by ascending entrainment speed [m/s].
 
-    boundary, film: parts of f; touching: whether the contact carries load; clearance: film above the summits in units of
-    Sq where it does not (NaN where not known).
+    boundary, film: parts of f; touching: whether the contact carries load; clearance: film above the summits in units
+    of Sq where it does not (NaN where not known).
     """
 
     speed: np.ndarray
@@ -47,11 +48,12 @@ class Interpolant:
     def at(self, speed, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the shape-preserving cubics."""
         speed = np.asarray(speed, dtype=float)
-        return self._boundary(speed, smooth) + self._film(speed, smooth)
+        return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
-        """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the place of
-        the knee is unsure by, and a share of what the curve through the other points misses the neighbouring ones by."""
+        """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
+        place of the knee is unsure by, and a share of what the curve through the other points misses the neighbouring
+        ones by."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
         for other in self._other_knees:
@@ -78,7 +80,8 @@ class Interpolant:
         low, high = knee_range(self.samples)
         return tuple(Interpolant(self.samples, knee) for knee in (low, high) if abs(knee / self.lift_off - 1) > 1e-12)
 
-    def _boundary(self, speed, smooth):
+    def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """The part of f from the contact spots."""
         k, s = self.samples.contacts, self.samples
         if k == 0:
             return np.zeros(speed.shape)
@@ -88,7 +91,8 @@ class Interpolant:
         found = np.maximum(_cubic(x, w, speed**EXPONENT, smooth), 0.0) ** (1.0 / POWER)
         return found if self.lift_off is None else np.where(speed < self.lift_off, found, 0.0)
 
-    def _film(self, speed, smooth):
+    def film(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """The part of f from the film."""
         s, k = self.samples, self.samples.contacts
         powers = bool(np.all(s.film > 0.0))
         y, g, at = np.log(s.speed), np.log(s.film) if powers else s.film, np.log(speed)

@@ -15,8 +15,8 @@ SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
 def span(model: Model) -> tuple[float, float]:
-    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that Moes'
-    formula gives the whole load is 0.02 and 10 times Sq.
+    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that
+    Moes' formula gives the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for a smooth surface without speeds, which has no such range.
     """

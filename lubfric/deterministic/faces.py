@@ -70,7 +70,8 @@ class CouetteFlow:
 
 
 def couette_flow(problem: Problem, mass) -> CouetteFlow:
-    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces; in the first cell the parabola gives the difference."""
+    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces; in the first cell the parabola gives the
+    difference."""
     x, dx = problem.x, problem.spacing[0]
     step = np.empty_like(mass)
     step[1:] = mass[1:] - mass[:-1]

@@ -6,8 +6,8 @@ With one pressure there is no boundary between film and contact in the equations
     be sheared above the boundary friction, eta Δu/h > f_b p, and h is less than half its mean over the section.
 
 The second condition finds the summits of a light contact, which carry films of nanometres; alone it would also mark
-the whole of a thick film at high pressure, whose shear is limited for another reason: the third leaves that to the film.
-`LoadSplit` has the parts that other rules give. The coefficient of friction hardly depends on the rule: spots are
+the whole of a thick film at high pressure, whose shear is limited for another reason: the third leaves that to the
+film. `LoadSplit` has the parts that other rules give. The coefficient of friction hardly depends on the rule: spots are
 sheared at f_b p, the film by the lubricant's law, and a Newtonian film above 50 MPa at no more than f_b p either.
 """
 

@@ -1,8 +1,8 @@
 """The film upstream of the grid, in closed form: there the gap is the parabola and the fluid hardly thickens.
 
 With h(x) known, Reynolds' equation is one integral: Q(x) = 12 eta0 ∫ (U h - q)/(h³ Φ) dx', with Q the reduced pressure
-∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on. The substitution x = -a/t maps it on
-0 < t < 1, where everything is smooth.
+∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on. The substitution x = -a/t maps it
+on 0 < t < 1, where everything is smooth.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ class Inlet:
 
 
 def inlet(problem: Problem, pressure, film) -> Inlet:
-    """Upstream of the first face, where the film is ``film`` [m] (ny,), p of the first cells ``pressure`` [Pa] (ny,)."""
+    """Upstream of the first face, where the film is ``film`` [m] (ny,), p of the first cells ``pressure`` [Pa]
+    (ny,)."""
     lubricant, speed = problem.lubricant, problem.speed
     t, weight, integral = _rule()
     dx = problem.spacing[0]

@@ -1,4 +1,5 @@
-"""The way to a steady state through time: implicit Euler steps, for starts from which Newton's method does not get there."""
+"""The way to a steady state through time: implicit Euler steps, for starts from which Newton's method does not get
+there."""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ class March:
 
 
 def march(problem: Problem, state: State, *, most: int) -> March:
-    """Let the film settle from ``state`` in time steps that grow while they are solved; at most ``most`` factorisations."""
+    """Let the film settle from ``state`` in time steps that grow while they are solved; at most ``most``
+    factorisations."""
     unit = problem.spacing[0] / problem.speed
     step, factorisations, krylov, steps = FIRST * unit, 0, 0, 0
     at = look(problem, state)

@@ -37,7 +37,8 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation it asks for (`resorted`). A step leaves every cell a fifth of its gap
-    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the residual has not fallen for ten steps.
+    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the
+    residual has not fallen for ten steps.
     """
     history, krylov = [], 0
     at = look(problem, state, past)

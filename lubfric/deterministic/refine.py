@@ -18,8 +18,8 @@ UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
 
 @dataclass(frozen=True)
 class Refined:
-    """The solution on every grid, the coarsest first; ``error``: estimate of the relative error that the last grid leaves
-    in the coefficient (None with one grid)."""
+    """The solution on every grid, the coarsest first; ``error``: estimate of the relative error that the last grid
+    leaves in the coefficient (None with one grid)."""
 
     results: tuple[DeterministicResult, ...]
     error: float | None
@@ -39,11 +39,13 @@ def solve_refined(
     start: Refined | None = None,
     precision: float = 1e-5,
 ) -> Refined:
-    """Solve ``lay(shape)`` for the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at least ``least`` of them.
+    """Solve ``lay(shape)`` for the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at
+    least ``least`` of them.
 
     The estimate is the geometric series of the changes c0, c1 of f on the last grids, c1 q/(1 - q) with q = c1/c0 kept
     within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed. A grid starts
-    from it or from the next coarser grid, and where both fail from the dry contact. ``precision``: of `solve_point`. Raises `ConvergenceError`.
+    from it or from the next coarser grid, and where both fail from the dry contact. ``precision``: of `solve_point`.
+    Raises `ConvergenceError`.
     """
     results, error, coarser = [], None, None
     for level, shape in enumerate(grids):
@@ -72,7 +74,8 @@ def _starts(problem: Problem, neighbour, coarse) -> list[Callable[[], State]]:
 
 
 def estimate(values) -> float | None:
-    """Relative error of the last of ``values`` found on grids each twice as fine as the one before; None of one value."""
+    """Relative error of the last of ``values`` found on grids each twice as fine as the one before; None of one
+    value."""
     if len(values) < 2:
         return None
     change = abs(values[-1] - values[-2])

@@ -20,10 +20,10 @@ class DeterministicResult:
     spots, wet (bool): h = floor; the asperity spots of `lubfric.deterministic.forces`; fluid under pressure outside
     them. shear [Pa] on the moving surface. dent [m]: plastic depth.
     coefficient: (boundary + couette + rolling)/load. split: the load by four rules, ``split.spots`` the one used.
-    flow_film [m]: flow/U; min_gap, central_gap (mean at x = 0), mean_gap (over ``strip``, the columns with |x| <= b of the load) [m];
-    spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that ruptured valleys of the strip give off
-    (they are taken as full, as in the volume balance of load sharing), over U times the mean gap. approach [m]: h0. inlet_load [N/m]: carried upstream of
-    the grid. ``state`` starts a neighbouring solve.
+    flow_film [m]: flow/U; min_gap, central_gap (mean at x = 0), mean_gap (over ``strip``, the columns with |x| <= b of
+    the load) [m]; spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that ruptured valleys of the
+    strip give off (they are taken as full, as in the volume balance of load sharing), over U times the mean gap.
+    approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
     x: np.ndarray

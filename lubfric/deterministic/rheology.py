@@ -5,7 +5,8 @@ cells, so that the flow follows the reduced pressure ∫ dp/eta. Φ >= 1 tells h
 s = eta Δu/(h tau) the ratio of the Newtonian stress to a characteristic one:
 
 - Ree-Eyring, tau = tau_E: along the sliding the tangent of its law, sqrt(1 + s²); across it the secant, s/asinh(s)
-  (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654, doi:10.1115/1.3261526);
+  (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
+  doi:10.1115/1.3261526);
 - limiting stress, tau = tau_0 + Λ p: the secant of ``1/eta_eff = 1/eta + Δu/(h tau)``, 1 + s in both directions, which
   is added to that of Eyring. (The tangent of a fluid at its limit is infinite.)
 """
@@ -48,7 +49,8 @@ def cell_fluid(lubricant: Lubricant, pressure) -> CellFluid:
 
 
 def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives by both."""
+    """ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives by
+    both."""
     d = right - left
     small = np.abs(d) < 1e-3
     e = np.where(small, 1.0, d)

@@ -27,10 +27,11 @@ def solve_point(
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from what each of ``starts`` returns (`lubfric.deterministic.transfer`), from the dry contact lifted by Moes' film,
-    and from where implicit steps in time lead from there; with a Newtonian lubricant also from the solution of one with
-    a limiting shear stress. Which one it was is in ``report.notes``. Converged when the largest of
-    `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
+    Tried in turn: Newton's method from what each of ``starts`` returns (`lubfric.deterministic.transfer`), from the dry
+    contact lifted by Moes' film, and from where implicit steps in time lead from there; with a Newtonian lubricant also
+    from the solution of one with a limiting shear stress. Which one it was is in ``report.notes``. Converged when the
+    largest of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
+    result.
     """
     work = Work()
     best = None
@@ -49,7 +50,8 @@ def solve_point(
 
 @dataclass
 class Work:
-    """What the attempts at one point cost: LU factorisations, GMRES iterations, steps in time; residuals along the way."""
+    """What the attempts at one point cost: LU factorisations, GMRES iterations, steps in time; residuals along the
+    way."""
 
     factorisations: int = 0
     krylov: int = 0
@@ -102,6 +104,7 @@ def _report(found: Found, tolerance: float, work: Work, name: str) -> Report:
         tuple(work.history),
         work.krylov,
         (
-            f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} steps in time",
+            f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} "
+            "steps in time",
         ),
     )

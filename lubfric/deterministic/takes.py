@@ -31,13 +31,14 @@ def check_scene(scene: Scene) -> None:
     """Raise `InputError` for what a deterministic film does not take."""
     for section, key, allowed in TAKEN:
         value = getattr(getattr(scene, section), key)
-        if value != allowed:
+        if value not in (allowed, "auto"):
             raise InputError(
                 f"{section}.{key} = {value!r} does not go with numerics.model = 'deterministic'; "
                 f"allowed: {allowed!r}{WHY.get(key, '')}, or numerics.model = 'auto'"
             )
     if scene.numerics.heat not in HEAT:
         raise InputError(
-            f"numerics.heat = {scene.numerics.heat!r} does not go with numerics.model = 'deterministic', which is isothermal; "
+            f"numerics.heat = {scene.numerics.heat!r} does not go with numerics.model = 'deterministic', which "
+            "is isothermal; "
             f"allowed: {', '.join(map(repr, HEAT))}"
         )

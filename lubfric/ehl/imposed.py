@@ -33,8 +33,8 @@ class LinePressure:
 
 @dataclass(frozen=True)
 class Seat:
-    """What film and contact of the own load on the gap that an imposed pressure leaves are like: those about ``centre`` [m]
-    of a cylinder of ``radius`` R and ``modulus`` E' (ratios). Only grids and starts are made from it."""
+    """What film and contact of the own load on the gap that an imposed pressure leaves are like: those about ``centre``
+    [m] of a cylinder of ``radius`` R and ``modulus`` E' (ratios). Only grids and starts are made from it."""
 
     centre: float = 0.0
     radius: float = 1.0
@@ -44,10 +44,11 @@ class Seat:
 def find_seats(problem) -> tuple[Seat, ...]:
     """Seats of a `Problem`, the likelier one first; just one where no pressure is imposed.
 
-    One is flat: Johnson's modulus, E' times the own share of the load. One is curved: over a window |x - x0| <= s the gap
-    G = x²/2R + imposed deflection is as good as a parabola where the Chebyshev mean of G' is zero, and of the curvature
-    k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt: a dry contact of the half-width s then carries what a cylinder of the radius
-    1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact and film, s² = b² + 2 h/k.
+    One is flat: Johnson's modulus, E' times the own share of the load. One is curved: over a window |x - x0| <= s the
+    gap G = x²/2R + imposed deflection is as good as a parabola where the Chebyshev mean of G' is zero, and of the
+    curvature k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt: a dry contact of the half-width s then carries what a cylinder
+    of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact and film,
+    s² = b² + 2 h/k.
     """
     if problem.imposed is None:
         return (Seat(),)

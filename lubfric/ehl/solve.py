@@ -1,4 +1,5 @@
-"""`solve_ehl`, and `solve_line_contact` for those who have a `LineContact`: nested grids from a warm or a cold start."""
+"""`solve_ehl`, and `solve_line_contact` for those who have a `LineContact`: nested grids from a warm or a cold
+start."""
 
 from __future__ import annotations
 
@@ -147,7 +148,8 @@ def solve_line_contact(
 
 
 def make_problem(contact: LineContact, inlet_length: float | None, imposed: LinePressure | None = None) -> Problem:
-    """The contact in its own units, along its motion; `InputError` where the lubricant begins inside the dry contact."""
+    """The contact in its own units, along its motion; `InputError` where the lubricant begins inside the dry
+    contact."""
     if imposed is not None and contact.entrainment_speed < 0:
         imposed = imposed.mirrored()
     if inlet_length is None:

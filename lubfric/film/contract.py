@@ -87,8 +87,8 @@ class LeftOut:
 class FilmLevel:
     """A way to find the film of a `LineContact`.
 
-    name: as in ``numerics.film_level``; words: in `Decision.text`; neglects: names of the parts it leaves out; numerical:
-    whether it takes a tolerance and a number of cells (False: closed form).
+    name: as in ``numerics.film_level``; words: in `Decision.text`; neglects: names of the parts it leaves out;
+    numerical: whether it takes a tolerance and a number of cells (False: closed form).
     """
 
     name: str
@@ -104,7 +104,8 @@ class FilmLevel:
         raise NotImplementedError
 
     def left_out(self, film: Film, line: LineContact, allowed: float) -> LeftOut:
-        """What ``film``, found for ``line`` by this level, leaves out; parts beyond ``allowed`` need not be looked for."""
+        """What ``film``, found for ``line`` by this level, leaves out; parts beyond ``allowed`` need not be looked
+        for."""
         return LeftOut()
 
     def shear(

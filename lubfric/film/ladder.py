@@ -45,7 +45,8 @@ def lowest_level(levels: Sequence[FilmLevel], line: LineContact, allowed: float)
 def level_for(
     levels: Sequence[FilmLevel], numerics: Numerics, line: LineContact, allowed: float
 ) -> tuple[FilmLevel, LeftOut]:
-    """The level given, or the lowest that leaves out no more than ``allowed`` of the film of ``line``, and what that is."""
+    """The level given, or the lowest that leaves out no more than ``allowed`` of the film of ``line``, and what that
+    is."""
     given = given_level(levels, numerics)
     level, left_out = (given, LeftOut()) if given else lowest_level(levels, line, allowed)
     return level, left_out if left_out.total <= allowed else LeftOut()

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..ehl.kernel import hat_kernel
 from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
-from .rigid import CELLS, RigidFilm, unit_nodes
+from .contract import Film
+from .rigid import CELLS, unit_nodes
 
 STRIDE = 2  # of the nodes: the deflection is smooth
 STIFFEST = 50.0  # ln(eta/eta0): a rigid film of such pressures means nothing
@@ -22,8 +23,8 @@ def _unit_deflection() -> tuple[np.ndarray, np.ndarray]:
     return nodes, hat_kernel(nodes, nodes)
 
 
-def elastic_error(film: RigidFilm, lubricant: Lubricant) -> float:
-    """First-order effect of the elastic deflection of the film's pressure, at the same load.
+def elastic_error(film: Film, lubricant: Lubricant) -> float:
+    """First-order effect of the elastic deflection of the pressure of a rigid film on `unit_nodes`, at the same load.
 
     A small change d(x) of the film changes the reduced pressure by dq' = 12 eta0 U ((d - dr)/h³ - 3 (h - hr) d/h⁴),
     hr the film at rupture and dr such that dq vanishes there; the load by ∫ (eta/eta0) dq dx. d is the deflection
@@ -59,6 +60,6 @@ def elastic_error(film: RigidFilm, lubricant: Lubricant) -> float:
     return float(max(central, shear))
 
 
-def compression(film: RigidFilm, lubricant: Lubricant) -> float:
+def compression(film: Film, lubricant: Lubricant) -> float:
     """Largest rise of the density, relative, that a film of constant density leaves out."""
     return float(density_ratio(lubricant, film.pressure.max())[0]) - 1

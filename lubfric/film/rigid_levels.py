@@ -25,7 +25,7 @@ class Isoviscous(FilmLevel):
         """In closed form: only ``line`` counts."""
         return isoviscous_film(line)
 
-    def left_out(self, film: RigidFilm, line: LineContact, allowed: float = math.inf) -> LeftOut:
+    def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
         """To first order; the piezoviscous part is the difference of the two rigid films."""
         found = {"elastic": elastic_error(film, line.lubricant), "density": compression(film, line.lubricant)}
         if not found["elastic"] + found["density"] <= allowed:
@@ -51,6 +51,6 @@ class Piezoviscous(FilmLevel):
         """To 1e-9 always: only ``line`` counts."""
         return piezoviscous_film(line)
 
-    def left_out(self, film: RigidFilm, line: LineContact, allowed: float = math.inf) -> LeftOut:
+    def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
         """To first order."""
         return LeftOut({"elastic": elastic_error(film, line.lubricant), "density": compression(film, line.lubricant)})

@@ -16,14 +16,17 @@ class ShearForce:
     """Forces [N] on the upper surface, in the direction in which it slides over the lower one.
 
     couette: from the difference of the surface speeds; rolling: from the pressure gradient;
-    total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sum that couette is, from two rules; it is
-    large where the nodes do not hold a pressure spike, whatever the error of the film. excess [N]: part of couette, without
-    sign, from stresses above what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
+    total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sums that they are, from two rules; it is
+    large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of
+    what rising and falling pressure contribute to the rolling force, which is their small difference at high pressure:
+    an error of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above
+    what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float
     rolling: float
     quadrature: float = 0.0
+    rolling_parts: float = 0.0
     excess: float = 0.0
     stress_ratio: float = 0.0
 
@@ -50,8 +53,9 @@ def shear_force(
     (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
     far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
     cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
-    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`,
-    the stress of the heated film and the viscosity that it was solved with; None: isothermal.
+    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``:
+    `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was solved with; None:
+    isothermal.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction = math.copysign(1.0, entrainment_speed)
@@ -61,7 +65,8 @@ def shear_force(
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
 
-    rolling = np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet)
+    rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
+    rolling, parts = np.sum(rolls), max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
 
     def stress(at, pressure, thickness):
         if warm is not None and warm.stress is not None:
@@ -75,6 +80,7 @@ def shear_force(
     couette = np.sum(face_tau[full])
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
+    quadrature += _rolling_error(p, h)
     carried = carried_stress(p)
     above = np.maximum(np.abs(tau) - carried, 0.0)
     excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
@@ -90,17 +96,25 @@ def shear_force(
         float(width * sense * couette),
         float(width * sense * rolling),
         float(width * quadrature),
+        float(width * parts),
         float(width * excess),
         float(np.max(np.abs(tau) / carried)),
     )
 
 
 def _spike(x, tau) -> float:
-    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum over
-    every second node, which a spike makes larger than the error by that or more."""
+    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum
+    over every second node, which a spike makes larger than the error by that or more."""
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
     coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
     return abs(coarse - fine) / 24
+
+
+def _rolling_error(p, h) -> float:
+    """A third of the change of ∫ (h/2) dp when every second node is left out: the error of second order."""
+    last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
+    fine, coarse = (np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n])) for n in (1, 2))
+    return float(abs(coarse - fine)) / 3
 
 
 def _upstream(h_inlet, distance, radius) -> tuple[float, float]:

@@ -32,13 +32,14 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
     executor : for the speeds of a curve, as in `lubfric.stribeck`
 
-    Minimises sum ((f - measured)/deviation)² (relative deviations where none are given) by a trust region within the bounds
-    (`scipy.optimize.least_squares`, "trf") with differences of 4 % of the bounds, which stay above the tolerance on f. Stops
-    when a step moves the parameters by <= 0.2 % of their bounds or changes the sum by <= 1e-4 of it. The covariance is
-    s² (JᵀJ)⁻¹, with s² the sum over n - p where no deviations are given; a parameter whose 95 % interval is as wide as its
-    bounds is one that the data cannot tell.
+    Minimises sum ((f - measured)/deviation)² (relative deviations where none are given) by a trust region within the
+    bounds (`scipy.optimize.least_squares`, "trf") with differences of 4 % of the bounds, which stay above the tolerance
+    on f. Stops when a step moves the parameters by <= 0.2 % of their bounds or changes the sum by <= 1e-4 of it. The
+    covariance is s² (JᵀJ)⁻¹, with s² the sum over n - p where no deviations are given; a parameter whose 95 % interval
+    is as wide as its bounds is one that the data cannot tell.
 
-    Raises `InputError` before any work, `ConvergenceError` with the result when the search does not end or a curve fails.
+    Raises `InputError` before any work, `ConvergenceError` with the result when the search does not end or a curve
+    fails.
     """
     from scipy.optimize import least_squares
 

@@ -48,7 +48,8 @@ class Measured:
             raise InputError("deviation holds values that are not positive; allowed: > 0, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):
             raise InputError(
-                "coefficient holds values that are not positive, whose relative deviation means nothing; allowed: > 0, or "
+                "coefficient holds values that are not positive, whose relative deviation means nothing; "
+                "allowed: > 0, or "
                 "give a deviation"
             )
         if np.unique(x).size < x.size:
@@ -66,8 +67,8 @@ def read_measured(
     """A `Measured` from a text file with a heading, separated by commas, semicolons or tabs.
 
     ``coefficient``, ``speed`` or ``slide_roll_ratio``, ``deviation``: the headings of the columns, as they stand in the
-    file; nothing is guessed. A unit in the heading, in square or round brackets, is converted (m/s, mm/s, cm/s, km/h; -, %);
-    a heading of speeds must have one.
+    file; nothing is guessed. A unit in the heading, in square or round brackets, is converted (m/s, mm/s, cm/s, km/h;
+    -, %); a heading of speeds must have one.
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")

@@ -14,7 +14,13 @@ from ..sweep import stribeck
 from .measured import SPEED, Measured
 from .parameters import Parameters
 
-SHARING = ("surface.", "contact.", "bodies.e_prime", "bodies.hardness")  # of which the map and the contact are made
+SHARING = (
+    "surface.",
+    "counterface.",
+    "contact.",
+    "bodies.e_prime",
+    "bodies.hardness",
+)  # of which the map and the contact are made
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,7 @@ def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor
     tolerance = min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
     by_curve = scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
     making = (*SHARING, "bodies.load", "bodies.radius", "bodies.width") if by_curve else SHARING
-    if scene.surface.file is not None and scene.contact.shape is None:
+    if scene.contact.shape is None:
         making = (*making, "bodies.")
     shared = not any(key.startswith(making) for key in parameters.keys)
     like = prepare(scene.with_(numerics={"tolerance": tolerance})) if shared else None

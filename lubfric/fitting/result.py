@@ -18,7 +18,8 @@ AT_BOUND = 5e-3  # of the bounds
 
 @dataclass(frozen=True, eq=False)
 class FitResult:
-    """values, deviations: of the parameters by key; scene: with the values put in; predicted (n,): f at the measured points.
+    """values, deviations: of the parameters by key; scene: with the values put in; predicted (n,): f at the measured
+    points.
 
     unit (p,): positions between the bounds, whose covariance (p, p) is ``unit_covariance``; slopes (n, p): df/d(unit).
     """

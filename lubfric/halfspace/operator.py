@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,9 +12,12 @@ from .. import validate
 from ..errors import InputError
 from ..frozen import FrozenArrays
 from .free import love_coefficients
+from .line import line_coefficients
 from .semiperiodic import semiperiodic_coefficients
+from .strip import Strip, rounded, strip
 
 KINDS = ("periodic", "free")
+NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,48 @@ class HalfSpace(FrozenArrays):
         """
         if np.shape(pressure) != self.shape:
             raise InputError(f"pressure has shape {np.shape(pressure)}; allowed: {self.shape} as the operator")
-        return filtered(np.asarray(pressure, dtype=self.symbol.dtype), self.symbol, self.padded, self.workers)
+        pressure = np.asarray(pressure, dtype=self.symbol.dtype)
+        if self.boundary == ("free", "periodic"):
+            rows = np.flatnonzero(pressure.any(axis=1))
+            if rows.size and rows[-1] - rows[0] < NARROW * self.shape[0]:
+                return self._under_strip(pressure, int(rows[0]), int(rows[-1]) + 1)
+        return filtered(pressure, self.symbol, self.padded, self.workers)
+
+    def _under_strip(self, pressure, first: int, last: int) -> np.ndarray:
+        """`apply` where only some rows are loaded."""
+        nx = self.shape[0]
+        count = rounded(last - first, nx)
+        first = min(first, nx - count)
+        farthest = rounded(max(nx - first, first + count), nx) - 1
+        return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
+
+    def window(self, count: int) -> Strip:
+        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y, made once for every count.
+
+        An exact part of this one, in the same gauge.
+        """
+        return self._strip(count, count, count - 1)
+
+    def _strip(self, count: int, rows: int, farthest: int) -> Strip:
+        key = (count, rows, farthest)
+        if key not in self._made:
+            made = strip(self._kernel, self.shape[1], count, rows, farthest, self.symbol.dtype, self.workers)
+            self._made[key] = made
+        return self._made[key]
+
+    @cached_property
+    def _kernel(self) -> np.ndarray:
+        """Coefficients along the free axis x of every wave along y [m/Pa], (nx, ny//2 + 1)."""
+        return fft.irfft(self.symbol, n=self.padded[0], axis=0)[: self.shape[0]]
+
+    @cached_property
+    def _made(self) -> dict:
+        """Operators derived from this one, each made once: they depend on nothing else."""
+        return {}
+
+    def __getstate__(self) -> dict:
+        """What was derived is not pickled."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def astype(self, dtype) -> HalfSpace:
         """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""
@@ -53,18 +97,34 @@ class HalfSpace(FrozenArrays):
     @cached_property
     def single(self) -> HalfSpace:
         """The same operator in single precision, made once."""
-        return self.astype(np.float32)
+        fast = self.astype(np.float32)
+        if self.boundary == ("free", "periodic"):
+            fast.__dict__["_kernel"] = self._kernel
+        return fast
 
     def coarsened(self, factors) -> HalfSpace:
-        """The operator on cells ``factors`` (fx, fy) times as long, from the low frequencies of this one.
+        """The operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once.
 
-        Exact when periodic; close to the operator of the coarse grid when free. ``padded`` must be even
-        multiples of the factors.
+        ``padded`` must be even multiples of the factors.
         """
+        key = tuple(int(f) for f in factors)
+        if key not in self._made:
+            self._made[key] = self._coarsened(key)
+        return self._made[key]
+
+    def _coarsened(self, factors) -> HalfSpace:
+        """From the low frequencies: exact when periodic, close to it when free. The kernel of one free axis is made
+        anew instead, whose waves end."""
         shape = tuple(n // f for n, f in zip(self.shape, factors))
         padded = tuple(m // f for m, f in zip(self.padded, factors))
         spacing = tuple(d * f for d, f in zip(self.spacing, factors))
-        symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
+        if self.boundary == ("free", "periodic"):
+            kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
+            own = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
+            kernel[:, 0] += (self._kernel[0, 0] - own) * factors[0]  # gauge
+            symbol = _even_transform(kernel, padded[0], axis=0)
+        else:
+            symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
     def shortened(self, count: int) -> HalfSpace:
@@ -116,9 +176,10 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
     shape = _grid_shape(shape)
     spacing = validate.spacing("spacing", spacing)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
-    boundary = tuple(boundary) if not isinstance(boundary, str) else (boundary, boundary)
-    if len(boundary) != 2:
-        raise InputError(f"boundary = {boundary!r} must name two axes, each 'periodic' or 'free'")
+    boundary = (boundary, boundary) if isinstance(boundary, str) else boundary
+    if not isinstance(boundary, (tuple, list)) or len(boundary) != 2:
+        raise InputError(f"boundary = {validate.shown(boundary)} must name two axes, each 'periodic' or 'free'")
+    boundary = tuple(boundary)
     for axis, kind in enumerate(boundary):
         validate.choice(f"boundary[{axis}]", kind, KINDS)
     if workers is not None:

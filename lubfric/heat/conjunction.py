@@ -23,8 +23,8 @@ TOLERANCE = 1e-6  # of the largest rise
 class Surroundings:
     """What carries the heat off, and what else makes it.
 
-    carried: e1 √u1 + e2 √u2 of the bodies; sliding: u2 - u1 [m/s]; contact_heat (n,) [W/m²] of the contact spots and wet
-    (n,), the share of the width that the film covers, at the nodes of the film.
+    carried: e1 √u1 + e2 √u2 of the bodies; sliding: u2 - u1 [m/s]; contact_heat (n,) [W/m²] of the contact spots and
+    wet (n,), the share of the width that the film covers, at the nodes of the film.
     """
 
     carried: float
@@ -37,8 +37,8 @@ class Surroundings:
 class FilmHeat:
     """Temperatures of a film at its nodes, running downstream.
 
-    stress (n,) [Pa] over the film, signed; wall (n,) [K] of the surfaces; film_rise (n,) [K] mean over the film above its walls.
-    ``report``: residual, the largest mismatch of the surface temperature over its largest rise.
+    stress (n,) [Pa] over the film, signed; wall (n,) [K] of the surfaces; film_rise (n,) [K] mean over the film above
+    its walls. ``report``: residual, the largest mismatch of the surface temperature over its largest rise.
     """
 
     stress: np.ndarray
@@ -72,11 +72,13 @@ def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surrounding
 
 
 def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *, raise_on_failure=True) -> FilmHeat:
-    """Stress and temperatures of a film: ``x`` (n,) [m] rising downstream, ``pressure`` [Pa], ``film`` [m] at its nodes.
+    """Stress and temperatures of a film: ``x`` (n,) [m] rising downstream, ``pressure`` [Pa], ``film`` [m] at its
+    nodes.
 
-    The surfaces are as hot as the heat of film and contact spots makes them (`flash_matrix`, on at most 257 of the nodes), the
-    stress is that of the film between such walls (`heated_stress`). Newton's method on the wall temperatures; stops when none
-    misses its equation by more than 1e-6 of the largest rise. Raises `ConvergenceError` with the report after 40 steps.
+    The surfaces are as hot as the heat of film and contact spots makes them (`flash_matrix`, on at most 257 of the
+    nodes), the stress is that of the film between such walls (`heated_stress`). Newton's method on the wall
+    temperatures; stops when none misses its equation by more than 1e-6 of the largest rise. Raises `ConvergenceError`
+    with the report after 40 steps.
     """
     nodes = _nodes(x.size)
     at, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))

@@ -1,4 +1,5 @@
-"""Heat of one operating point, as a level: modelled where leaving it out would move f by more than its share of the tolerance."""
+"""Heat of one operating point, as a level: modelled where leaving it out would move f by more than its share of the
+tolerance."""
 
 from __future__ import annotations
 
@@ -33,8 +34,8 @@ class Heat:
     """Heat of an operating point.
 
     inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
-    temperatures of film and surfaces, relative (an upper estimate where it is left out, ``heated`` None); peclet: u b rho c/(2 k)
-    of the faster surface.
+    temperatures of film and surfaces, relative (an upper estimate where it is left out, ``heated`` None); peclet: u b
+    rho c/(2 k) of the faster surface.
     """
 
     inlet: InletHeat | None = None
@@ -95,8 +96,8 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
 
 
 def film_lubricant(scene, speed: float) -> Lubricant:
-    """The lubricant that the film is solved with: as viscous as it is in the heated inlet, so that Moes' film is thinner by the
-    factor of `inlet_at`."""
+    """The lubricant that the film is solved with: as viscous as it is in the heated inlet, so that Moes' film is
+    thinner by the factor of `inlet_at`."""
     found, used = inlet_at(scene, speed)
     if not used:
         return scene.lubricant
@@ -114,8 +115,8 @@ def film_lubricant(scene, speed: float) -> Lubricant:
 
 
 def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | None]:
-    """Heat at ``balance``, and what it does to the shear of its film (None: nothing). ``force``: |f F_T| [N] and ``shear``
-    (`ShearForce`) without the heat of the film."""
+    """Heat at ``balance``, and what it does to the shear of its film (None: nothing). ``force``: |f F_T| [N] and
+    ``shear`` (`ShearForce`) without the heat of the film."""
     film = balance.film
     if film is None:
         return Heat(), None

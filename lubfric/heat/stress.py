@@ -1,15 +1,16 @@
 """Shear stress across a film that heats itself, between walls of a given temperature.
 
-The stress is constant across the film. With the viscosity falling as exp(-beta (T - T_w)) from the walls, heat k T'' = -tau
-gamma integrates in closed form for any law gamma = gamma_w(tau) exp(beta (T - T_w)), Newtonian and Ree-Eyring:
+The stress is constant across the film. With the viscosity falling as exp(-beta (T - T_w)) from the walls, heat k T'' =
+-tau gamma integrates in closed form for any law gamma = gamma_w(tau) exp(beta (T - T_w)), Newtonian and Ree-Eyring:
 with a = exp(beta (T_middle - T_w)) and G = beta tau gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and
 ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid `lubfric.analytic.nahme`).
 
-Over temperature: viscosity by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, S0 from the temperature coefficient (C. J. A.
-Roelands, thesis, Delft 1966), by exp(-beta (T - T0)) for the other laws; Eyring stress ~ T (H. Eyring, J. Chem. Phys. 4 (1936) 283,
-doi:10.1063/1.1749836: tau_E = k T/v); limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol.
-103 (1981) 526-532, doi:10.1115/1.3251731). Both stresses are taken at the mean temperature of the film, T_w + tau dU h/(12 k).
-Linearised about the walls, the viscosity of a film that is tens of kelvin hotter in its middle is somewhat too low.
+Over temperature: viscosity by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, S0 from the temperature coefficient (C.
+J. A. Roelands, thesis, Delft 1966), by exp(-beta (T - T0)) for the other laws; Eyring stress ~ T (H. Eyring, J. Chem.
+Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v); limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L.
+Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526-532, doi:10.1115/1.3251731). Both stresses are taken at the mean
+temperature of the film, T_w + tau dU h/(12 k). Linearised about the walls, the viscosity of a film that is tens of
+kelvin hotter in its middle is somewhat too low.
 """
 
 from __future__ import annotations
@@ -52,7 +53,8 @@ def heated_stress(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Shear stress [Pa], with the sign of ``sliding`` [m/s], and mean rise of the film over its walls [K].
 
-    ``pressure`` [Pa], ``film`` thickness [m] and ``wall_temperature`` [K]: arrays (n,). By bisection on ln(tau), to 1e-12.
+    ``pressure`` [Pa], ``film`` thickness [m] and ``wall_temperature`` [K]: arrays (n,). By bisection on ln(tau), to
+    1e-12.
     """
     speed, k = abs(sliding), lubricant.conductivity
     p, h, wall = (np.asarray(a, dtype=float) for a in np.broadcast_arrays(pressure, film, wall_temperature))
@@ -72,7 +74,8 @@ def heated_stress(
 
 
 def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
-    """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its limit."""
+    """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
+    limit."""
     log_rate = np.log(tau) - log_eta  # of gamma_w
     if lubricant.eyring_stress is not None:
         log_rate = log_rate + _log_sinhc(tau / eyring_stress_at(lubricant, mean))

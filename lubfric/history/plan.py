@@ -34,11 +34,11 @@ class Transient:
     tolerance: float | None = None
 
     def __post_init__(self):
-        validate.positive("transient.duration", self.duration, "s")
-        validate.integer("transient.outputs", self.outputs, minimum=1)
+        validate.positive("transient.duration", self.duration, "s", minimum=1e-12, maximum=1e9)
+        validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
         validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
         if self.initial_film is not None:
-            validate.positive("transient.initial_film", self.initial_film, "m")
+            validate.positive("transient.initial_film", self.initial_film, "m", minimum=1e-12, maximum=1.0)
         if self.tolerance is not None:
             validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
         for name, unit in (

@@ -20,6 +20,7 @@ UNITS = {  # of the quantities of a scene that may change in time
     "viscosity": "Pa s",
 }
 MOST_LAPS = 1e5
+LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
 KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 
 
@@ -81,6 +82,13 @@ def check_history(name: str, unit: str, given: History, duration: float, *, posi
             f"{name}: the table of {given.times[-1]:g} s is repeated {duration / given.times[-1]:.3g} times; allowed: "
             f"up to {MOST_LAPS:g}"
         )
-    lowest = given.range(duration)[0]
-    if positive and lowest <= 0.0:
-        raise InputError(f"{name} falls to {lowest:g} {unit} during the run; allowed: > 0 {unit} at all times")
+    low, high = given.range(duration)
+    if positive and low <= 0.0:
+        raise InputError(f"{name} falls to {low:g} {unit} during the run; allowed: > 0 {unit} at all times")
+    least, most = LIMITS.get(unit, (1e-30, 1e30))
+    for value in (low, high):
+        if abs(value) > most or (positive or value != 0) and abs(value) < max(least, validate.LEAST):
+            raise InputError(
+                f"{name} reaches {value:g} {unit} during the run; allowed: magnitudes up to {most:g} {unit}"
+                f"{f', at least {least:g}' if positive else ''}"
+            )

@@ -26,8 +26,9 @@ def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | Non
     """Two columns in SI units, found by the ``names`` in the first row.
 
     A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI. ``units``: the SI unit that each
-    column must be convertible to (None: any of `UNITS`). Comma, semicolon or tab separate; where it is one of the latter
-    two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or Windows-1252.
+    column must be convertible to (None: any of `UNITS`). Comma, semicolon or tab separate; where it is one of the
+    latter two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
+    Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
@@ -87,7 +88,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 def _decimal_point(path: Path, line: int, field: str) -> str:
     if "," in field and "." in field:
         raise InputError(
-            f"history file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none "
+            f"history file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal "
+            "mark, none "
             "for thousands"
         )
     return field.replace(",", ".")
@@ -101,7 +103,8 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"history file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a number; allowed: a "
+            f"history file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a "
+            "number; allowed: a "
             "finite number in every row"
         )
     return value

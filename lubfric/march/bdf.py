@@ -30,8 +30,8 @@ class Memory:
 
 
 class Solved(Protocol):
-    """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else the
-    next solve starts from. Only a ``status`` of "converged" is marched on."""
+    """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else
+    the next solve starts from. Only a ``status`` of "converged" is marched on."""
 
     @property
     def status(self) -> str: ...

@@ -20,8 +20,8 @@ SHORTEST = 1e-11  # of the duration: below it a step has failed for good
 
 @dataclass(frozen=True)
 class Plan:
-    """When and how closely: output ``times`` [s], ``stops`` (times at which a step ends, these among them), those that are
-    ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a step."""
+    """When and how closely: output ``times`` [s], ``stops`` (times at which a step ends, these among them), those that
+    are ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a step."""
 
     times: np.ndarray
     stops: tuple[float, ...]
@@ -78,8 +78,8 @@ def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, 
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
-    """The progress after every step from ``now`` on, until the end or until the shortest step fails (then the last time is
-    before ``plan.end``). What the caller keeps of it is all there is: a run goes on from any progress."""
+    """The progress after every step from ``now`` on, until the end or until the shortest step fails (then the last time
+    is before ``plan.end``). What the caller keeps of it is all there is: a run goes on from any progress."""
     for stop in plan.stops:
         while now.time < stop:
             step = advance(now.march, stop, solver, plan.tolerance, SHORTEST * plan.end)

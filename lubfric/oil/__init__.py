@@ -1,4 +1,5 @@
-"""Oils: viscosity index, viscosity over temperature, density, pressure-viscosity coefficient. SI units: m²/s, K, kg/m³, 1/Pa."""
+"""Oils: viscosity index, viscosity over temperature, density, pressure-viscosity coefficient. SI units: m²/s, K, kg/m³,
+1/Pa."""
 
 from .make import from_grade, from_table, from_viscosities, grade_viscosity, named_oil, oil_names
 from .oil import Oil

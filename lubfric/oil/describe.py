@@ -46,9 +46,11 @@ FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dow
 
 
 def estimate_in_words(oil: Oil, temperature: float) -> str:
-    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the latter is known."""
+    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the latter is
+    known."""
     text = (
-        f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, constant 0.7), "
+        f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s "
+        "(D341, constant 0.7), "
         f"density {oil.density_at(temperature):.4g} kg/m³"
     )
     alpha, other = oil.pressure_viscosity_coefficient(temperature), oil.other_estimate(temperature)

@@ -1,8 +1,8 @@
 """The table of ASTM D2270 (ISO 2909, Table 1): L and H over the kinematic viscosity at 100 °C, all in mm²/s.
 
-L and H are the kinematic viscosities at 40 °C of oils of viscosity index 0 and 100 that have the same viscosity at 100 °C.
-The numbers are those of the standard, as the packages ``chemicals`` and ``libvisc`` hold them too; between them D2270
-interpolates linearly.
+L and H are the kinematic viscosities at 40 °C of oils of viscosity index 0 and 100 that have the same viscosity at 100
+°C. The numbers are those of the standard, as the packages ``chemicals`` and ``libvisc`` hold them too; between them
+D2270 interpolates linearly.
 """
 
 from __future__ import annotations

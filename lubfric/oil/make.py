@@ -52,7 +52,8 @@ def oil_names() -> tuple[str, ...]:
 
 
 def grade_viscosity(grade: str) -> float:
-    """Kinematic viscosity [m²/s] at 40 °C in the middle of an ISO viscosity grade (ISO 3448): "ISO VG 68", "VG68", "68"."""
+    """Kinematic viscosity [m²/s] at 40 °C in the middle of an ISO viscosity grade (ISO 3448): "ISO VG 68", "VG68",
+    "68"."""
     found = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
     if not found or float(found[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
@@ -68,6 +69,7 @@ def _viscosity(name: str, value: float) -> float:
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         raise InputError(
-            f"{name} = {nu:g} m²/s is out of range; allowed: up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g})"
+            f"{name} = {nu:g} m²/s is out of range; allowed: up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = "
+            f"{nu * 1e-6:g})"
         )
     return nu

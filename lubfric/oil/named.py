@@ -12,8 +12,8 @@ GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s
 
 @dataclass(frozen=True)
 class Entry:
-    """A named oil: two points (temperature [°C], kinematic viscosity [mm²/s]), base, density [kg/m³] at 15 °C (None: typical
-    of the base), alpha [1/Pa] (None: estimated), and the source."""
+    """A named oil: two points (temperature [°C], kinematic viscosity [mm²/s]), base, density [kg/m³] at 15 °C (None:
+    typical of the base), alpha [1/Pa] (None: estimated), and the source."""
 
     name: str
     points: tuple[tuple[float, float], tuple[float, float]]

@@ -76,7 +76,8 @@ class Oil:
 
     @property
     def thermal_conductivity(self) -> float:
-        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 15 %; about twice as much at 1 GPa)."""
+        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 15 %; about twice as much at 1
+        GPa)."""
         return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
 
     def viscosity(self, temperature: float) -> float:

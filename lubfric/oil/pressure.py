@@ -1,9 +1,9 @@
 """Pressure-viscosity coefficient: estimates from the viscosity, each with the range in which measured oils lie.
 
-No estimate knows the oil. The range is that of measured coefficients over the estimate, widened to round numbers: 13 mineral
-oils at 30, 60 and 100 °C (Stachowiak and Batchelor, Engineering Tribology, Table 2.3; `tests/oil` holds them), glycols and esters
-of the same table, polyalphaolefins. The coefficient wanted is the slope d ln(eta)/dp at ambient pressure; a mean slope up to some 0.2 GPa, which published
-fits often give, is lower.
+No estimate knows the oil. The range is that of measured coefficients over the estimate, widened to round numbers: 13
+mineral oils at 30, 60 and 100 °C (Stachowiak and Batchelor, Engineering Tribology, Table 2.3; `tests/oil` holds them),
+glycols and esters of the same table, polyalphaolefins. The coefficient wanted is the slope d ln(eta)/dp at ambient
+pressure; a mean slope up to some 0.2 GPa, which published fits often give, is lower.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ BASES = tuple(GOLD)
 
 @dataclass(frozen=True)
 class Estimate:
-    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, and its source."""
+    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, and its
+    source."""
 
     value: float
     low: float
@@ -46,8 +47,9 @@ def gold(nu: float, base: str) -> Estimate:
     temperature in question and ambient pressure.
 
     P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synthetic Lubrication 18 (2001) 51-79,
-    doi:10.1002/jsl.3000180105. One source of the coefficients was at hand. Measured mineral oils have up to 1.63 times as
-    much, an aromatic ester 1.9, a polypropylene glycol 1.7 times; stated: 0.85 to 1.65 times (ester 2.1, polyglycol 1.75).
+    doi:10.1002/jsl.3000180105. One source of the coefficients was at hand. Measured mineral oils have up to 1.63 times
+    as much, an aromatic ester 1.9, a polypropylene glycol 1.7 times; stated: 0.85 to 1.65 times (ester 2.1, polyglycol
+    1.75).
     """
     nu, base = validate.positive("nu", nu, "m²/s", maximum=1.0), validate.choice("base", base, BASES)
     s, t = GOLD[base]
@@ -57,13 +59,13 @@ def gold(nu: float, base: str) -> Estimate:
 
 
 def so_klaus(nu: float, slope: float, density: float) -> Estimate:
-    """So and Klaus's regression for mineral oils: nu [m²/s] and density [kg/m³] at the temperature in question, ``slope`` n
-    of ASTM D341 (`Walther`).
+    """So and Klaus's regression for mineral oils: nu [m²/s] and density [kg/m³] at the temperature in question,
+    ``slope`` n of ASTM D341 (`Walther`).
 
     With l = log10(nu in mm²/s), alpha in 10 /GPa is
-    ``1.216 + 4.143 l^3.0627 + 2.848e-4 n^5.1903 l^1.5976 - 3.999 l^3.0975 rho^0.1162``, rho in g/cm³ (B. Y. C. So, E. E. Klaus,
-    ASLE Trans. 23 (1980) 409-421, doi:10.1080/05698198008982986). For nu above 1 mm²/s. Measured mineral oils have 0.71 to 1.1
-    times as much; stated: 0.70 to 1.15 times.
+    ``1.216 + 4.143 l^3.0627 + 2.848e-4 n^5.1903 l^1.5976 - 3.999 l^3.0975 rho^0.1162``, rho in g/cm³ (B. Y. C. So, E.
+    E. Klaus, ASLE Trans. 23 (1980) 409-421, doi:10.1080/05698198008982986). For nu above 1 mm²/s. Measured mineral oils
+    have 0.71 to 1.1 times as much; stated: 0.70 to 1.15 times.
     """
     nu = validate.number("nu", nu, "m²/s (for So and Klaus)", above=1e-6, maximum=1.0)
     slope = validate.number("slope", slope, "(-)", minimum=1.0, maximum=6.0)

@@ -28,8 +28,8 @@ class Walther:
     """ASTM D341: log10 log10 Z = m - n log10 T, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu²), nu in mm²/s, T in K.
 
     m : intercept [-]; n : slope [-], 2.5 to 4.5 of lubricating oils. The constant is 0.7; the exponential matters below
-    2 mm²/s only (6e-4 of nu there). D341 gives it for 0.21 to 2e7 mm²/s; between the two temperatures of its points it holds
-    to a few percent for oils without wax, outside it is an extrapolation.
+    2 mm²/s only (6e-4 of nu there). D341 gives it for 0.21 to 2e7 mm²/s; between the two temperatures of its points it
+    holds to a few percent for oils without wax, outside it is an extrapolation.
     """
 
     m: float
@@ -51,7 +51,8 @@ def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
         validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
     if not thin < thick:
         raise InputError(
-            f"kinematic viscosity = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K; allowed: one that falls "
+            f"kinematic viscosity = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K; allowed: one "
+            "that falls "
             "as the temperature rises (swapped?)"
         )
     a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))

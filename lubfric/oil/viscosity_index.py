@@ -22,7 +22,8 @@ def viscosity_index(nu40: float, nu100: float) -> float:
     ``100 (L - nu40)/(L - H)``, where nu40 >= H; procedure B, ``100 + (10^N - 1)/0.00715`` with
     ``N = log(H/nu40)/log(nu100)`` in mm²/s, below (index 100 and more). The standard rounds to whole numbers.
 
-    Raises `InputError` for viscosities that are not positive, a nu100 below 2 mm²/s (not defined there) or not below nu40.
+    Raises `InputError` for viscosities that are not positive, a nu100 below 2 mm²/s (not defined there) or not below
+    nu40.
     """
     nu40, nu100 = validate.positive("nu40", nu40, "m²/s"), validate.positive("nu100", nu100, "m²/s")
     if nu100 < LEAST * (1 - 1e-12):

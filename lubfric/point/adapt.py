@@ -11,10 +11,10 @@ from ..model import Model
 from ..report import CONVERGED, Report
 from .balance import Balance, separated
 from .decision import Decision, alone, dry, in_contact
-from .forces import forces
+from .forces import dry_forces
 from .grids import coarser_grids, on_enough_cells
 from .one_grid import Stage
-from .operating_point import OperatingPoint, Settings, Trial
+from .operating_point import OperatingPoint, Settings
 from .tolerances import allowed_left_out, film_alone_tolerance, first_film_tolerance, least_cells
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
@@ -46,7 +46,7 @@ def solved(model: Model, speed: float, start: Balance | None = None, *, given_gr
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the film of the whole load was not solved ({error})",)
         else:
-            if found.decision.clearance >= 0:
+            if found.decision.clearance is not None and found.decision.clearance >= 0:
                 return found
     found = _in_contact(model, speed, start, given_grid)
     return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
@@ -66,8 +66,8 @@ def _dry(model: Model) -> Solved:
         residuals={"volume": 0.0, "load": 0.0},
         notes=("no entrainment: all contact",),
     )
-    found = forces(scene, None, Trial(contact_load=scene.bodies.load, contact=state))
-    return Solved(Balance(0.0, scene.bodies.load, None, state, report, found), dry(model))
+    balance = Balance(0.0, scene.bodies.load, None, state, report, dry_forces(scene), None)
+    return Solved(balance, dry(model))
 
 
 def _certainly_touching(model: Model, speed: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Self
 
 from ..film.contract import Film, FilmLevel
 from ..report import CONVERGED, Report
@@ -12,7 +13,7 @@ from ..roots import increasing_root
 from ..rough.contract import ContactState
 from . import total_pressure
 from .forces import Forces, forces
-from .operating_point import OperatingPoint, Trial
+from .operating_point import OperatingPoint, Start, Trial
 
 BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
 THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
@@ -33,8 +34,8 @@ class Balance:
     contact: ContactState
     report: Report
     forces: Forces
+    level: FilmLevel | None
     slope: float | None = None
-    level: FilmLevel | None = None
 
     @property
     def closure(self) -> ContactState:
@@ -48,10 +49,18 @@ class Balance:
             return NEARLY_SEPARATED
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
-    def moved(self, step: float) -> Balance:
+    def moved(self, step: float) -> Self:
         """The loads divided as if ``split`` were larger by ``step``; film and contact as they were."""
         film_load, contact_load = divided(self.film_load + self.contact_load, self.split + step)
         return replace(self, film_load=film_load, contact_load=contact_load)
+
+
+@dataclass(frozen=True)
+class Lubricated(Balance):
+    """A balance with a film."""
+
+    film: Film
+    level: FilmLevel
 
 
 def divided(load: float, split: float) -> tuple[float, float]:
@@ -59,17 +68,17 @@ def divided(load: float, split: float) -> tuple[float, float]:
     return load / (1 + math.exp(-split)), load / (1 + math.exp(split))
 
 
-def balanced(point: OperatingPoint, start: Balance | None = None) -> Balance:
+def balanced(point: OperatingPoint, start: Balance | None = None) -> Lubricated:
     """The division of the load at which film and contact agree, the way ``numerics.closure`` asks for.
 
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film at
-    the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
+    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film
+    at the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
     """
     by_load = point.scene.numerics.closure == "load"
-    first = Trial() if start is None else Trial(film=start.film, start=start.contact)
+    first = Start() if start is None else Start(start.film, start.contact)
     begin = point.guessed_split() if start is None else start.split + _faster(point, start)
     root = increasing_root(
         partial(volume_residual if by_load else load_residual, point),
@@ -88,27 +97,27 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Balance:
     return _balance(point, found, residuals, root.history, root.status, (), slope)
 
 
-def separated(point: OperatingPoint, start: Film | None = None) -> Balance:
+def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
     """All the load on the film: in balance, with no contact, where the volume residual of its contact is <= 0."""
-    found = point.with_contact(0.0, point.with_film(point.scene.bodies.load, Trial(film=start)))
+    found = point.trial(point.scene.bodies.load, 0.0, Start(start))
     notes = ("separated: the film clears the summits",)
     return _balance(point, found, {"volume": 0.0, "load": 0.0}, (0.0,), CONVERGED, notes)
 
 
-def volume_residual(point: OperatingPoint, split: float, last: Trial) -> tuple[float, Trial]:
+def volume_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
     """That of the contact solved at its share of the load under the film solved at its own."""
     film_load, contact_load = divided(point.scene.bodies.load, split)
     if point.scene.numerics.film_deflection == "total":
         found = total_pressure.film_and_contact(point, film_load, contact_load, last)
     else:
-        found = point.with_contact(contact_load, point.with_film(film_load, last))
+        found = point.trial(film_load, contact_load, last)
     return found.contact.volume_residual, found
 
 
-def load_residual(point: OperatingPoint, split: float, last: Trial) -> tuple[float, Trial]:
+def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
     """ln((F_C + F_H)/F_T) of the film solved at its share of the load and imposed on the contact."""
     load = point.scene.bodies.load
-    found = point.with_imposed_film(point.with_film(divided(load, split)[0], last))
+    found = point.trial_with_imposed_film(divided(load, split)[0], last)
     return math.log((found.contact_load + found.film_load) / load), found
 
 
@@ -119,7 +128,7 @@ def _faster(point: OperatingPoint, start: Balance) -> float:
     return math.log(abs(point.speed / start.film.entrainment_speed))
 
 
-def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Balance:
+def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Lubricated:
     residuals = residuals | {"film": found.film.report.residual}
     if found.contact.fields is not None:
         residuals["contact"] = found.contact.fields.report.residual
@@ -138,5 +147,13 @@ def _balance(point: OperatingPoint, found: Trial, residuals, history, status, no
         notes=tuple(notes),
     )
     level = point.settings.level
-    found_forces = forces(point.scene, level, found, slope)
-    return Balance(found.film_load, found.contact_load, found.film, found.contact, report, found_forces, slope, level)
+    return Lubricated(
+        film_load=found.film_load,
+        contact_load=found.contact_load,
+        film=found.film,
+        contact=found.contact,
+        report=report,
+        forces=forces(point.scene, level, found, slope),
+        level=level,
+        slope=slope,
+    )

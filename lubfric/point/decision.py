@@ -17,10 +17,12 @@ class Decision:
     """Levels of film and contact and the grid of one operating point.
 
     film, contact: names of the levels, film_words: of the film in words; left_out: by the film level, of film and film
-    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form). clearance
-    [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid; coarsening: its cells
-    in those of the scene's map, each way; grid_error: estimated relative error of f from it (None: the map's own grid);
-    tolerance: asked, on f; heat: what of it was modelled, in words ("": not known); forced: what was not chosen but given.
+    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form).
+    clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
+    coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
+    (None: the map's own grid); tolerance: asked, on f; deflection:
+    what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not
+    chosen but given.
     """
 
     film: str
@@ -34,6 +36,7 @@ class Decision:
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
+    deflection: str = ""
     heat: str = ""
     forced: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
@@ -41,7 +44,7 @@ class Decision:
     @property
     def text(self) -> str:
         """In words, the number beside its budget."""
-        parts = (self.film_text, self._contact(), self._grid(), self.heat, *self.notes)
+        parts = (self.film_text, self._contact(), self._grid(), self.deflection, self.heat, *self.notes)
         return "; ".join(part for part in parts if part)
 
     @property

@@ -18,11 +18,12 @@ from .operating_point import Trial
 class Forces:
     """What resists the sliding: f = (boundary + shear.total)/F_T.
 
-    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). a is what a change of
+    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T), where the rolling
+    part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). a is what a change of
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
     the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
-    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film. heat: of
-    inlet, film and surfaces, and what it changes.
+    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
+    heat: of inlet, film and surfaces, and what it changes.
     """
 
     coefficient: float
@@ -33,24 +34,23 @@ class Forces:
     heat: Heat = Heat()
 
 
-def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | None = None) -> Forces:
-    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` (None: no film) and a contact that share
-    the load, ``slope`` that of the balance."""
-    bodies, motion = scene.bodies, scene.motion
-    sliding = bodies.boundary_friction_coefficient * (motion.slide_roll_ratio != 0)
-    boundary = sliding * found.contact_load
+def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None) -> Forces:
+    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load,
+    ``slope`` that of the balance."""
     shear = _shear(scene, level, found)
-    heat, warm = point_heat(scene, found, abs(boundary + shear.total), shear)
+    heat, warm = point_heat(scene, found, abs(_boundary(scene, found.contact_load) + shear.total), shear)
     if warm is not None:
         shear = _shear(scene, level, found, warm)
+    boundary = _boundary(scene, found.contact_load)
     total = abs(boundary + shear.total)
-    moved = sliding * found.film_load * (found.contact_load > 0) + abs(shear.couette) + abs(shear.rolling)
+    viscous = abs(shear.couette) + max(abs(shear.rolling), shear.rolling_parts)
+    moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + viscous
     gain = 1.0
     if slope and found.contact_load > 0:
-        gain = max(1.0, 0.5 * found.contact_load / (bodies.load * slope))
+        gain = max(1.0, 0.5 * found.contact_load / (scene.bodies.load * slope))
     known = 0 < total < math.inf
     return Forces(
-        (boundary + shear.total) / bodies.load,
+        (boundary + shear.total) / scene.bodies.load,
         boundary,
         shear,
         gain * moved / total if known else 1.0,
@@ -59,9 +59,18 @@ def forces(scene: Scene, level: FilmLevel | None, found: Trial, slope: float | N
     )
 
 
-def _shear(scene: Scene, level: FilmLevel | None, found: Trial, warm: WarmFilm | None = None) -> ShearForce:
-    if level is None:
-        return ShearForce(0.0, 0.0)
+def dry_forces(scene: Scene) -> Forces:
+    """Friction of a contact that carries the whole load."""
+    boundary = _boundary(scene, scene.bodies.load)
+    return Forces(boundary / scene.bodies.load, boundary, ShearForce(0.0, 0.0), 0.0)
+
+
+def _boundary(scene: Scene, load: float) -> float:
+    """Friction [N] of contact spots that carry ``load`` [N]."""
+    return scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * load
+
+
+def _shear(scene: Scene, level: FilmLevel, found: Trial, warm: WarmFilm | None = None) -> ShearForce:
     with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
         return level.shear(
             found.film,

@@ -20,8 +20,8 @@ LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
 
 @dataclass(frozen=True)
 class Refined:
-    """The grid reached (its index), what the volume residual changed by from grid to grid on the way there, and the point
-    and balance, moved from a coarser grid to where this one should have its own."""
+    """The grid reached (its index), what the volume residual changed by from grid to grid on the way there, and the
+    point and balance, moved from a coarser grid to where this one should have its own."""
 
     index: int
     changes: tuple[float, ...]
@@ -30,7 +30,8 @@ class Refined:
 
 
 def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
-    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be halved."""
+    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be
+    halved."""
     contacts = [contact]
     while (coarse := contacts[0].coarsened()) is not None:
         if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
@@ -42,8 +43,8 @@ def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
 def on_enough_cells(
     point: OperatingPoint, grids: Sequence[RoughContact], start: Balance | None
 ) -> tuple[Stage, int, float]:
-    """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid, and
-    that error (infinite: unknown)."""
+    """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid,
+    and that error (infinite: unknown)."""
     limit = budget.CONTACT_GRID * point.scene.numerics.tolerance
     index, last = 0, len(grids) - 1
     point = replace(point, contact=grids[0])
@@ -52,6 +53,7 @@ def on_enough_cells(
         stage = on_grid(point, grids[index], start)
         error = grid_error(changes, stage.balance, limit) if changes else math.inf
         if index == last or error <= limit:
+            grids[index].check(stage.balance.contact)
             return stage, index, error
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
             index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None
@@ -63,7 +65,8 @@ def on_enough_cells(
 def refined(
     stage: Stage, grids: Sequence[RoughContact], index: int, changes: tuple[float, ...], limit: float
 ) -> Refined:
-    """Contact on grids finer than ``grids[index]`` under the film and load of ``stage``, until the rest is within ``limit``.
+    """Contact on grids finer than ``grids[index]`` under the film and load of ``stage``, until the rest is within
+    ``limit``.
 
     What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
     load would: no film is solved.
@@ -84,8 +87,8 @@ def refined(
 def under_the_film(
     stage: Stage, whole: RoughContact, coarser: RoughContact, state: ContactState
 ) -> tuple[RoughContact, ContactState]:
-    """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state; from
-    ``state``, found on ``coarser``. It is solved to its own tolerance: between grids no more is asked."""
+    """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state;
+    from ``state``, found on ``coarser``. It is solved to its own tolerance: between grids no more is asked."""
     film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, coarser)
     thickness, shape = stage.point.imposed_on(part, film)
     found = part.close(thickness, load, state, shape)
@@ -102,8 +105,8 @@ def grid_error(changes: Sequence[float], balance: Balance, limit: float) -> floa
 
     Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
     last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
-    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if d1
-    were small by chance; times 2 ``sensitivity``, the effect of a residual on f.
+    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if
+    d1 were small by chance; times 2 ``sensitivity``, the effect of a residual on f.
     """
     if balance.contact_load == 0:
         return math.inf

@@ -11,6 +11,7 @@ from ..validity.film import of_deflection, of_pressure, of_thickness
 from ..validity.heat import of_heat
 from ..validity.stress import of_shear
 from .balance import Balance
+from .deflection import strip_rise
 
 STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
 
@@ -25,16 +26,9 @@ def judged_validity(model: Model, speed: float, balance: Balance) -> tuple[Valid
         entries += of_thickness(scene.bodies, thickness)
         entries += _of_shear(scene, balance)
         entries += of_heat(balance.forces.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
-        entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
+        if scene.numerics.film_deflection == "hydrodynamic":
+            entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
     return tuple(entries)
-
-
-def strip_rise(scene, balance: Balance) -> float:
-    """Mean rise b²/(6R) of the undeformed cylinder over the Hertz strip, over the mean gap, where the film is deflected by its
-    own pressure alone; 0 elsewhere and without contact."""
-    if scene.numerics.film_deflection != "hydrodynamic" or balance.contact_load == 0:
-        return 0.0
-    return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
 
 
 def _of_shear(scene, balance: Balance) -> list[Validity]:

@@ -9,7 +9,7 @@ from .. import budget
 from ..film.contract import LeftOut
 from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
-from .balance import Balance, balanced
+from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
 from .tolerances import allowed_left_out, contact_tolerance, film_tolerance, least_cells, volume_tolerance
 
@@ -21,7 +21,7 @@ class Stage:
     """A point, its balance, and what its film leaves out."""
 
     point: OperatingPoint
-    balance: Balance
+    balance: Lubricated
     left_out: LeftOut
 
 
@@ -41,13 +41,12 @@ def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -
         if settings is None:
             break
         point, start = replace(point, settings=settings), balance
-    whole.check(stage.balance.contact)
     return stage
 
 
 def needed_settings(stage: Stage) -> Settings | None:
-    """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its own
-    will do. Beside a level given, the levels are those that leave out no more than is allowed."""
+    """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its
+    own will do. Beside a level given, the levels are those that leave out no more than is allowed."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
     numerics, levels = point.scene.numerics, point.model.film_levels
     sensitivity = max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -19,8 +19,8 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at least;
-    tolerance of the contact (None: its own)."""
+    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at
+    least; tolerance of the contact (None: its own)."""
 
     level: FilmLevel
     film_tolerance: float
@@ -30,18 +30,15 @@ class Settings:
 
 
 @dataclass(frozen=True)
-class Trial:
-    """Film and contact at one division of the load [N], found or to start from.
+class Start:
+    """What a trial starts from: a film, and the last contact that touched (None: nothing), of a neighbour.
 
-    start: the contact that the next one starts from, the last that touched; solved: cells of the films of this balance
-    so far, the latest last. From the second on they keep to one grid, or the root of the balance has a jump.
+    solved: cells of the films of this balance so far, the latest last. From the second on they keep to one grid, or the
+    root of the balance has a jump.
     """
 
-    film_load: float = 0.0
-    contact_load: float = 0.0
     film: Film | None = None
-    contact: ContactState | None = None
-    start: ContactState | None = None
+    touched: ContactState | None = None
     solved: tuple[int, ...] = ()
 
     @property
@@ -49,10 +46,15 @@ class Trial:
         """Of the next film."""
         return max(self.solved[1:], default=0)
 
-    def touching(self, contact_load: float, contact: ContactState) -> Trial:
-        """The same film with the contact found."""
-        start = self.start if contact.pressure is None else contact
-        return replace(self, contact_load=contact_load, contact=contact, start=start)
+
+@dataclass(frozen=True, kw_only=True)
+class Trial(Start):
+    """Film and contact at one division of the load [N]: the next trial starts from it."""
+
+    film: Film
+    contact: ContactState
+    film_load: float
+    contact_load: float
 
 
 @dataclass(frozen=True)
@@ -78,38 +80,34 @@ class OperatingPoint:
             film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self._film_lubricant
         )
 
-    def with_film(self, film_load: float, last: Trial, imposed=None) -> Trial:
-        """``last`` with the film that carries ``film_load`` [N] instead of its own."""
-        film = self.settings.level.solve(
-            self.line(film_load),
-            tolerance=self.settings.film_tolerance,
-            cells=max(self.settings.film_cells, last.least_cells),
-            imposed=imposed,
-            start=last.film,
-        )
-        return replace(last, film_load=film_load, film=film, solved=(*last.solved, film.cells))
+    def trial(self, film_load: float, contact_load: float, start: Start, imposed=None) -> Trial:
+        """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load``
+        [N] under it."""
+        found = self._film(film_load, start, imposed)
+        film, shape = self.imposed_on(self.contact, found)
+        contact = self._contact.close(film, contact_load, start.touched, shape)
+        return self._trial(film_load, contact_load, found, contact, start)
 
-    def with_contact(self, contact_load: float, last: Trial) -> Trial:
-        """``last`` with the contact that carries ``contact_load`` [N] under its film."""
-        film, shape = self.imposed_on(self.contact, last.film)
-        return last.touching(contact_load, self._contact.close(film, contact_load, last.start, shape))
-
-    def with_imposed_film(self, last: Trial) -> Trial:
-        """``last`` with the load that the contact carries where its film is imposed on it."""
-        film, shape = self.imposed_on(self.contact, last.film)
-        return last.touching(*self._contact.carry(film, last.start, shape))
+    def trial_with_imposed_film(self, film_load: float, start: Start) -> Trial:
+        """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then
+        has."""
+        found = self._film(film_load, start)
+        film, shape = self.imposed_on(self.contact, found)
+        contact_load, contact = self._contact.carry(film, start.touched, shape)
+        return self._trial(film_load, contact_load, found, contact, start)
 
     def imposed_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
-        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or less.
+        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or
+        less.
 
-        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the contact
-        adds its own share itself.
+        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the
+        contact adds its own share itself.
         """
         thickness, way = film.film_at(contact.x), self.scene.numerics.film_deflection
-        if way == "hydrodynamic":
-            return thickness, thickness
         if way == "total":
             return thickness, thickness - film.imposed_deflection(contact.x)
+        if way != "scaled":
+            return thickness, thickness
         parabola = contact.x**2 / (2 * film.radius)
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
 
@@ -124,6 +122,26 @@ class OperatingPoint:
         whole = 4.895 * scene.lubricant.viscosity * abs(self.speed) * bodies.radius * bodies.width
         share = min(whole / (thickness * bodies.load), 0.9)
         return math.log(share / (1 - share))
+
+    def _film(self, film_load: float, start: Start, imposed=None) -> Film:
+        return self.settings.level.solve(
+            self.line(film_load),
+            tolerance=self.settings.film_tolerance,
+            cells=max(self.settings.film_cells, start.least_cells),
+            imposed=imposed,
+            start=start.film,
+        )
+
+    @staticmethod
+    def _trial(film_load: float, contact_load: float, film: Film, contact: ContactState, start: Start) -> Trial:
+        return Trial(
+            film=film,
+            contact=contact,
+            film_load=film_load,
+            contact_load=contact_load,
+            touched=start.touched if contact.pressure is None else contact,
+            solved=(*start.solved, film.cells),
+        )
 
     @cached_property
     def _film_lubricant(self) -> Lubricant:

@@ -6,7 +6,7 @@ from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
 from ..validity.stress import meaningless
-from .balance import Balance
+from .balance import Lubricated
 from .operating_point import OperatingPoint, Settings
 
 
@@ -43,9 +43,9 @@ def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
     return min(budget.FILM_LEVEL * numerics.tolerance / max(sensitivity, 1e-12), budget.LARGEST_LEFT_OUT)
 
 
-def least_cells(numerics: Numerics, settings: Settings, balance: Balance) -> int:
-    """Of the film: twice as many as it has where the sum of its shear stress is not good enough, unless that sum is one of
-    stresses that no oil carries."""
+def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> int:
+    """Of the film: twice as many as it has where the sum of its shear stress is not good enough, unless that sum is one
+    of stresses that no oil carries."""
     found = balance.forces
     resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if not settings.level.numerical or numerics.ehl_tolerance is not None or resolved:
@@ -54,8 +54,8 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Balance) -> int
 
 
 def contact_tolerance(point: OperatingPoint, state: ContactState, volume: float) -> float | None:
-    """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap is
-    a small part of Sq the contact's own is too loose."""
+    """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap
+    is a small part of Sq the contact's own is too loose."""
     own, given, sq = point.model.contact.adjustable_tolerance, point.settings.contact_tolerance, point.model.surface.sq
     if state.fields is None or own is None or sq == 0 or point.scene.numerics.contact_tolerance is not None:
         return given

@@ -1,11 +1,11 @@
 """The film deflected by its own pressure and that of the contact: both found together at one division of the load.
 
 The film is that of an imposed line pressure (`lubfric.solve_ehl`); the surface is pressed under the film less the
-deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of the
-contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth cylinder,
-and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces cannot follow
-(`departure` says how much that is). A nominally flat contact has no distribution along x of its own: there it is the
-semi-ellipse over the strip of the total load.
+deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of
+the contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth
+cylinder, and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces
+cannot follow (`departure` says how much that is). A nominally flat contact has no distribution along x of its own:
+there it is the semi-ellipse over the strip of the total load.
 
 Fixed point in centre and half-width: film under the contact's pressure -> contact under that film -> its pressure, with
 Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
@@ -21,7 +21,7 @@ from ..ehl.kernel import hat_kernel
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
 from ..scene import Scene
-from .operating_point import OperatingPoint, Trial
+from .operating_point import OperatingPoint, Start, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared
 MOST, MEMORY = 40, 3  # steps of the fixed point, and how many of them the next one is made from
@@ -46,7 +46,7 @@ class Ellipse:
         return x, p * (self.line_load / np.trapezoid(p, x))
 
 
-def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Trial) -> Trial:
+def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Start) -> Trial:
     """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
 
     ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
@@ -55,14 +55,14 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     scene = point.scene
     line_load, half_width = contact_load / scene.bodies.width, scene.bodies.half_width
     if point.contact.nominally_flat:
-        found = point.with_film(film_load, last, Ellipse(line_load, 0.0, half_width).nodes)
-        return point.with_contact(contact_load, found)
-    used, found = _first(last.film, line_load, half_width), last
+        return point.trial(film_load, contact_load, last, Ellipse(line_load, 0.0, half_width).nodes)
+    used = _first(last.film, line_load, half_width)
     tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
     history: list[float] = []
     steps: list[tuple[Ellipse, np.ndarray]] = []
     while len(history) < MOST:
-        found = point.with_contact(contact_load, point.with_film(film_load, found, used.nodes))
+        found = point.trial(film_load, contact_load, last, used.nodes)
+        last = found
         spread = spread_of(scene, found.contact, line_load)
         apart = deflection(scene, *spread.nodes) - deflection(scene, *used.nodes)
         history.append(float(np.max(np.abs(apart))) / found.contact.mean_film)
@@ -125,9 +125,10 @@ def spread_of(scene, contact, line_load: float) -> Ellipse:
     """The semi-ellipse of ``line_load`` whose deflection across the strip |x| <= b has the same linear and quadratic
     Chebyshev coefficients as that of a contact's pressure, both to second order in centre/b.
 
-    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² - 1))^n
-    beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip m1 = c/b,
-    m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2 a²).
+    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² -
+    1))^n beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip
+    m1 = c/b, m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2
+    a²).
     """
     b, step = scene.bodies.half_width, contact.x[1] - contact.x[0]
     share = contact.pressure.sum(axis=1)
@@ -157,7 +158,8 @@ def _first(film, line_load: float, half_width: float) -> Ellipse:
 
 
 def _mixed(steps) -> Ellipse:
-    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the last."""
+    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the
+    last."""
     (last, apart), before = steps[-1], steps[:-1]
     if not before:
         return last

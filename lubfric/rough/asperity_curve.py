@@ -21,7 +21,7 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     """
     law = contact_law(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))
-    nodes = []
+    nodes: list[tuple[float, float, float, float]] = []
     for approach in span * APPROACHES:
         found = law(top - approach)
         gap = _curve_gap(heights, top - approach, reading)

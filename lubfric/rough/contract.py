@@ -1,7 +1,8 @@
 """What every rough contact under a film answers: all that an implementer needs to know.
 
-`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which is
-always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of it.
+`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which
+is always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of
+it.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..contact import ContactResult
+from ..errors import InputError
 from ..scene import Scene
 
 
@@ -22,7 +24,8 @@ class ContactState:
     mean_gap [m]: lubricant volume per area of A between the rough surfaces; mean_film [m]: the same between the smooth
     ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m]; real_contact_area_fraction,
     plastic_area_fraction: of the area A. fields: pressure and gap on the contact grid, (nx, ny) (None: separated, or a
-    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from.
+    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from; y [m] (ny,): of their
+    cells.
     """
 
     mean_gap: float
@@ -33,6 +36,7 @@ class ContactState:
     plastic_area_fraction: float
     fields: ContactResult | None = None
     pressure: np.ndarray | None = field(default=None, repr=False)
+    y: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def volume_residual(self) -> float:
@@ -47,13 +51,15 @@ class ContactState:
     def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
         """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal stretches of the width;
         of a contact with ``fields``, of a number of cells along y that ``stretches`` divides."""
+        if self.fields is None:
+            raise InputError("a contact without fields has nothing along y; allowed: fields of a half-space contact")
         load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
         gap = weight @ gap / np.sum(weight)
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
 
     def touching(self, x) -> np.ndarray:
-        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either way:
-        the columns of the contact are finer than the cells of a film, and vary from one to the next."""
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
+        way: the columns of the contact are finer than the cells of a film, and vary from one to the next."""
         step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
         edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
         touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
@@ -70,13 +76,17 @@ class Grid(NamedTuple):
 class RoughContact:
     """A rough contact under a film, immutable; loads in N on the whole width of the line.
 
-    name: in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight (nx,): part of
-    each of them inside the area A of Eq. (8).
+    name: a property, in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight
+    (nx,): part of each of them inside the area A of Eq. (8).
     """
 
-    name: str
     x: np.ndarray
     weight: np.ndarray
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
         """The contact loaded with ``load`` [N], 0 included (first touch), under ``film`` [m] (nx,).

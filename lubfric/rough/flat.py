@@ -31,7 +31,6 @@ class FlatContact(RoughContact):
     x: np.ndarray
     weight: np.ndarray
     area: float
-    name: str = "flat periodic curve"
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """Read from the curve; ``start`` and ``shape`` are not needed. Raises `ConvergenceError` for a load that the
@@ -56,6 +55,11 @@ class FlatContact(RoughContact):
         volume residual of the state shows."""
         load = self.curve.pressure_at(float(np.mean(film))) * self.area
         return load, self.close(film, load)
+
+    @property
+    def name(self) -> str:
+        """What it is read from."""
+        return "flat periodic curve"
 
     @property
     def nominally_flat(self) -> bool:

@@ -1,4 +1,5 @@
-"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec. 3.2."""
+"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec.
+3.2."""
 
 from __future__ import annotations
 
@@ -21,12 +22,12 @@ BOUNDARY = ("free", "periodic")
 
 @dataclass(frozen=True)
 class HalfSpaceContact(HalfSpaceGrid):
-    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of `lubfric.solve_contact`."""
+    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of
+    `lubfric.solve_contact`."""
 
     width: float
     hardness: float | None
     tolerance: float
-    name: str = "semi-periodic"
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """The surface loaded under the film's shape: `lubfric.solve_contact`."""
@@ -66,6 +67,11 @@ class HalfSpaceContact(HalfSpaceGrid):
         return load, self._state(film, found.gap, found if load > 0 else None)
 
     @property
+    def name(self) -> str:
+        """As in ``numerics.contact_level``."""
+        return "semi-periodic"
+
+    @property
     def adjustable_tolerance(self) -> float:
         """That of the contact solve."""
         return self.tolerance
@@ -75,15 +81,18 @@ class HalfSpaceContact(HalfSpaceGrid):
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` when the contact reaches the ends of the patch."""
+        """Raise `InputError` when the contact reaches the ends of the patch; ``state`` may be of a part of it."""
         if state.pressure is None or self.x.size <= 2:
             return
-        share = (state.pressure[0].sum() + state.pressure[-1].sum()) / state.pressure.sum()
+        step = self.spacing[0]
+        ends = [i for i in (0, -1) if abs(state.x[i] - self.x[i]) < 0.5 * step]
+        share = sum(state.pressure[i].sum() for i in ends) / state.pressure.sum()
         if share > EDGE_SHARE:
             raise InputError(
                 f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                f"patch {self.x.size * self.spacing[0]:.3g} m long; allowed: at most "
-                f"{100 * EDGE_SHARE:g} % (make the patch longer in x)"
+                f"patch {self.x.size * step:.3g} m long; allowed: at most {100 * EDGE_SHARE:g} % (make the "
+                "patch longer in x: "
+                "contact.shape, or for a measured map surface.extension = 'mirror')"
             )
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
@@ -106,11 +115,13 @@ class HalfSpaceContact(HalfSpaceGrid):
             plastic_area_fraction=plastic,
             fields=found,
             pressure=None if found is None else found.pressure,
+            y=np.arange(self.heights.shape[1]) * self.spacing[1],
         )
 
 
 def half_space_contact(scene: Scene, heights, spacing, operator: HalfSpace | None = None) -> HalfSpaceContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid."""
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this
+    grid."""
     bodies, numerics = scene.bodies, scene.numerics
     x = centred_axis(heights.shape[0], spacing[0])
     weight = area_weight(scene, x, spacing[0])

@@ -1,4 +1,5 @@
-"""The grid of a half-space contact under a cylinder: on coarser cells, on fewer columns, from another grid's pressure."""
+"""The grid of a half-space contact under a cylinder: on coarser cells, on fewer columns, from another grid's
+pressure."""
 
 from __future__ import annotations
 
@@ -22,8 +23,8 @@ TOUCH = 1e-3  # of Sq: an overlap that is none
 class HalfSpaceGrid(RoughContact):
     """A rough surface under a cylinder on its grid: free along x, periodic along y.
 
-    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of each
-    column inside the area A of Eq. (8), |x| <= half_width [m] (None: all).
+    heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of
+    each column inside the area A of Eq. (8), |x| <= half_width [m] (None: all).
     """
 
     heights: np.ndarray
@@ -44,8 +45,8 @@ class HalfSpaceGrid(RoughContact):
         return float(self.heights.std())
 
     def coarsened(self) -> Self | None:
-        """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A stays
-        wider than a cell. None where neither axis can be halved."""
+        """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A
+        stays wider than a cell. None where neither axis can be halved."""
         operator, half_width = self.operator, self.half_width
         wide = half_width is not None and 2 * self.spacing[0] > half_width
         factors = tuple(
@@ -62,13 +63,13 @@ class HalfSpaceGrid(RoughContact):
         return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
 
     def cut(self, state: ContactState, found_on: RoughContact) -> Self:
-        """The columns where contact may be: those touched and those of the area A, and a margin; all of them where the mean
-        over the whole patch counts."""
+        """The columns where contact may be: those touched and those of the area A, and a margin; all of them where the
+        mean over the whole patch counts."""
         if self.half_width is None or state.pressure is None:
             return self
         used = np.flatnonzero(state.pressure.any(axis=1) | (found_on.weight > 0))
         low, high = found_on.x[used[0]], found_on.x[used[-1]]
-        margin = MARGIN * (high - low) + MARGIN_CELLS * found_on.grid.spacing[0]
+        margin = MARGIN * (high - low) + MARGIN_CELLS * _step(found_on)
         return self.between(float(low - margin), float(high + margin))
 
     def between(self, low: float, high: float) -> Self:
@@ -91,7 +92,7 @@ class HalfSpaceGrid(RoughContact):
         """No cell outside the part is touched: one convolution of the contact found on it."""
         if state.fields is None or part is self:
             return True
-        first = int(np.searchsorted(self.x, part.x[0] - 0.5 * part.grid.spacing[0]))
+        first = int(np.searchsorted(self.x, part.x[0] - 0.5 * _step(part)))
         pressure = np.zeros(self.heights.shape)
         pressure[first : first + part.x.size] = state.fields.pressure
         gap = self.operator.apply(pressure) + shape[:, None] - self.heights - state.fields.approach
@@ -111,3 +112,8 @@ class HalfSpaceGrid(RoughContact):
         inside = (row >= 0) & (row < state.x.size)
         moved = np.where(inside[:, None], pressure[np.clip(row, 0, state.x.size - 1)][:, column], 0.0)
         return moved if moved.any() else None
+
+
+def _step(contact: RoughContact) -> float:
+    """Length [m] of a cell along x."""
+    return contact.x[1] - contact.x[0] if contact.grid is None else contact.grid.spacing[0]

@@ -2,33 +2,57 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from .. import validate
 from ..errors import InputError
-from ..scene import Scene
+from ..roughness import Roughness, named
+from ..scene import Patch, Scene
 from ..surface import Surface, generate_surface, read_surface, rms_slope
-from .strip import check_strip
+from ..surface.outliers import outliers
+from .strip import TOO_SHORT, check_strip
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 
 
 def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``, or take those of ``surface`` as they are.
+    """Generate, or read, turn, scale, cut and close the heights of ``scene``, those of both bodies as one map; or take
+    those of ``surface`` as they are.
 
     A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
     it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
     Everything done is in the notes of the surface.
     """
     if surface is None:
-        surface = _measured(scene) if scene.surface.file is not None else _generated(scene)
+        surface = _of_the_scene(scene)
+    validate.instance("surface", surface, Surface, "a lubfric.Surface")
     check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
         surface = surface.periodic("mirror", axes=(True, False))
     return surface
 
 
+def _of_the_scene(scene: Scene) -> Surface:
+    bodies = [(scene.surface, "surface")]
+    if scene.counterface is not None:
+        bodies.append((scene.counterface, "counterface"))
+    maps = [_of_one_body(scene, rough, name) for rough, name in bodies]
+    surface = maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+    if all(rough.file is None for rough, _ in bodies):
+        return surface
+    return _cut_to_contact(scene, surface, any(rough.extension == "mirror" for rough, _ in bodies))
+
+
+def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
+    """The map of one body: generated on the contact grid, or measured, whole and on its own grid."""
+    with named(name):
+        return measured_map(rough) if rough.file is not None else generated_map(rough, scene.contact, name)
+
+
 def check_grid(scene: Scene, surface: Surface) -> None:
-    """Raise `InputError` for slopes no surface has, a strip that the cells do not resolve, a patch that does not hold it."""
+    """Raise `InputError` for slopes no surface has, a strip that the cells do not resolve, a patch that does not hold
+    it."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
         raise InputError(
@@ -40,41 +64,82 @@ def check_grid(scene: Scene, surface: Surface) -> None:
     check_strip(scene, surface.spacing[0], surface.size[0])
 
 
-def _generated(scene: Scene) -> Surface:
-    rough, patch = scene.surface, scene.contact
+def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surface:
+    """A generated map on the grid of ``patch``; that of the counterface draws other numbers from the same seed."""
     if patch.shape is None or patch.spacing is None:
-        raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
-    spacing = validate.spacing("contact.spacing", patch.spacing)
+        raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}")
     surface = generate_surface(
         tuple(rough.oversize * n for n in patch.shape),
-        spacing,
+        validate.spacing("contact.spacing", patch.spacing),
         sq=rough.sq,
         correlation_length=rough.correlation_length,
         acf=rough.acf,
         decay_level=rough.decay_level,
-        seed=rough.seed,
+        seed=rough.seed if name == "surface" else _other_seed(rough.seed),
     )
     if rough.oversize == 1:
         return surface
     surface = surface.cropped(patch.shape).periodic("mirror", axes=(patch.geometry == "flat", True))
-    return surface.scaled(sq=rough.sq)
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
-def _measured(scene: Scene) -> Surface:
-    rough, patch, bodies = scene.surface, scene.contact, scene.bodies
-    surface = read_surface(rough.file, spacing=rough.spacing, unit=rough.unit, form=rough.form, decimal=rough.decimal)
+def _other_seed(seed: int) -> int:
+    """A seed whose numbers are independent of those of ``seed``, and of those of the seeds beside it."""
+    return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
+
+
+def measured_map(rough: Roughness) -> Surface:
+    """A map from a file: form off, outliers dealt with, filtered, filled, turned and scaled as ``rough`` says."""
+    surface = read_surface(
+        rough.file,
+        spacing=rough.spacing,
+        unit=rough.unit,
+        form=rough.form,
+        decimal=rough.decimal,
+        missing_value=rough.missing_value,
+        fill=False,
+    )
+    if rough.outliers == "mask":
+        surface = surface.without_outliers().level(rough.form)
+    elif rough.outliers == "refuse":
+        refuse_outliers(surface)
+    surface = surface.filtered(s=rough.s_filter, l=rough.l_filter).fill()
     if rough.motion_axis == "y":
         surface = surface.transposed()
-    if rough.sq is not None:
-        surface = surface.scaled(sq=rough.sq)
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
+
+
+def refuse_outliers(surface: Surface) -> None:
+    """Raise `InputError` for points that stand alone above their neighbours: they, and no roughness, would carry the
+    load."""
+    off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
+    worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
+    if off[worst] > 0:
+        z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
+        raise InputError(
+            f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours "
+            "and would carry "
+            f"the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; allowed: surface.outliers = 'mask' "
+            "to take them "
+            "for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
+        )
+
+
+def _cut_to_contact(scene: Scene, surface: Surface, extended: bool) -> Surface:
+    """The middle of an open map, on the contact grid, closed where the contact is periodic."""
+    patch, reach = scene.contact, 2 * REACH * scene.bodies.half_width
     if patch.spacing is not None:
         surface = surface.resampled(spacing=patch.spacing)
+    if extended:
+        length = reach if patch.shape is None else patch.shape[0] * surface.spacing[0]
+        surface = surface.continued(length) if patch.shape or patch.geometry == "cylinder" else surface
     nx, ny = patch.shape or surface.shape
     if patch.shape is None and patch.geometry == "cylinder":
-        nx = min(nx, 2 * int(REACH * bodies.half_width / surface.spacing[0]) + 1)
+        nx = min(nx, 2 * int(REACH * scene.bodies.half_width / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
+            f"{'' if extended else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
         )
     return surface.cropped((nx, ny)).periodic("mirror", axes=(patch.geometry == "flat", True))

@@ -19,8 +19,9 @@ def rough_contact(scene: Scene, surface: Surface) -> RoughContact:
             "numerics.contact_level = 'semi-periodic' needs contact.geometry = 'cylinder'; a flat contact is "
             "periodic both ways"
         )
+    heights = surface.heights - surface.heights.mean()
     if flat or level == "flat":
-        make = flat_contact
-    else:
-        make = half_space_contact if scene.contact.model == "half-space" else asperities_under_cylinder
-    return make(scene, surface.heights - surface.heights.mean(), surface.spacing)
+        return flat_contact(scene, heights, surface.spacing)
+    if scene.contact.model == "half-space":
+        return half_space_contact(scene, heights, surface.spacing)
+    return asperities_under_cylinder(scene, heights, surface.spacing)

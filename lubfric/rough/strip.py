@@ -8,6 +8,12 @@ from .. import validate
 from ..errors import InputError
 from ..scene import Scene
 
+TOO_SHORT = (
+    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its "
+    "roughness spread "
+    "over the strip)"
+)
+
 
 def centred_axis(count: int, step: float) -> np.ndarray:
     """Cell centres [m] of ``count`` cells around zero."""
@@ -27,7 +33,8 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
 
 
 def check_strip(scene: Scene, step: float, length: float) -> None:
-    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not hold."""
+    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not
+    hold."""
     half_width = scene.bodies.half_width
     if step > half_width:
         raise InputError(
@@ -35,9 +42,10 @@ def check_strip(scene: Scene, step: float, length: float) -> None:
             f"its half-width {half_width:.3g} m"
         )
     if length < 2 * half_width:
+        ways = "a larger contact.shape" if scene.surface.file is None else f"a longer map, {TOO_SHORT}"
         raise InputError(
             f"the patch is {length:.3g} m long in x (contact.shape x contact.spacing); allowed: at "
-            f"least the Hertz strip, {2 * half_width:.3g} m"
+            f"least the Hertz strip, {2 * half_width:.3g} m: {ways}"
         )
 
 

@@ -14,9 +14,9 @@ AT_40 = 40 + CELSIUS
 
 
 def resolve(given: dict, old) -> dict:
-    """From an oil (``grade`` with ``viscosity_index``; ``nu40`` and ``nu100`` [m²/s]; ``viscosity_table``, pairs of K and m²/s;
-    ``oil``, a name of `lubfric.oil.oil_names` or an `Oil`) at ``temperature`` [K] or ``temperature_celsius``: viscosity, pressure-viscosity
-    coefficient (as given, else estimated) and temperature coefficient."""
+    """From an oil (``grade`` with ``viscosity_index``; ``nu40`` and ``nu100`` [m²/s]; ``viscosity_table``, pairs of K
+    and m²/s; ``oil``, a name of `lubfric.oil.oil_names` or an `Oil`) at ``temperature`` [K] or ``temperature_celsius``:
+    viscosity, pressure-viscosity coefficient (as given, else estimated) and temperature coefficient."""
     only_one("lubricant", given, "temperature", "temperature_celsius")
     if "temperature_celsius" in given:
         given["temperature"] = _kelvin(given.pop("temperature_celsius"))
@@ -30,7 +30,8 @@ def resolve(given: dict, old) -> dict:
             return given
     if "viscosity" in given:
         raise InputError(
-            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; allowed: one of them"
+            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; allowed: "
+            "one of them"
         )
     oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
     changed = {key: given.pop(key) for key in PROPERTIES if key in given}

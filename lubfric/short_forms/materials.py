@@ -1,7 +1,7 @@
 """Named materials of the bodies: typical handbook values at room temperature.
 
-Young's modulus and Poisson ratio are good to some 5 % within a family (ceramics and polymers 10 %), thermal data to some 20 %;
-give the numbers themselves where they are known.
+Young's modulus and Poisson ratio are good to some 5 % within a family (ceramics and polymers 10 %), thermal data to
+some 20 %; give the numbers themselves where they are known.
 """
 
 from __future__ import annotations

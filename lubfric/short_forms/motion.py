@@ -9,11 +9,12 @@ from ..errors import InputError
 from .pairs import only_one, pair
 
 KEYS = ("surface_speeds", "slip_percent", "speed_range")
+MOST_SPEEDS = 100_000
 
 
 def resolve(given: dict, old) -> dict:
-    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio in
-    percent; ``speed_range = [lowest, highest, count]``, geometric."""
+    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio
+    in percent; ``speed_range = [lowest, highest, count]``, geometric."""
     only_one("motion", given, "surface_speeds", "entrainment_speed")
     only_one("motion", given, "surface_speeds", "slide_roll_ratio", "slip_percent")
     only_one("motion", given, "speeds", "speed_range")
@@ -34,8 +35,10 @@ def resolve(given: dict, old) -> dict:
 
 def _speeds(value) -> tuple[float, ...]:
     if not isinstance(value, (list, tuple)) or len(value) != 3:
-        raise InputError(f"motion.speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
+        raise InputError(
+            f"motion.speed_range = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)"
+        )
     low = validate.positive("motion.speed_range lowest", value[0], "m/s")
     high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
-    count = validate.integer("motion.speed_range count", value[2], minimum=1)
+    count = validate.integer("motion.speed_range count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

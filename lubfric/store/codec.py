@@ -1,7 +1,8 @@
 """Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
 
-A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": number}``, a number that is not
-finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats keep every bit.
+A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": number}``, a number that is
+not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats keep
+every bit.
 """
 
 from __future__ import annotations

@@ -20,9 +20,9 @@ CHECK = 16  # hexadecimal digits of the SHA-256 in front of a line
 class Records:
     """Records by key in ``folder``: any number of processes may add, each to its own file, while others read.
 
-    A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added, each forced to the disk
-    before `add` returns. A line that was cut by a kill or overwritten since fails its checksum and counts as absent;
-    ``damaged`` tells how many the last `read` met.
+    A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added, each forced to the
+    disk before `add` returns. A line that was cut by a kill or overwritten since fails its checksum and counts as
+    absent; ``damaged`` tells how many the last `read` met.
     """
 
     def __init__(self, folder):

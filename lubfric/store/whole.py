@@ -16,9 +16,11 @@ PART = ".part-"  # begins the name of a file that is being written
 
 
 def write_whole(path, content: bytes, *, sync: bool = True) -> None:
-    """Replace ``path`` by ``content``: a reader, or whoever finds the folder after a kill, sees the old file or the new.
+    """Replace ``path`` by ``content``: a reader, or whoever finds the folder after a kill, sees the old file or the
+    new.
 
-    ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as `whole_file`.
+    ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as
+    `whole_file`.
     """
     with whole_file(path, sync=sync) as part:
         part.write_bytes(content)
@@ -26,10 +28,11 @@ def write_whole(path, content: bytes, *, sync: bool = True) -> None:
 
 @contextmanager
 def whole_file(path, *, sync: bool = True):
-    """The path of a temporary file in the folder of ``path``, forced to the disk and renamed to it when the block ends well.
+    """The path of a temporary file in the folder of ``path``, forced to the disk and renamed to it when the block ends
+    well.
 
-    It has the same suffix. Missing folders are made. Raises `OutputError`, the old file untouched, when the disk is full
-    or the folder is not writable.
+    It has the same suffix. Missing folders are made. Raises `OutputError`, the old file untouched, when the disk is
+    full or the folder is not writable.
     """
     path = Path(path)
     with saying(f"{path} was not written"):

@@ -42,8 +42,8 @@ class Search:
 def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
-    Each speed starts from the one before. Points that the ``journal`` knows are taken from there: the choices, and so the
-    rest, come out the same.
+    Each speed starts from the one before. Points that the ``journal`` knows are taken from there: the choices, and so
+    the rest, come out the same.
     """
     known = {} if journal is None else dict(journal.records.read())
     speeds: list[float] = []

@@ -46,10 +46,11 @@ def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
 def run_chain(
     model: Model, chain: Chain, journal: Journal | None = None, done: int = 0
 ) -> Iterator[tuple[int, object]]:
-    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in ``journal`` first.
+    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in
+    ``journal`` first.
 
-    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program and
-    goes through. The results are the same to the last bit wherever an earlier run was cut.
+    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program
+    and goes through. The results are the same to the last bit wherever an earlier run was cut.
     """
     start, parent = None, os.getppid()
     if journal is not None and done:
@@ -84,7 +85,8 @@ def solved(model: Model, chain: Chain, index: int, start: FrictionResult | None)
 
 
 def resumed(model: Model, chain: Chain, journal: Journal, done: int):
-    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done`` points."""
+    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done``
+    points."""
     key, outcome = journal.state(chain.name)
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])

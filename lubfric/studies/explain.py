@@ -17,10 +17,11 @@ FIELD = 8 * 4  # bytes a cell of the state of a chain under way
 
 
 def explain(plan) -> str:
-    """Points, what they share, predicted cost and disk of a `StudyPlan`, in words; one map of each size is made, none solved."""
+    """Points, what they share, predicted cost and disk of a `StudyPlan`, in words; one map of each size is made, none
+    solved."""
     curves = [curve for batch in plan.batches for curve in batch.curves]
     chains = sum(len(curve.chains) for curve in curves)
-    maps = {repr(batch.leader.surface): batch.leader for batch in plan.batches}
+    maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     lines = [f"study of {plan.scene.name}: {plan.points} points"]
     for axis in plan.axes:
         first, last = axis.values[0], axis.values[-1]
@@ -30,10 +31,13 @@ def explain(plan) -> str:
     cells, seconds, failed = _costs(plan, maps)
     lines += [
         f"  shared         {len(maps)} height maps ({cells} cells the largest), {len(plan.batches)} batches that "
-        f"share map and operator, {chains} warm-started chains of at most {max(len(c.speeds) for k in curves for c in k.chains)} points",
-        f"  time           about {_time(seconds)} on one core (within a factor of 3), divided by the number of processes "
+        f"share map and operator, {chains} warm-started chains of at most "
+        f"{max(len(c.speeds) for k in curves for c in k.chains)} points",
+        f"  time           about {_time(seconds)} on one core (within a factor of 3), divided by the number of "
+        "processes "
         f"up to {len(plan.batches)}",
-        f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process while it runs",
+        f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process "
+        "while it runs",
         *(f"  cannot be solved: {reason}" for reason in failed),
     ]
     return "\n".join(lines)
@@ -43,7 +47,7 @@ def _costs(plan, maps) -> tuple[int, float, list[str]]:
     """(cells of the largest map, seconds, reasons of maps that cannot be made)."""
     seconds, largest, failed, transform = 0.0, 0, [], {}
     for batch in plan.batches:
-        name = repr(batch.leader.surface), repr(batch.leader.contact)
+        name = repr((batch.leader.surface, batch.leader.counterface, batch.leader.contact))
         if name not in transform:
             try:
                 shape = contact_map(batch.leader).shape

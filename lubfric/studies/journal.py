@@ -29,8 +29,9 @@ class Failure:
 class Journal:
     """The folder of a store, as one process writes it.
 
-    A point is first put whole into the state of its chain, and then, by one line, into the records. Whatever moment a kill
-    strikes, the state is that of the last record or one point ahead of it, and then holds the record that is missing.
+    A point is first put whole into the state of its chain, and then, by one line, into the records. Whatever moment a
+    kill strikes, the state is that of the last record or one point ahead of it, and then holds the record that is
+    missing.
     """
 
     def __init__(self, folder):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from itertools import product
 
 import numpy as np
@@ -114,9 +114,11 @@ def _batches(scenes: dict, speeds: tuple[float, ...]):
 def _curve(index, scene, leader, speeds, maps) -> Curve:
     order = sorted(speeds, key=lambda u: -abs(u))
     pieces = np.array_split(np.array(order), -(-len(order) // CHAIN))
-    rough = maps.setdefault(repr(scene.surface), None) or fingerprint(scene.surface)
-    maps[repr(scene.surface)] = rough
-    parts = [scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, scene.contact, scene.numerics, rough]
+    rough = repr((scene.surface, scene.counterface))
+    if rough not in maps:  # a file is read once, however many curves it serves
+        maps[rough] = fingerprint(scene.surface, scene.counterface)
+    others = [f.name for f in fields(scene) if f.name not in ("surface", "counterface", "motion", "name", "transient")]
+    parts = [maps[rough], scene.motion.slide_roll_ratio, *(getattr(scene, name) for name in others)]
     if by_curve(leader):  # the contact curve reaches to the heaviest load of the group
         parts.append(leader.bodies)
     whole = fingerprint(*parts)
@@ -131,5 +133,5 @@ def by_curve(scene: Scene) -> bool:
 def _shared(scene: Scene) -> str:
     """Scenes of which this is equal can use each other's map and operator or curve."""
     bodies, numerics = scene.bodies, scene.numerics
-    cut = bodies.half_width if scene.surface.file is not None and scene.contact.shape is None else 0.0
-    return repr((scene.surface, scene.contact, bodies.e_prime, bodies.hardness, numerics, cut))
+    cut = bodies.half_width if scene.contact.shape is None else 0.0
+    return repr((scene.surface, scene.counterface, scene.contact, bodies.e_prime, bodies.hardness, numerics, cut))

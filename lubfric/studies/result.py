@@ -22,10 +22,12 @@ MISSING = "not computed"
 
 @dataclass(frozen=True)
 class StudyResult:
-    """Arrays over the varied values and, last, the speed: ``result["coefficient"]``, ``result.dims``, ``result.coords``.
+    """Arrays over the varied values and, last, the speed: ``result["coefficient"]``, ``result.dims``,
+    ``result.coords``.
 
     plan: what was studied, as in study.json. columns: every number of a `FrictionResult`, NaN where a point failed.
-    status: "converged", or why a point has no numbers. Tables for other tools: `to_xarray`, `to_frame`, `to_csv`, `to_parquet`.
+    status: "converged", or why a point has no numbers. Tables for other tools: `to_xarray`, `to_frame`, `to_csv`,
+    `to_parquet`.
     """
 
     plan: dict
@@ -81,7 +83,8 @@ class StudyResult:
         return f"<StudyResult: {shape}; {self.failed} failed, {self.missing} not computed>"
 
     def to_xarray(self):
-        """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study`` extra."""
+        """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
+        extra."""
         from .tables import to_xarray
 
         return to_xarray(self)

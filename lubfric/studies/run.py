@@ -40,7 +40,8 @@ def study(
 
     Parameters
     ----------
-    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points, cost and disk
+    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points, cost and
+        disk
     vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for keys
         that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...}, {...}]} for
         whole sections, such as several height maps
@@ -51,8 +52,8 @@ def study(
         twice. On a cluster all processes must see it
     on_progress : called as on_progress(done, total) when points have ended
 
-    A point that fails is a row with its error as its status; the others are solved. Raises `InputError` before any work,
-    and at the end faults of the program as they are. Returns a `StudyResult`.
+    A point that fails is a row with its error as its status; the others are solved. Raises `InputError` before any
+    work, and at the end faults of the program as they are. Returns a `StudyResult`.
     """
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
     if plan is scene and (vary is not None or speeds is not None):

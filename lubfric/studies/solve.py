@@ -22,7 +22,8 @@ class Part:
 
 
 def solve_chains(model: Model, chains: list, executor, store, keep: Callable) -> None:
-    """Solve ``chains``, pairs of a `Chain` and the indices of its speeds; ``keep(index, outcome)`` for every point as it ends.
+    """Solve ``chains``, pairs of a `Chain` and the indices of its speeds; ``keep(index, outcome)`` for every point as
+    it ends.
 
     With a ``store`` the points found there come first.
     """

@@ -9,7 +9,9 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..roughness import Roughness
 from ..scene import Scene
+from ..short_forms import short_keys
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
@@ -49,8 +51,7 @@ class Axis:
         sections = {}
         for key, value in zip(self.keys, self.values[index]):
             section, _, field = key.partition(".")
-            part = value if field == "" else {field: value}
-            sections[section] = sections.get(section, {}) | part
+            sections[section] = sections.get(section, {}) | {field: value} if field else value
         return scene.with_(**sections)
 
 
@@ -73,7 +74,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
-    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies together:
+    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies
+    together:
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
 
@@ -106,7 +108,8 @@ def _check_key(scene: Scene, key, seen: set) -> None:
         raise InputError(
             f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
         )
-    fields = getattr(scene, section).__dataclass_fields__
+    part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
+    fields = (*part.__dataclass_fields__, *short_keys(section))
     if field and field not in fields:
         raise InputError(
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"

@@ -38,6 +38,7 @@ def points(name: str, shape: tuple[int, ...]) -> None:
 
 def two_booleans(name: str, value: Any) -> tuple[bool, bool]:
     """A pair of true and false, for x and y."""
-    if not isinstance(value, (tuple, list, np.ndarray)) or len(value) != 2:
+    several = isinstance(value, (tuple, list)) or isinstance(value, np.ndarray) and value.ndim == 1
+    if not several or len(value) != 2:
         raise InputError(f"{name} = {validate.shown(value)}; allowed: a pair of true and false, for x and y")
     return validate.boolean(f"{name}[0]", value[0]), validate.boolean(f"{name}[1]", value[1])

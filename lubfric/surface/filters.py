@@ -1,8 +1,8 @@
 """The areal Gaussian filter of ISO 16610-61, as S-filter (keeps what is longer) and L-filter (keeps what is shorter).
 
-Weights exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi): a wave as long as the nesting index L passes by one half. Isotropic,
-hence one axis after the other. At open ends and beside unmeasured points the weights that are left are scaled to one
-(regression of order zero); a periodic axis goes around.
+Weights exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi): a wave as long as the nesting index L passes by one half.
+Isotropic, hence one axis after the other. At open ends and beside unmeasured points the weights that are left are
+scaled to one (regression of order zero); a periodic axis goes around.
 """
 
 from __future__ import annotations

@@ -10,14 +10,15 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..frozen import FrozenArrays
+from ..show import Shown
 from . import checks, filters, pair, prepare, regrid, statistics
 from .outliers import LIMIT, WINDOW, outliers
 
 HIGHEST = 1e3  # m, of any height
 
 
-@dataclass(frozen=True, eq=False)
-class Surface(FrozenArrays):
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(FrozenArrays, Shown):
     """Heights on a uniform grid; x, the direction of motion, is axis 0. Every method returns a new map.
 
     heights : (nx, ny) [m], upwards, at most 1 km. Read-only. Unmeasured points are NaN until `fill` is called.
@@ -86,6 +87,15 @@ class Surface(FrozenArrays):
         )
         return f"{self.source}: {text}" if self.source else text
 
+    def plot(self, ax=None):
+        """The heights in the plane, on ``ax`` or new axes, which are returned."""
+        from ..show.axes import surface_axes
+
+        return surface_axes(self, ax)
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.describe()}
+
     def level(self, form: str = "plane") -> Surface:
         """Subtract the least-squares "plane" of the measured points, or "quadratic" (cylinder, paraboloid)."""
         validate.choice("form", form, prepare.FORMS)
@@ -113,17 +123,18 @@ class Surface(FrozenArrays):
             found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
             if not found.any():
                 break
-            mask = mask & ~found
+            mask = mask & (found == 0)
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
         return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
-        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this order.
+        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this
+        order.
 
         S-filter: waves shorter than ``s`` are taken out; L-filter: waves longer than ``l``. Level first (F-operation:
-        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells or
-        longer than the map, and for s >= l.
+        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells
+        or longer than the map, and for s >= l.
         """
         s, l = filters.checked_indices(self, s, l)
         new = self
@@ -231,7 +242,8 @@ class Surface(FrozenArrays):
         return pair.combined(self, other)
 
     def continued(self, length: float) -> Surface:
-        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x then."""
+        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x
+        then."""
         if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
         new = self.periodic("mirror", axes=(True, False))

@@ -11,11 +11,13 @@ from ..errors import InputError
 from .height_map import Surface
 from .units import UNITS
 
-# of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left out
+# of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
+# out
 SUFFIXES = tuple(
     "." + word
     for word in (
-        "001 002 003 004 005 al3d apx bcr bcrf cur dat datx ezd frt gwy h5 hfm hgt ibw jpk lext mat mdt mi mnt nc nid nms npz oir"
+        "001 002 003 004 005 al3d apx bcr bcrf cur dat datx ezd frt gwy h5 hfm hgt ibw jpk lext mat mdt mi mnt "
+        "nc nid nms npz oir"
         " opd opdx os3d plu plux poir qep sdf spm stp sur tif tiff tmd tom top vk3 vk4 vk6 vk7 xlsx zip zmg zon"
     ).split()
 )

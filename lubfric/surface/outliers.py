@@ -1,11 +1,12 @@
 """Outliers of a measured map: points that stand alone, as no neighbour of theirs does.
 
-The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations of the whole map from
-the median of the ``WINDOW`` x ``WINDOW`` points around it. The robust deviation is 1.4826 times the median of
-|z - median(z)|, which is the standard deviation of a Gaussian map and hardly feels the outliers themselves; where it is zero
-(most of the map is one height) it is Sq. What is found is filled and the map searched again, until nothing is. Ridges and
-grooves at least three points wide stay, however high, and so do summits that are wide against the window; dust, noise beside
-unmeasured points and the flares of optical instruments at steep edges go.
+The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations from the median of
+the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, both on the same side. The robust
+deviation is 1.4826 times the median of |z - median(z)|, which is the standard deviation of a Gaussian map and hardly
+feels the outliers themselves; where it is zero (most of the map is one height) it is Sq. What is found is filled and
+the map searched again, until nothing is. Ridges and grooves at least three points wide stay, however high, and so do
+summits that are wide against the window; dust, noise beside unmeasured points and the flares of optical instruments at
+steep edges go.
 """
 
 from __future__ import annotations
@@ -14,34 +15,46 @@ import numpy as np
 
 LIMIT = 6.0
 WINDOW = 5
+CHUNK = 2**18  # points whose windows are held at once
 GAUSSIAN = 1.4826  # standard deviation over median deviation
 
 
 def robust_deviation(heights: np.ndarray) -> float:
-    """1.4826 times the median of |z - median(z)| [m]."""
-    return GAUSSIAN * float(np.median(np.abs(heights - np.median(heights))))
-
-
-def prominence(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
-    """Height [m] of each point above the median around it, 0 where unmeasured.
-
-    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them first.
-    """
-    from scipy.ndimage import median_filter
-
-    half = WINDOW // 2
-    padded = heights
-    for axis in range(2):
-        width = [(0, 0), (0, 0)]
-        width[axis] = (half, half)
-        padded = np.pad(padded, width, mode="wrap" if periodic[axis] else "symmetric")
-    around = median_filter(padded, WINDOW)[half:-half, half:-half]
-    above = heights - around
-    return above if mask is None else np.where(mask, above, 0.0)
+    """1.4826 times the median of |z - median(z)| [m], or Sq where that is zero."""
+    return GAUSSIAN * float(np.median(np.abs(heights - np.median(heights)))) or float(heights.std())
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
-    """True (nx, ny) at the outliers of a filled, levelled map, above or below."""
+    """Deviations (nx, ny) by which each outlier of a filled, levelled map stands off its neighbours, negative below
+    them; 0 elsewhere.
+
+    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them
+        first.
+    """
     measured = heights if mask is None else heights[mask]
-    deviation = robust_deviation(measured) or float(measured.std())
-    return np.abs(prominence(heights, mask, periodic)) > LIMIT * deviation
+    deviation, middle = robust_deviation(measured), float(np.median(measured))
+    found = np.zeros(heights.shape)
+    if deviation == 0:
+        return found
+    far = np.abs(heights - middle) > LIMIT * deviation
+    where = np.nonzero(far if mask is None else far & mask)
+    parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
+    around = [_median_around(heights, part, periodic) for part in parts]
+    off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
+    same_side = np.sign(off) == np.sign(heights[where] - middle)
+    found[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
+    return found
+
+
+def _median_around(heights: np.ndarray, where: tuple[np.ndarray, ...], periodic: tuple[bool, bool]) -> np.ndarray:
+    """Median of the window around each of the points ``where``; mirrored at open ends."""
+    reach = np.arange(WINDOW) - WINDOW // 2
+    rows, columns = (_inside(at[:, None] + reach, n, closed) for at, n, closed in zip(where, heights.shape, periodic))
+    return np.median(heights[rows[:, :, None], columns[:, None, :]], axis=(1, 2))
+
+
+def _inside(index: np.ndarray, count: int, periodic: bool) -> np.ndarray:
+    if periodic:
+        return index % count
+    folded = index % (2 * count)
+    return np.where(folded < count, folded, 2 * count - 1 - folded)

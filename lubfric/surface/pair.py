@@ -1,8 +1,8 @@
 """Two rough surfaces that face each other, as one map.
 
-The gap between them is h - z1 - z2 with both heights measured outwards, so that one rigid smooth body against the sum is the
-same contact (half-spaces: E' already holds both bodies). The second body is turned over about x, the direction of motion:
-its x stays and its y runs backwards.
+The gap between them is h - z1 - z2 with both heights measured outwards, so that one rigid smooth body against the sum
+is the same contact (half-spaces: E' already holds both bodies). The second body is turned over about x, the direction
+of motion: its x stays and its y runs backwards.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ SAME = 1e-9  # relative difference of lengths that are equal
 def combined(first, second):
     """z1(x, y) + z2(x, -y) on the finer of both spacings along each axis, over the length that both have.
 
-    Along an axis on which both are periodic with the same length the sum is periodic too. Else the shorter length counts
-    (of the open ones, where a periodic map is repeated to reach it), cut around the middle; the sum is then open. The heights
-    are taken about their means. Raises `InputError` for maps with unmeasured points (level and fill first).
+    Along an axis on which both are periodic with the same length the sum is periodic too. Else the shorter length
+    counts (of the open ones, where a periodic map is repeated to reach it), cut around the middle; the sum is then
+    open. The heights are taken about their means. Raises `InputError` for maps with unmeasured points (level and fill
+    first).
     """
     for name, surface in (("first", first), ("second", second)):
         if not np.isfinite(surface.heights).all():

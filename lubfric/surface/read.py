@@ -42,12 +42,13 @@ def read_surface(
     ----------
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
-    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares. The F-operation of ISO 25178-2;
-        `Surface.filtered` has the S- and L-filters
+    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares. The F-operation of ISO
+        25178-2; `Surface.filtered` has the S- and L-filters
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
-    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN does always
+    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN does
+        always
 
     Text: lines that start with # and titles without numbers above the table are skipped (the latter noted in
     ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.

@@ -33,7 +33,8 @@ def sku(surface) -> float:
 
 
 def largest_ratio(surface) -> float:
-    """Largest distance from the mean, max |z|/Sq [-]: 4 to 5.5 for a Gaussian map of 1e4 to 1e7 points; 0 for a flat one."""
+    """Largest distance from the mean, max |z|/Sq [-]: 4 to 5.5 for a Gaussian map of 1e4 to 1e7 points; 0 for a flat
+    one."""
     z = surface.measured - surface.measured.mean()
     rms = z.std()
     return float(np.abs(z).max() / rms) if rms > 0 else 0.0

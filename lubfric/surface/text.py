@@ -11,6 +11,7 @@ from ..errors import InputError
 from .table import read_table
 
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
+FARTHEST = 1e15  # in the unit of the file
 UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
 
 
@@ -31,14 +32,16 @@ def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
     comments, lines = _lines(path)
     spacing = None
     for line in comments:
+        if not re.match(r"#\s*spacing\s*[=:]", line):
+            continue
         found = re.fullmatch(r"#\s*spacing\s*[=:]\s*(\S+)(?:[\s,;]+(\S+))?(?:\s+m)?\s*", line)
-        if found:
-            words = [w for w in found.groups() if w not in (None, "m")]
-            try:
-                pair = [float(w) for w in words]
-            except ValueError:
-                raise InputError(f"spacing in {path.name}: {line!r}; allowed: '# spacing = dx dy'") from None
-            spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
+        try:
+            pair = [float(w) for w in found.groups() if w not in (None, "m")]
+        except (AttributeError, ValueError):  # no match, no numbers
+            raise InputError(
+                f"spacing in {path.name}: {validate.shown(line)}; allowed: '# spacing = dx dy' in m"
+            ) from None
+        spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
     heights, notes = read_table(path, lines, decimal, unit)
     return heights, spacing, notes
 
@@ -48,8 +51,10 @@ def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
     table, notes = read_table(path, _lines(path)[1], decimal, unit)
     if table.shape[1] != 3:
         raise InputError(f"path = {str(path)!r} has {table.shape[1]} columns; allowed: exactly 3 (x y z)")
-    if not np.isfinite(table[:, :2]).all():
-        raise InputError(f"path = {str(path)!r}: x or y is NaN or infinite; allowed: finite coordinates")
+    if not (np.abs(table[:, :2]) <= FARTHEST).all():
+        raise InputError(
+            f"path = {str(path)!r}: x or y is NaN, infinite or beyond {FARTHEST:g}; allowed: finite coordinates"
+        )
     (i, nx, dx), (j, ny, dy) = (_grid_lines(name, table[:, column]) for column, name in enumerate("xy"))
     if nx * ny > 4 * len(table):
         raise InputError(

@@ -29,7 +29,8 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
     """Compute and write history.csv, history.png, fields.npz (and animation.gif) and, last, result.json to ``out``.
 
     The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then `ConvergenceError` raised.
+    this one are there. An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then
+    `ConvergenceError` raised.
     """
     begun, reached = time.perf_counter(), [0.0]
     say(f"{scene.name}: preparing the height map and the contact")

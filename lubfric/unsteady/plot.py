@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..plot import BLUE, GREEN, GREY, RED, _figure
+from ..show.axes import time_scale
 
 FRAMES = 150  # at most, spread over the run
 
@@ -14,7 +15,7 @@ FRAMES = 150  # at most, spread over the run
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
     """Speed and load, film, shares of the load and friction over time, from the columns of history.csv."""
     c = columns
-    scale, unit = _time_scale(c["time"][-1])
+    scale, unit = time_scale(c["time"][-1])
     t = c["time"] * scale
     figure = _figure(figsize=(7.5, 9))
     first, second, third, fourth = figure.subplots(4, 1, sharex=True)
@@ -73,7 +74,7 @@ def animate(path: Path, result, half_width: float) -> None:
     thick = result.film_thickness[:, seen] * 1e9
     bottom.set_ylim(0.0, 1.5 * max(result.central_film.max() * 1e9, np.median(thick.min(axis=1)) * 2.0))
     bottom.set_ylabel("film thickness (nm)", color=BLUE)
-    scale, unit = _time_scale(result.time[-1])
+    scale, unit = time_scale(result.time[-1])
 
     def draw(i):
         pressure.set_data(x, result.pressure[i, seen] / 1e6)
@@ -97,10 +98,3 @@ def _radius(result) -> float:
     """Radius of the undeformed gap, from the two nodes farthest out."""
     x, h = result.x, result.film_thickness[0]
     return float((x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0] - h[1])))
-
-
-def _time_scale(longest: float) -> tuple[float, str]:
-    for scale, unit in ((1.0, "s"), (1e3, "ms")):
-        if longest * scale >= 1.0:
-            return scale, unit
-    return 1e6, "µs"

@@ -9,13 +9,15 @@ import numpy as np
 from .. import validate
 from ..march.course import Plan, Progress, report_of
 from ..report import Report
+from ..show import Shown
+from ..show.axes import history_axes, loop_axes
 from .progress import Outputs
 from .row import UNITS
 from .setup import Run
 
 
-@dataclass(frozen=True)
-class TransientResult:
+@dataclass(frozen=True, repr=False)
+class TransientResult(Shown):
     """Arrays over time (nt,), one per name of `lubfric.unsteady.row.UNITS`, also as attributes:
     ``result.coefficient``.
 
@@ -32,6 +34,23 @@ class TransientResult:
     pressure: np.ndarray
     film_thickness: np.ndarray
     report: Report
+
+    def plot(self, ax=None):
+        """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
+        return history_axes(self, ax)
+
+    def plot_loop(self, ax=None):
+        """Friction over speed, the hysteresis loop, on ``ax`` or new axes, which are returned."""
+        return loop_axes(self, ax)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {"": f"{self.time.size} times"}
+        if self.time.size:
+            facts |= {
+                "t": f"{self.time[0]:.4g} to {self.time[-1]:.4g} s",
+                "f": f"{self.coefficient.min():.4g} to {self.coefficient.max():.4g}",
+            }
+        return facts | {"status": self.report.status}
 
     def __getattr__(self, name):
         columns = self.__dict__.get("columns", {})

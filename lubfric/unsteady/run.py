@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..history.plan import Transient
 from ..march.course import checked_times, steps
-from ..model import Model
+from ..model import Model, scene_of
 from ..scene import Scene
 from .checkpoint import Checkpoint
 from .progress import Outputs, keep, resume, state_of
@@ -49,7 +49,7 @@ def transient(
     Raises `InputError` before any work; `ConvergenceError`, with the rows so far as its result, when the
     shortest step fails.
     """
-    base = scene.scene if isinstance(scene, Model) else scene
+    base = scene_of(scene)
     plan, times = _plan(base, times)
     run = begin(scene, plan)
     store = None if checkpoint is None else Checkpoint(checkpoint, [run.model, plan, times])

@@ -67,9 +67,9 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     base = scene.scene if isinstance(scene, Model) else scene
     if base.numerics.model == "deterministic":
         raise InputError("numerics.model = 'deterministic' is steady; allowed for a transient: 'auto', 'full'")
-    if base.numerics.film_deflection != "hydrodynamic" or base.numerics.cavitated_shear != "none":
+    if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic', "
+            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), "
             f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
             f"found {base.numerics.cavitated_shear!r}"
         )

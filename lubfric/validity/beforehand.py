@@ -19,7 +19,8 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
 
 
 def _lengths_across(surface) -> float | None:
-    """Width of the map over its correlation length across the motion; None where it has none (a lay along it, a flat map)."""
+    """Width of the map over its correlation length across the motion; None where it has none (a lay along it, a flat
+    map)."""
     ny = surface.shape[1]
     if ny < 8 or surface.sq == 0:
         return None

@@ -23,47 +23,68 @@ def of_bodies(bodies) -> list[Validity]:
     if wide > WIDE:
         found.append(
             Validity(
-                "contact half-width over radius", wide, WIDEST if wide > WIDEST else WIDE, "",
+                "contact half-width over radius",
+                wide,
+                WIDEST if wide > WIDEST else WIDE,
+                "",
                 "the contact is as wide as the body, which is then no half-space",
-                "check bodies.load, e_prime and radius; a lighter load or a stiffer body", wide > WIDEST,
+                "check bodies.load, e_prime and radius; a lighter load or a stiffer body",
+                wide > WIDEST,
             )
-        )  # fmt: skip
+        )
     if bodies.width < 2 * bodies.half_width:
         found.append(
             Validity(
-                "line length over contact width", bodies.width / (2 * bodies.half_width), 1.0, "",
-                "the contact is wider than long: no line contact", "check bodies.width and load",
+                "line length over contact width",
+                bodies.width / (2 * bodies.half_width),
+                1.0,
+                "",
+                "the contact is wider than long: no line contact",
+                "check bodies.width and load",
             )
-        )  # fmt: skip
+        )
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
         found.append(
             Validity(
-                "peak Hertz pressure", peak / 1e9, YIELDED / 1e9, "GPa", "hard steel yields there, the bodies are elastic here",
+                "peak Hertz pressure",
+                peak / 1e9,
+                YIELDED / 1e9,
+                "GPa",
+                "hard steel yields there, the bodies are elastic here",
                 "check bodies.load; give bodies.hardness",
             )
-        )  # fmt: skip
+        )
     return found
 
 
 def of_map(slope: float, lengths: float | None) -> list[Validity]:
-    """``slope``: rms slope of the map [-]; ``lengths``: its width over its correlation length across (None: not known)."""
+    """``slope``: rms slope of the map [-]; ``lengths``: its width over its correlation length across (None: not
+    known)."""
     found = []
     if slope > STEEP:
         found.append(
             Validity(
-                "rms slope of the map", slope, STEEPEST if slope > STEEPEST else STEEP, "",
+                "rms slope of the map",
+                slope,
+                STEEPEST if slope > STEEPEST else STEEP,
+                "",
                 "the half-space takes slopes as small: contact area and pressures are off",
-                "check the units of heights and spacing; filter the map at the scale that matters", slope > STEEPEST,
+                "check the units of heights and spacing; filter the map at the scale that matters",
+                slope > STEEPEST,
             )
-        )  # fmt: skip
+        )
     if lengths is not None and lengths < FEW:
         found.append(
             Validity(
-                "width of the map over its correlation length", lengths, FEW, "",
-                "few asperities: another patch of the same surface would give another f", "a larger map",
+                "width of the map over its correlation length",
+                lengths,
+                FEW,
+                "",
+                "few asperities: another patch of the same surface would give another f",
+                "a larger map",
             )
-        )  # fmt: skip
+        )
     return found
 
 
@@ -73,10 +94,14 @@ def of_motion(scene, speed: float, film: float) -> list[Validity]:
     if ratio > OPPOSED * (1 + 1e-12):
         found.append(
             Validity(
-                "slide-roll ratio", ratio, OPPOSED, "", "the surfaces move against one another: heat and dimples of such films "
-                "are not modelled", "in percent? give motion.slip_percent; 2 is simple sliding",
+                "slide-roll ratio",
+                ratio,
+                OPPOSED,
+                "",
+                "the surfaces move against one another: heat and dimples of such films are not modelled",
+                "in percent? give motion.slip_percent; 2 is simple sliding",
             )
-        )  # fmt: skip
+        )
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
         density = DENSITY if oil is None else oil.density_at(scene.lubricant.temperature)
@@ -85,12 +110,25 @@ def of_motion(scene, speed: float, film: float) -> list[Validity]:
         if reynolds > LAMINAR:
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
             found.append(
-                Validity("Reynolds number", reynolds, limit, "", "the film is turbulent or near it",
-                         "a laminar film needs less speed or more viscosity", reynolds > TURBULENT)
-            )  # fmt: skip
+                Validity(
+                    "Reynolds number",
+                    reynolds,
+                    limit,
+                    "",
+                    "the film is turbulent or near it",
+                    "a laminar film needs less speed or more viscosity",
+                    reynolds > TURBULENT,
+                )
+            )
         elif inertia > INERTIA:
             found.append(
-                Validity("inertia over viscous forces in the film", inertia, INERTIA, "", "Reynolds' equation leaves inertia out",
-                         "less speed or more viscosity")
-            )  # fmt: skip
+                Validity(
+                    "inertia over viscous forces in the film",
+                    inertia,
+                    INERTIA,
+                    "",
+                    "Reynolds' equation leaves inertia out",
+                    "less speed or more viscosity",
+                )
+            )
     return found

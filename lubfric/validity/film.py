@@ -14,18 +14,29 @@ def of_pressure(lubricant, peak: float) -> list[Validity]:
     """``peak``: highest film pressure [Pa]."""
     if peak > NO_LIQUID:
         return [
-            Validity("film pressure", peak / 1e9, NO_LIQUID / 1e9, "GPa", "no oil is a liquid there",
-                     "check bodies.load and numerics.film_level", True)
-        ]  # fmt: skip
+            Validity(
+                "film pressure",
+                peak / 1e9,
+                NO_LIQUID / 1e9,
+                "GPa",
+                "no oil is a liquid there",
+                "check bodies.load and numerics.film_level",
+                True,
+            )
+        ]
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(lubricant.viscosity_law)
     if limit is None or peak <= limit:
         return []
     return [
         Validity(
-            "film pressure", peak / 1e9, limit / 1e9, "GPa", f"the {lubricant.viscosity_law} viscosity law is an extrapolation there",
+            "film pressure",
+            peak / 1e9,
+            limit / 1e9,
+            "GPa",
+            f"the {lubricant.viscosity_law} viscosity law is an extrapolation there",
             "the film's friction rests on it: a measured limiting stress is safer",
         )
-    ]  # fmt: skip
+    ]
 
 
 def of_thickness(bodies, film: float) -> list[Validity]:
@@ -33,9 +44,15 @@ def of_thickness(bodies, film: float) -> list[Validity]:
     if not film > THICK * bodies.radius:
         return []
     return [
-        Validity("film over radius", film / bodies.radius, THICK, "", "the film is not thin against the cylinder",
-                 "check bodies.radius, viscosity and speed")
-    ]  # fmt: skip
+        Validity(
+            "film over radius",
+            film / bodies.radius,
+            THICK,
+            "",
+            "the film is not thin against the cylinder",
+            "check bodies.radius, viscosity and speed",
+        )
+    ]
 
 
 def of_deflection(change: float, limit: float) -> list[Validity]:
@@ -44,8 +61,11 @@ def of_deflection(change: float, limit: float) -> list[Validity]:
         return []
     return [
         Validity(
-            "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,", change, limit, "",
+            "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,",
+            change,
+            limit,
+            "",
             "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
             "numerics.film_deflection = 'scaled' or 'total' (or 'auto', which chooses)",
         )
-    ]  # fmt: skip
+    ]

@@ -6,7 +6,8 @@ from .entry import Validity
 
 
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
-    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst of them.
+    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst of
+    them.
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """

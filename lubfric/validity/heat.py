@@ -15,13 +15,27 @@ def of_heat(heat, slide_roll_ratio: float, tolerance: float) -> list[Validity]:
         beyond = abs(slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
         if beyond and spread > tolerance:
             found.append(
-                Validity("difference of two published inlet heating factors", spread, tolerance, "",
-                         f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, neither factor "
-                         "was made for such sliding", "a measured film; numerics.heat = 'off' gives the isothermal bound")
-            )  # fmt: skip
+                Validity(
+                    "difference of two published inlet heating factors",
+                    spread,
+                    tolerance,
+                    "",
+                    f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the "
+                    "isothermal one, neither factor "
+                    "was made for such sliding",
+                    "a measured film; numerics.heat = 'off' gives the isothermal bound",
+                )
+            )
     if heat.slow and heat.change > tolerance:
         found.append(
-            Validity("Péclet number of the faster surface", heat.peclet, FAST, "", "the heat source moves slowly: the flash temperature "
-                     f"used is too high, and f too low by at most {100 * heat.change:.2g} %", "numerics.heat = 'off' gives the other bound")
-        )  # fmt: skip
+            Validity(
+                "Péclet number of the faster surface",
+                heat.peclet,
+                FAST,
+                "",
+                "the heat source moves slowly: the flash temperature "
+                f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
+                "numerics.heat = 'off' gives the other bound",
+            )
+        )
     return found

@@ -22,8 +22,8 @@ def meaningless(shear) -> bool:
 
 
 def of_shear(shear, film_load: float, friction_force: float, tolerance: float, newtonian: bool) -> list[Validity]:
-    """``shear``: `ShearForce` of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N], of which a share above
-    ``tolerance`` that no oil carries is told, above 0.2 refused."""
+    """``shear``: `ShearForce` of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N], of which a share
+    above ``tolerance`` that no oil carries is told, above 0.2 refused."""
     if not friction_force > 0:
         return []
     share = shear.excess / friction_force if shear.excess < np.inf else 1.0
@@ -34,14 +34,21 @@ def of_shear(shear, film_load: float, friction_force: float, tolerance: float, n
         severe = share > SHARE
         found.append(
             Validity(
-                "share of f from shear stresses that no oil carries", share, SHARE if severe else tolerance, "",
-                f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a friction coefficient of "
-                f"{friction:.2g}", remedy, severe,
+                "share of f from shear stresses that no oil carries",
+                share,
+                SHARE if severe else tolerance,
+                "",
+                f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a "
+                "friction coefficient of "
+                f"{friction:.2g}",
+                remedy,
+                severe,
             )
-        )  # fmt: skip
+        )
     elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
         found.append(
-            Validity("friction coefficient of the film", friction, FRICTION, "",
-                     "more than any lubricant gives", remedy)
-        )  # fmt: skip
+            Validity(
+                "friction coefficient of the film", friction, FRICTION, "", "more than any lubricant gives", remedy
+            )
+        )
     return found

@@ -1,4 +1,5 @@
-"""numerics.model = "deterministic" in friction and stribeck: the same words, what is refused, grids by the tolerance."""
+"""numerics.model = "deterministic" in friction and stribeck: the same words, what is refused, grids by the
+tolerance."""
 
 from pathlib import Path
 
@@ -119,7 +120,7 @@ def test_the_command_writes_its_fields(tmp_path):
     scene = tmp_path / "scene.toml"
     text = (Path(lubfric.__file__).parent / "scenes" / "paper.toml").read_text()
     text = text.replace("shape = [200, 200]", "shape = [32, 32]").replace("spacing = 0.45e-6", "spacing = 2.8125e-6")
-    scene.write_text(text + '\n[numerics]\nmodel = "deterministic"\ngrid = "given"\n')
+    scene.write_text(text + 'model = "deterministic"\ngrid = "given"\n')
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--speeds", "0.01,0.003", "--fields", "0.003"]) == 0
     fields = np.load(tmp_path / "out" / "fields.npz")
     assert fields["pressure_0"].shape == fields["gap_0"].shape and fields["speed"] == 0.003

@@ -133,7 +133,8 @@ def test_moes_regression(M, L):
 
 @pytest.mark.parametrize("rpm, h_min, p_max", [(500, 1.7580, 1.065), (2500, 4.2753, 0.928), (5000, 6.0490, 0.878)])
 def test_kostreva_complementarity(rpm, h_min, p_max):
-    """M. M. Kostreva, Int. J. Numer. Meth. Fluids 4 (1984) 377-397: 100 lb, Barus, X in [-3, 2] with P = 0 at both ends."""
+    """M. M. Kostreva, Int. J. Numer. Meth. Fluids 4 (1984) 377-397: 100 lb, Barus, X in [-3, 2] with P = 0 at both
+    ends."""
     M, L = 1.563 * math.sqrt(500 / rpm), 5.677 * (rpm / 500) ** 0.25
     arguments, _unit = contact(M, L, viscosity_law="barus", tolerance=3e-4)
     arguments["inlet_length"] = 3 * half_width(arguments)

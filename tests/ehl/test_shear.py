@@ -101,7 +101,8 @@ def test_upstream_integrals_against_quadrature(floor):
 
 
 def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
-    """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that column."""
+    """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that
+    column."""
     x = np.linspace(-1.5, 1.5, 4)
     closure = ContactState(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
     nodes = np.array([-3.0, -1.7, -0.4, -0.2, 0.7, 5.0])

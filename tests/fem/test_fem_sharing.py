@@ -13,7 +13,7 @@ from verification.fem.fluid import Fluid
 from verification.fem.harmonic import Strip, compliance
 from verification.fem.report import InputError, SolveError
 from verification.fem.rough import press
-from verification.fem.sharing import Bodies, root, rupture, share_load, shear
+from verification.fem.sharing import Bodies, FlatBodies, root, rupture, share_load, shear
 
 E_PRIME, CELL = 231e9, 1e-6
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
@@ -142,3 +142,43 @@ def test_closed_forms_of_contact_agree_with_each_other():
     )
     y = (np.arange(100000) + 0.5) * 5e-5 / 100000
     assert wave.pressure(y).mean() == pytest.approx(wave.mean_pressure, rel=1e-6)
+
+
+def test_shear_laws_of_the_finite_elements():
+    newton, limited = Fluid(0.1), Fluid(0.1, eyring_stress=2e6, limiting_stress=(1e6, 0.05))
+    assert newton.stress(0.0, -1e6) == pytest.approx(-1e5)
+    assert limited.stress(0.0, 1e3) == pytest.approx(100.0, rel=1e-8)  # Newtonian far below tau_E
+    assert limited.stress(1e9, -1e7) == pytest.approx(-2e6 * math.asinh(0.5), rel=1e-12)
+    assert limited.stress(0.0, 1e12) == pytest.approx(1e6)
+    assert limited.stress(1e8, -1e12) == pytest.approx(-6e6)
+
+
+def test_cell_means_of_lubfric_are_those_of_a_finer_grid():
+    """A pressure that is uniform on cells: the mean of the deflection over them, by the same kernel on parts of the
+    cells."""
+    from lubfric.halfspace import half_space
+    from verification.studies.load_sharing import PARTS, cell_mean
+
+    p = np.random.default_rng(0).random((6, 4))
+    coarse = half_space((6, 4), (2e-6, 1e-6), E_PRIME, ("free", "periodic"))
+    fine = half_space((6 * PARTS, 4), (2e-6 / PARTS, 1e-6), E_PRIME, ("free", "periodic"))
+    exact = fine.apply(np.repeat(p, PARTS, axis=0)).reshape(6, PARTS, 4).mean(axis=1)
+    assert np.ptp(cell_mean(coarse).apply(p) - exact) < 1e-9 * np.ptp(exact)
+    assert np.ptp(coarse.apply(p) - exact) > 1e-3 * np.ptp(exact)
+
+
+def test_flat_balance_of_the_finite_elements():
+    """A contact whose gap falls like exp(-p): both balances close, the sense of sliding changes the rolling part
+    only."""
+    line = ehl.LineContact(5.5 / 6e-3, 2e-3, E_PRIME, 0.02, Fluid(0.36, "roelands", 25e-9))
+    found = [
+        share_load(FlatBodies(line, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, sliding), refinements=0)
+        for sliding in (0.04, -0.04)
+    ]
+    for shared in found:
+        assert abs(shared.residual) <= 1e-5 and shared.film_load + shared.contact_load == pytest.approx(5.5)
+        pressure = shared.contact_load / (2 * line.half_width * 6e-3)
+        assert shared.mean_gap == pytest.approx(3e-7 * math.exp(-pressure / 5e7), rel=1e-9)
+    fore, back = found
+    assert fore.couette == pytest.approx(-back.couette) and fore.rolling == pytest.approx(back.rolling)
+    assert (fore.coefficient - back.coefficient) * 5.5 == pytest.approx(2 * fore.rolling, rel=1e-6)

@@ -214,3 +214,36 @@ def test_bad_input(arguments, word):
 def test_apply_rejects_another_shape():
     with pytest.raises(InputError, match="shape"):
         half_space((4, 5), 1.0, 1.0).apply(np.zeros((5, 4)))
+
+
+@settings(max_examples=30)
+@given(
+    nx=st.integers(8, 60),
+    ny=st.integers(1, 40),
+    spacing=st.tuples(st.floats(0.05, 20), st.floats(0.05, 20)),
+    first=st.integers(0, 59),
+    count=st.integers(1, 20),
+)
+def test_a_loaded_strip_deflects_as_in_the_whole_patch(nx, ny, spacing, first, count):
+    """Waves cut off where they end: to rounding the same as transforms of the whole patch, in either precision."""
+    from lubfric.halfspace.operator import filtered
+
+    operator = half_space((nx, ny), spacing, 2.0, ("free", "periodic"))
+    first = min(first, nx - 1)
+    pressure = np.zeros((nx, ny))
+    pressure[first : first + count] = np.random.default_rng(0).random(pressure[first : first + count].shape)
+    whole = filtered(pressure, operator.symbol, operator.padded, None)
+    tiny = abs(whole).max()
+    assert operator.apply(pressure) == pytest.approx(whole, abs=1e-14 * tiny)
+    assert operator.single.apply(pressure) == pytest.approx(whole, abs=2e-6 * tiny)
+    rows = min(count, nx - first)
+    window = operator.window(rows).apply(pressure[first : first + rows])
+    assert window == pytest.approx(whole[first : first + rows], abs=1e-14 * tiny)
+
+
+def test_coarse_cells_of_a_shortened_strip_keep_the_gauge():
+    operator = half_space((48, 12), (0.3, 0.5), 2.0, ("free", "periodic")).shortened(24)
+    coarse, pressure = operator.coarsened((2, 1)), np.zeros((12, 12))
+    pressure[3] = 1.0
+    expected = operator.apply(pressure.repeat(2, axis=0))
+    assert coarse.apply(pressure)[9:] == pytest.approx(expected.reshape(12, 2, 12).mean(axis=1)[9:], rel=1e-3)

@@ -181,8 +181,8 @@ def test_the_grids_end_at_the_given_one():
 
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 1e-3, 2e-4])
 def test_no_finer_grid_than_the_tolerance_needs(tolerance):
-    """The gap of the coarser grids is too small by a known amount: the film load found is within the tolerance of that of
-    no error, or the grid is the finest; and a tighter tolerance never takes a coarser one."""
+    """The gap of the coarser grids is too small by a known amount: the film load found is within the tolerance of that
+    of no error, or the grid is the finest; and a tighter tolerance never takes a coarser one."""
     spring = GriddedSpring(300e-9, 250e-9, 4.0, error=0.05e-9)
     made = model(spring, tolerance=tolerance)
     found, index, error = on_enough_cells(point(made), coarser_grids(spring, 1e-7), None)

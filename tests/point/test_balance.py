@@ -11,7 +11,7 @@ from toys import EvenFilmLevel, Spring
 
 import lubfric
 from lubfric.point.balance import balanced, divided, separated
-from lubfric.point.operating_point import OperatingPoint, Settings, Trial
+from lubfric.point.operating_point import OperatingPoint, Settings, Start
 from lubfric.report import ITERATION_LIMIT
 from lubfric.rough.strip import strip_weight
 
@@ -98,5 +98,5 @@ def test_the_loads_of_a_split_add_up_and_give_it_back():
 
 def test_films_keep_to_one_grid_from_the_second_on():
     """Cells of the film of the whole load, or of the first trial, bind no other: the root would have a jump."""
-    assert Trial().least_cells == Trial(solved=(512,)).least_cells == 0
-    assert Trial(solved=(512, 96)).least_cells == 96 and Trial(solved=(48, 96, 192)).least_cells == 192
+    assert Start().least_cells == Start(solved=(512,)).least_cells == 0
+    assert Start(solved=(512, 96)).least_cells == 96 and Start(solved=(48, 96, 192)).least_cells == 192

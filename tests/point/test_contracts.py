@@ -89,7 +89,8 @@ class Failing(EvenFilmLevel):
 
 
 def test_a_failed_film_of_the_whole_load_does_not_hide_the_balance(both):
-    """A load of 5.5 N with a film that is not certainly below the summits: the balance in contact excludes separation."""
+    """A load of 5.5 N with a film that is not certainly below the summits: the balance in contact excludes
+    separation."""
     model = lubfric.prepare(PAPER, contact=both.contact, film_levels=(Failing(stiffness=FILM.stiffness),))
     speed = 2.0
     found, reference = lubfric.friction(model, speed), lubfric.friction(both, speed)

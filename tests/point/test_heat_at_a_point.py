@@ -1,4 +1,5 @@
-"""Heat as a level of an operating point: against the isothermal point, the standalone solve, and a film solved hotter."""
+"""Heat as a level of an operating point: against the isothermal point, the standalone solve, and a film solved
+hotter."""
 
 import numpy as np
 import pytest
@@ -60,7 +61,8 @@ def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
 
 
 def test_the_film_is_thinner_by_the_inlet_factor(model):
-    """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1 %."""
+    """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1
+    %."""
     on, off = at(model, 5.0, 0.1), at(model, 5.0, 0.1, numerics={"heat": "off"})
     assert on.inlet_film_factor < 0.95
     assert on.central_film / off.central_film == pytest.approx(on.inlet_film_factor, rel=0.01)

@@ -1,4 +1,5 @@
-"""Validity of converged results: told where the model leaves its range, silent on the paper's scene, refused where f is none."""
+"""Validity of converged results: told where the model leaves its range, silent on the paper's scene, refused where f is
+none."""
 
 import pickle
 from dataclasses import replace

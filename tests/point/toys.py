@@ -73,7 +73,6 @@ class Spring(RoughContact):
     touching: float
     sigma: float
     stiffness: float
-    name: str = "a spring"
     x: np.ndarray = field(default_factory=lambda: np.linspace(-1e-6, 1e-6, 3))
     weight: np.ndarray = field(default_factory=lambda: np.ones(3))
 
@@ -84,6 +83,10 @@ class Spring(RoughContact):
     def carry(self, film, start=None, shape=None):
         gap = min(float(np.mean(film)), self.touching)
         return self.stiffness * ((self.touching - gap) / self.sigma) ** 1.5, self.state(film, gap)
+
+    @property
+    def name(self):
+        return "a spring"
 
     def state(self, film, gap):
         return ContactState(gap, float(np.mean(film)), self.x, np.zeros(3), 0.0, 0.0)

@@ -1,4 +1,5 @@
-"""Likely slips: every usual range holds the built-in scenes, and a value in a mistaken unit is told with the right one."""
+"""Likely slips: every usual range holds the built-in scenes, and a value in a mistaken unit is told with the right
+one."""
 
 import pytest
 

@@ -398,3 +398,19 @@ def test_folders_that_are_no_store(tmp_path):
     (tmp_path / "study.json").write_text('{"keys": ')
     with pytest.raises(lubfric.InputError, match="damaged"):
         lubfric.open_study(tmp_path)
+
+
+def test_every_part_of_a_scene_makes_another_key():
+    """Whatever is varied, no two points share a key: also parts that few scenes have."""
+    for section, field, values in (
+        ("motion", "slide_roll_ratio", [0.5, 1.0]),
+        ("numerics", "tolerance", [0.01, 0.02]),
+        ("contact", "region", ["hertz", "box"]),
+        ("surface", "seed", [1, 2]),
+        ("lubricant", "eyring_stress", [None, 5e6]),
+        ("bodies", "conductivity", [(46.0, 46.0), (46.0, 3.0)]),
+    ):
+        plan = lubfric.plan_study(SCENE, {f"{section}.{field}": values}, SPEEDS)
+        assert len(set(plan.keys().flat)) == plan.points, field
+    both = lubfric.plan_study(SCENE, {"counterface": [None, {"sq": 1e-8, "correlation_length": 4e-6}]}, SPEEDS)
+    assert len(set(both.keys().flat)) == both.points and len(both.batches) == 2

@@ -37,7 +37,10 @@ correlation_length = 4e-6
 shape = [48, 48]
 spacing = 1.1e-6
 """
-HISTORY = '[transient]\nduration = 0.01\noutputs = 10\nspeed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
+HISTORY = (
+    "[transient]\nduration = 0.01\noutputs = 10\n"
+    'speed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
+)
 COUNTED = """
 import sys
 from lubfric.studies import chain

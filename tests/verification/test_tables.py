@@ -1,4 +1,5 @@
-"""Tables in the documents are written by a command: the marks in the pages and the tables that can be measured agree."""
+"""Tables in the documents are written by a command: the marks in the pages and the tables that can be measured
+agree."""
 
 import pytest
 
@@ -14,7 +15,10 @@ def test_every_mark_in_a_page_names_a_table(root):
 
 
 def test_only_the_named_table_is_replaced_and_again_gives_the_same():
-    page = "before\n<!-- table: one -->\nold\n<!-- end of table -->\nbetween\n<!-- table: two -->\nkept\n<!-- end of table -->\n"
+    one, two = (
+        f"<!-- table: {name} -->\n{text}\n<!-- end of table -->\n" for name, text in (("one", "old"), ("two", "kept"))
+    )
+    page = f"before\n{one}between\n{two}"
     once = replaced(page, "one", body("one", TABLE, "2000-01-01"))
     assert "old" not in once and "kept" in once and "| 0.1 | 0.05 |" in once
     assert once.startswith("before\n") and "\nbetween\n" in once

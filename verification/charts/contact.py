@@ -123,7 +123,8 @@ def attempt(solve, tolerance: float):
 
 
 def grids(quick: bool) -> Iterator[Check]:
-    """Discretisation: contact area and mean gap of coarser grids of one surface against the finest; solver error 1e-6."""
+    """Discretisation: contact area and mean gap of coarser grids of one surface against the finest; solver error
+    1e-6."""
     sizes = (32, 64, 128) if quick else (128, 256, 512, 1024, 2048)
     for acf in ("gaussian",) if quick else ("gaussian", "exponential"):
         solved = {}

@@ -21,8 +21,8 @@ Quartiles = tuple[float, float, float]  # median, lower, upper, of seconds
 def point(panel: str, method: str, setting: str, error: float, seconds: Quartiles, **at) -> Check:
     """One setting of one method, where it is drawn: its error against a tight solution, and its time.
 
-    ``at``: default (the setting users get), apart (the error is that of the grid against a finer one, not of the solver),
-    size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
+    ``at``: default (the setting users get), apart (the error is that of the grid against a finer one, not of the
+    solver), size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
     """
     median, low, high = (float(s) for s in seconds)
     return Check(

@@ -64,7 +64,8 @@ def coefficients(pair, speeds) -> np.ndarray:
 
 
 def per_speed(panel: str, method: str, setting: str, found: tuple, seconds: Quartiles, **at) -> Check:
-    """Largest relative deviation over the speeds of ``found`` = (f, exact f); seconds per speed, preparation included."""
+    """Largest relative deviation over the speeds of ``found`` = (f, exact f); seconds per speed, preparation
+    included."""
     f, exact = found
     off = float(np.nanmax(np.abs(f / exact - 1)))
     return point(panel, method, setting, off, tuple(s / f.size for s in seconds), **at)

@@ -35,6 +35,8 @@ class Fluid:
         its ambient pressure for bulk modulus); "dowson_higginson"
         ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` (Dowson & Higginson 1966, p in Pa)
     bulk_modulus : Pa, for "linear"
+    eyring_stress : Pa; the shear stress is its asinh of the Newtonian one in its units (infinite: Newtonian)
+    limiting_stress : (tau_0 in Pa, Lambda): no stress above tau_0 + Lambda p; None: no limit
     """
 
     viscosity: float
@@ -43,6 +45,8 @@ class Fluid:
     roelands_index: float | None = None
     density_law: str = "constant"
     bulk_modulus: float = math.inf
+    eyring_stress: float = math.inf
+    limiting_stress: tuple[float, float] | None = None
 
     def __post_init__(self):
         if self.viscosity_law not in VISCOSITY_LAWS or self.density_law not in DENSITY_LAWS:
@@ -80,6 +84,16 @@ class Fluid:
     def eta(self, p):
         """Viscosity in Pa s."""
         return self.viscosity * np.exp(self.log_viscosity(p))
+
+    def stress(self, p, rate):
+        """Shear stress in Pa at the shear rate, 1/s, of either sign."""
+        size = self.eta(p) * np.abs(rate)
+        if math.isfinite(self.eyring_stress):
+            ratio = size / self.eyring_stress
+            size = self.eyring_stress * np.log(ratio + np.sqrt(1 + ratio**2))
+        if self.limiting_stress is not None:
+            size = np.minimum(size, self.limiting_stress[0] + self.limiting_stress[1] * p)
+        return np.sign(rate) * size
 
     def rho(self, p):
         """Density relative to that at p = 0."""

@@ -48,6 +48,7 @@ class Problem:
     source : f in m/s (as rho is relative to the density at p = 0), for manufactured solutions; may be None
     open_boundary : of facet midpoints (dim, n): True where p is not set to 0 and no flow passes (a symmetry
         line, or the side of an infinitely wide pad); None: p = 0 all round
+    given : pressure in Pa prescribed at points (dim, n), NaN where it is not (of contact spots); None: nowhere
     cavitation : complementarity p >= 0, else p may be of any sign
     stabilisation : "none" (Galerkin) or "supg", degree 1 only, for a density that depends on pressure
     """
@@ -59,6 +60,7 @@ class Problem:
     degree: int = 1
     source: Callable[[np.ndarray], np.ndarray] | None = None
     open_boundary: Callable[[np.ndarray], np.ndarray] | None = None
+    given: Callable[[np.ndarray], np.ndarray] | None = None
     cavitation: bool = False
     stabilisation: str = "none"
 
@@ -229,6 +231,11 @@ def solve_reynolds(
     fields = given_fields(problem, basis)
     p = np.zeros(basis.N) if start is None else np.array(start, dtype=float)
     p[held] = 0.0
+    if problem.given is not None:
+        prescribed = problem.given(basis.doflocs)
+        known = np.isfinite(prescribed) & ~held
+        p[known] = prescribed[known]
+        held |= known
     flow = flow_scale(problem, basis, fields)
     history, status = [], ITERATION_LIMIT
     for _ in range(max_iterations + 1):
@@ -250,7 +257,7 @@ def solve_reynolds(
             break
         if len(history) > max_iterations:
             break
-        p = p + newton_step(problem, matrix, r, p, held | cavitated)
+        p = p + newton_step(problem, matrix, r, p, held, cavitated)
     report = SolveReport(
         "Reynolds finite elements",
         status,
@@ -358,10 +365,11 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
     return found
 
 
-def newton_step(problem: Problem, matrix, r, p, fixed) -> np.ndarray:
-    """Step to ``r = 0`` on free and ``p = 0`` on fixed nodes, shortened where viscosity would run away."""
-    step = np.where(fixed, -p, 0.0)
-    free = np.flatnonzero(~fixed)
+def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
+    """Step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, none on held ones, shortened where viscosity would
+    run away."""
+    step = np.where(cavitated & ~held, -p, 0.0)
+    free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]
     step[free] = skfem.solver_direct_scipy()(matrix[free][:, free].tocsc(), rhs)
     alpha = problem.fluid.pressure_viscosity_coefficient

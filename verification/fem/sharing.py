@@ -59,6 +59,58 @@ class Bodies:
         inside = np.clip(self.edges, -self.contact.half_width, self.contact.half_width)
         return np.diff(inside) / np.diff(self.edges)
 
+    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+        """The strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
+        found = press(
+            self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness, start=start
+        )
+        return Under(np.maximum(found.gap, 0).mean(axis=1), (found.pressure > 0).mean(axis=1), found)
+
+
+@dataclass(frozen=True)
+class FlatBodies:
+    """The same with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
+
+    pressed(mean pressure in Pa) gives the mean gap (m) of a periodic patch and the share of it in contact.
+    """
+
+    contact: ehl.LineContact
+    width: float
+    pressed: Callable[[float], tuple[float, float]]
+    boundary_friction: float
+    sliding: float
+    cells: int = 64
+
+    @property
+    def load(self) -> float:
+        """F_T, N."""
+        return self.contact.load_per_width * self.width
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Edges of the cells across the Hertz strip, m."""
+        return np.linspace(-self.contact.half_width, self.contact.half_width, self.cells + 1)
+
+    @property
+    def weight(self) -> np.ndarray:
+        """All of them count."""
+        return np.ones(self.cells)
+
+    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+        """The strip pressed with ``load`` (N); the film's shape does not matter."""
+        gap, touching = self.pressed(load / (2 * self.contact.half_width * self.width))
+        return Under(np.full(self.cells, gap), np.full(self.cells, touching), None)
+
+
+@dataclass(frozen=True)
+class Under:
+    """What a film leaves the contact: mean gap (m) and share in contact of the cells along x, and the strip as
+    pressed."""
+
+    gap: np.ndarray
+    touching: np.ndarray
+    pressed: Pressed | None
+
 
 @dataclass(frozen=True)
 class Shared:
@@ -75,8 +127,13 @@ class Shared:
     mean_film: float
     area: float
     film: ehl.Solution
-    pressed: Pressed
+    pressed: Pressed | None
     report: SolveReport
+
+    @property
+    def shear(self) -> float:
+        """Force of the film on the upper surface in the direction in which it slides, N."""
+        return math.copysign(1.0, self.couette) * (self.couette + self.rolling)
 
     @property
     def split(self) -> float:
@@ -90,7 +147,7 @@ class Shared:
 
 
 def share_load(
-    bodies: Bodies,
+    bodies: Bodies | FlatBodies,
     *,
     guess: float = 0.0,
     step: float = 1.0,
@@ -163,7 +220,7 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         b, fb = c, fc
 
 
-def divided(bodies: Bodies, split: float, refinements: int, tried: dict) -> Shared:
+def divided(bodies: Bodies | FlatBodies, split: float, refinements: int, tried: dict) -> Shared:
     """Film, contact and friction at ln(F_H/F_C) = ``split``."""
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
@@ -171,28 +228,22 @@ def divided(bodies: Bodies, split: float, refinements: int, tried: dict) -> Shar
     film = ehl.solve_ehl(contact, refinements=refinements)[-1]
     shape = cell_means(film, bodies.edges)
     near = min(tried, key=lambda s: abs(s - split), default=None)
-    pressed = press(
-        bodies.compliance,
-        shape[:, None] - bodies.heights,
-        contact_load / bodies.width,
-        hardness=bodies.hardness,
-        start=None if near is None else tried[near].pressed,
-    )
+    under = bodies.under(shape, contact_load, None if near is None else tried[near].pressed)
     weight = bodies.weight / bodies.weight.sum()
-    touching = (pressed.pressure > 0).mean(axis=1)
-    couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - touching))
-    boundary = bodies.boundary_friction * contact_load * (bodies.sliding != 0)
+    couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - under.touching))
+    sense = math.copysign(1.0, bodies.sliding)
+    boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)
     return Shared(
         film_load,
         contact_load,
         couette,
         rolling,
-        (boundary + couette + rolling) / bodies.load,
-        float(weight @ np.maximum(pressed.gap, 0).mean(axis=1)),
+        float(sense * (boundary + couette + rolling) / bodies.load),
+        float(weight @ under.gap),
         float(weight @ shape),
-        float(weight @ touching),
+        float(weight @ under.touching),
         film,
-        pressed,
+        under.pressed,
         film.report,
     )
 
@@ -223,7 +274,7 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     middle = 0.5 * (x[1:] + x[:-1])
     p, h = film.at(middle)
     share = np.concatenate([[1.0], wet, [1.0]])[np.searchsorted(edges, middle)]
-    couette = np.sum(share * c.fluid.eta(np.maximum(p, 0)) * sliding / h * np.diff(x))
+    couette = np.sum(share * c.fluid.stress(np.maximum(p, 0), sliding / h) * np.diff(x))
     rolling = np.sum(share * h / 2 * np.diff(film.at(x)[0]))
     floor = film.H[dofs.argmin()] * c.film_unit - x[0] ** 2 / (2 * c.radius)
     far = [quad(upstream, 0, -1 / x[0], (n, floor, c.radius))[0] for n in (1, 2)]

@@ -279,10 +279,13 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
         "%). The paper has up to 32 % at "
         "1 GPa: the same order."
     )
+    smaller = (
+        f"smaller only for: {', '.join(shrinking)}" if shrinking else "in no reading tried is it smaller at all loads"
+    )
     differs = (
         f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 "
         "µm, and "
-        f"{'in no reading tried is it smaller at all loads' if not shrinking else 'smaller only for: ' + ', '.join(shrinking)}. "
+        f"{smaller}. "
         "Our reading of why: a longer wave of the same height is flattened by less pressure (E' Sq/L), so "
         "the summits on one hill "
         "share the load over a wider area and independent asperities err more. Fig. 4 varies the spacing of "

@@ -55,7 +55,8 @@ def film_deflection(quick: bool) -> PaperFigure:
         column[1].set(xlabel="entrainment speed U (m/s)", ylabel="$F_H/F_T$ (-)")
     grid[0, 0].legend(fontsize=8)
     words = "; ".join(
-        f"{name}: coefficient changed by at most {one[0]:.1f} % (Johnson) and {two[0]:.1f} % (both pressures), F_H by a factor "
+        f"{name}: coefficient changed by at most {one[0]:.1f} % (Johnson) and {two[0]:.1f} % (both pressures), "
+        "F_H by a factor "
         f"of {one[1]:.3g} to {one[2]:.3g} and {two[1]:.3g} to {two[2]:.3g}"
         for name, (one, two) in most.items()
     )
@@ -64,12 +65,18 @@ def film_deflection(quick: bool) -> PaperFigure:
         "Option: which pressure deforms the film",
         f"{words}. In the paper's own light case (102 MPa) the choice hardly matters, which is why the "
         "paper can leave it open.",
-        "The paper lets the film be deformed by its own pressure only. Johnson, Greenwood and Poon, and after them Gelinck and "
-        "Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus E' F_H/F_T at the load F_H: "
-        'the deflection of the total pressure when both pressures have the same shape. `"total"` takes the contact\'s pressure as '
-        "it is found (its semi-ellipse), so the two pressures need not have one shape. At a high load and a small film share "
-        "the film's own pressure cannot flatten the gap, whose mean over the strip then is that of the undeformed parabola, "
-        "and the friction does not tend to that of the boundary; under both other options it does. The flat strip has no "
+        "The paper lets the film be deformed by its own pressure only. Johnson, Greenwood and Poon, and after "
+        "them Gelinck and "
+        "Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus E' F_H/F_T at "
+        "the load F_H: "
+        'the deflection of the total pressure when both pressures have the same shape. `"total"` takes the '
+        "contact's pressure as "
+        "it is found (its semi-ellipse), so the two pressures need not have one shape. At a high load and a "
+        "small film share "
+        "the film's own pressure cannot flatten the gap, whose mean over the strip then is that of the "
+        "undeformed parabola, "
+        "and the friction does not tend to that of the boundary; under both other options it does. The flat "
+        "strip has no "
         "contact pressure along x of its own. "
         '`numerics.film_deflection = "scaled"` or `"total"`, both off by default.',
         png(canvas),

@@ -22,8 +22,8 @@ class PaperFigure:
     """What a figure hands over.
 
     name: stem of its files; title; agrees, differs: what does and what does not agree with the paper, and
-    why; picture: bytes of a PNG; tables: {stem: (headings with units, rows)}, each written as a CSV file; checks: what has
-    to hold whatever the paper shows.
+    why; picture: bytes of a PNG; tables: {stem: (headings with units, rows)}, each written as a CSV file; checks: what
+    has to hold whatever the paper shows.
     """
 
     name: str

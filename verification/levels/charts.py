@@ -33,7 +33,8 @@ def error_against_saving(found: list[Check]) -> Figure:
 
 
 def continuity(found: list[Check]) -> Figure:
-    """f over speed with each level in its colour, and below the deviation from the full model, the tolerance in grey."""
+    """f over speed with each level in its colour, and below the deviation from the full model, the tolerance in
+    grey."""
     scenes = list(dict.fromkeys(c.at["scene"] for c in found))
     levels = sorted({c.at["level"] for c in found})
     figure, axes = plotting.axes(2, len(scenes), 13, 6, squeeze=False)

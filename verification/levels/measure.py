@@ -81,8 +81,8 @@ def file_of(folder, seed: int) -> Path:
 
 
 def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = SEED) -> list[Check]:
-    """Checks of the scenes drawn from ``seed``, kept in ``file`` as they come (one scene a line): those found there are not
-    solved again.
+    """Checks of the scenes drawn from ``seed``, kept in ``file`` as they come (one scene a line): those found there are
+    not solved again.
 
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """

@@ -3,12 +3,14 @@
 What a scene leaves open is chosen so that a full solve is both possible and trustworthy:
 
 - steel on steel, E' = 231 GPa, 10 mm wide, f_b = 0.1, sliding with a slide-roll ratio of 2;
-- Roelands viscosity (alpha below 1.5 /GPa: constant) with Ree-Eyring shear at 5 MPa and a limiting shear stress of 1 MPa
-  plus 5 % of the pressure: the Newtonian law of the paper gives friction far above 1 at gigapascals, and a relative
+- Roelands viscosity (alpha below 1.5 /GPa: constant) with Ree-Eyring shear at 5 MPa and a limiting shear stress of 1
+  MPa plus 5 % of the pressure: the Newtonian law of the paper gives friction far above 1 at gigapascals, and a relative
   error of such a number says nothing;
-- half of the scenes elastic, half with a plastic limit of 3 GPa, or 1.5 times the mean Hertz pressure where that is more;
-- a Gaussian autocorrelation, 24 cells to the correlation length (and 4 to the Hertz strip): its contact converges with the grid, so the error of
-  the reference can be checked against a finer one (an exponential one has detail at every scale and no limit);
+- half of the scenes elastic, half with a plastic limit of 3 GPa, or 1.5 times the mean Hertz pressure where that is
+  more;
+- a Gaussian autocorrelation, 24 cells to the correlation length (and 4 to the Hertz strip): its contact converges with
+  the grid, so the error of the reference can be checked against a finer one (an exponential one has detail at every
+  scale and no limit);
 - a patch of 12 correlation lengths along the line, and as long as contact may reach across it: the Hertz strip and
   where the gap of the undeformed cylinder is below three standard deviations of the heights, and a third more.
 """
@@ -73,7 +75,7 @@ def scene(values: dict, index: int) -> Scene:
         Motion(values["speed"]),
         Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
         Patch(shape=shape, spacing=(across, cell)),
-        Numerics(),
+        Numerics(film_deflection="hydrodynamic"),
         name=f"scene {index}",
     )
 

@@ -1,6 +1,7 @@
 """``python -m verification stability``: map where methods fail, and prove that the default ones say so.
 
-Exit code 1: a cell of a default method is silently wrong, or one inside the promised range failed.
+Exit code 1: a cell of a default method is silently wrong, one inside the promised range failed, a bad input was not
+refused in words, or one of many random scenes was answered wrongly.
 """
 
 from __future__ import annotations
@@ -22,6 +23,10 @@ def main(argv: list[str]) -> int:
     studies = tuple(
         Study(name, "verification.stability:stability_map", title, LEVELS, {"name": name})
         for name, title in MAPS.items()
+    )
+    studies += (
+        Study("bad-inputs", "verification.hostile.study:bad_inputs", "Bad input", LEVELS),
+        Study("soak", "verification.hostile.study:soak", "Random scenes in one process", LEVELS),
     )
     return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1), argv)
 

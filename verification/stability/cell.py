@@ -18,8 +18,8 @@ SOURCE = "the judge beside this map"
 
 @dataclass(frozen=True)
 class Condition:
-    """Where a cell lies: map and panel it is drawn on, x and y on its axes; inside: it lies within the range in which the
-    method that users get unasked promises to answer."""
+    """Where a cell lies: map and panel it is drawn on, x and y on its axes; inside: it lies within the range in which
+    the method that users get unasked promises to answer."""
 
     map: str
     panel: str

@@ -183,7 +183,8 @@ def judge_contact(model: Model, load: float, film) -> Sides:
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
-    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian film before rupture, the far inlet in closed form."""
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in
+    closed form."""
     bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -196,9 +197,12 @@ def own_friction(scene, film, contact: Sides, contact_load: float, speed: float)
     slide = ratio * abs(speed)
     free = 1 - np.interp(sign * x, contact.x, contact.touching, 0.0, 0.0)
     rate = free * slide / h
-    couette = np.sum(
-        np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])
-    ) + oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
+    if oil.eyring_stress is None:
+        couette = np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1]))
+    else:
+        tau = free * oil.eyring_stress * np.arcsinh(eta * slide / (h * oil.eyring_stress))
+        couette = np.sum(np.diff(x) * 0.5 * (tau[1:] + tau[:-1]))
+    couette += oil.viscosity * slide * 2 * bodies.radius / abs(x[0])
     rolling = np.sum(0.25 * (free[1:] + free[:-1]) * (h[1:] + h[:-1]) * np.diff(p)) / 2
     rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)

@@ -55,6 +55,16 @@ STUDIES: tuple[Study, ...] = (
         "load_sharing", "verification.studies.load_sharing:load_sharing", "Load sharing, both halves by finite elements"
     ),
     Study(
+        "deterministic",
+        "verification.studies.deterministic:deterministic",
+        "One gap, one pressure: limits, and the film in the same gap by finite elements",
+    ),
+    Study(
+        "sharing_cases",
+        "verification.studies.sharing_cases:sharing_cases",
+        "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map",
+    ),
+    Study(
         "formulations",
         "verification.studies.formulations:formulations",
         "Contact formulations of the paper against the default",

@@ -90,7 +90,8 @@ def plane_orders(level: str):
     yield plotting.convergence(
         "layer_plane",
         "Plane-strain layer, half a wavelength thick: relative error of the compliance of a wave, "
-        "from its energy, and for P2 largest error of a displacement at a node. Dotted: the order element theory expects.",
+        "from its energy, and for P2 largest error of a displacement at a node. Dotted: the order element "
+        "theory expects.",
         series,
         "cell length (m)",
         "relative error",

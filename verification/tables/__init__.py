@@ -1,7 +1,8 @@
 """``python -m verification tables``: the tables of numbers in the documents, measured and written by this command.
 
-A document says where a table stands by two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. What stands
-between them is replaced by what is measured now, with the command, the date, the version and the machine beneath.
+A document says where a table stands by two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. What
+stands between them is replaced by what is measured now, with the command, the date, the version and the machine
+beneath.
 """
 
 from __future__ import annotations

@@ -1,0 +1,79 @@
+"""``lubfric run SCENE --ratios``: the traction curve of a scene, written to a folder."""
+
+from __future__ import annotations
+
+import csv
+import io
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from .. import __version__
+from ..console import say
+from ..errors import ConvergenceError
+from ..model import prepare
+from ..output import UNITS, plain
+from ..run_folder import run_folder
+from ..run_sweep import parse_speeds
+from ..scene import Scene, scene_as_dict
+from ..store import fingerprint
+from ..sweep import QUANTITIES
+from .draw import plot_traction
+from .traction import TractionResult, traction
+
+
+def run_traction(scene: Scene, out: Path, ratios: str) -> int:
+    """Solve, write traction.csv, traction.png and, last, result.json to ``out``, and say what does not hold."""
+    begun = time.perf_counter()
+    model, asked = prepare(scene), parse_speeds("--ratios", ratios)
+    say(model.surface.describe())
+    with run_folder(out, fingerprint(model, asked, "traction")) as folder:
+        found = traction(model, asked, on_point=_progress, raise_on_failure=False)
+        folder.clear()
+        folder.write("traction.csv", _csv(found))
+        if len(found.errors) < found.ratio.size:
+            columns = {"ratio": found.ratio, "validity": _told(found)} | found.columns
+            title = f"{scene.name}, U = {found.speed:g} m/s"
+            folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
+        folder.finish(plain(_record(scene, found, time.perf_counter() - begun)))
+    for text in found.validity:
+        say(text)
+    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
+    if found.errors:
+        first = found.errors[min(found.errors)]
+        raise ConvergenceError(
+            f"{len(found.errors)} of {found.ratio.size} ratios have no answer; first: {first}", found.report
+        )
+    return 0
+
+
+def _progress(done, total, ratio, outcome) -> None:
+    text = f"failed: {outcome}" if isinstance(outcome, Exception) else f"f = {outcome.coefficient:.5g}"
+    say(f"[{done}/{total}] slide-roll ratio {ratio:.4g}: {text}")
+
+
+def _told(found: TractionResult) -> list[str]:
+    return [" | ".join(entry.text for entry in found.entries(i)) for i in range(found.ratio.size)]
+
+
+def _csv(found: TractionResult) -> bytes:
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(["ratio [-]", *(f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES), "validity"])
+    writer.writerows(zip(found.ratio, *(found[name] for name in QUANTITIES), _told(found)))
+    return text.getvalue().encode()
+
+
+def _record(scene: Scene, found: TractionResult, seconds: float) -> dict:
+    return {
+        "scene": scene_as_dict(scene),
+        "versions": {"lubfric": __version__, "numpy": np.__version__},
+        "seconds": seconds,
+        "report": found.report.as_dict(),
+        "validity": list(found.validity),
+        "ratio": found.ratio,
+        "columns": found.columns,
+        "entries": [[asdict(entry) for entry in found.entries(i)] for i in range(found.ratio.size)],
+    }

@@ -1,0 +1,115 @@
+"""Traction curves: friction over the slide-roll ratio at one entrainment speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .. import validate
+from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..model import Model, at_tolerance, prepare, scene_of
+from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..scene import Scene
+from ..steady import FrictionResult, friction
+from ..sweep import QUANTITIES
+from ..validity.entry import Validity
+from ..validity.gather import gathered
+
+
+@dataclass(frozen=True)
+class TractionResult:
+    """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
+
+    ratio (n,) [-]; speed [m/s], the entrainment speed; columns: every number of `FrictionResult` as an array (n,) by
+    name, also as ``result["contact_load"]``. points: the results (None where failed), without fields; errors: {index:
+    exception}.
+    """
+
+    ratio: np.ndarray
+    speed: float
+    columns: dict[str, np.ndarray]
+    points: tuple[FrictionResult | None, ...]
+    errors: dict[int, Exception]
+    report: Report
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.columns[validate.choice("column", name, tuple(self.columns))]
+
+    @property
+    def coefficient(self) -> np.ndarray:
+        """Friction coefficient [-]."""
+        return self.columns["coefficient"]
+
+    def entries(self, index: int) -> tuple[Validity, ...]:
+        """Assumptions that do not hold at a ratio, refused or not."""
+        point, error = self.points[index], self.errors.get(index)
+        if point is None and isinstance(error, ValidityError) and error.result is not None:
+            return error.result.validity
+        return () if point is None else point.validity
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold somewhere."""
+        return gathered([(float(s), self.entries(i)) for i, s in enumerate(self.ratio)], "(slide-roll ratio)", "ratios")
+
+
+def traction(
+    scene: Scene | Model,
+    ratios,
+    *,
+    speed: float | None = None,
+    tolerance: float | None = None,
+    model: str | None = None,
+    on_point=None,
+    raise_on_failure: bool = True,
+) -> TractionResult:
+    """The traction curve of ``scene``: friction at slide-roll ``ratios`` [-] and one entrainment ``speed`` [m/s] (its
+    own).
+
+    The ratio moves the shear of the film, its heat, and that of the inlet; film and contact are otherwise the same, so
+    that each point starts from the last. ``tolerance``, ``model``: as in `lubfric.friction`. ``on_point(done, total,
+    ratio, outcome)`` is called as points end. A failing point leaves NaN and its exception in ``errors``; the others
+    are still solved, and then `ConvergenceError` (or `ValidityError`, where all that failed was refused) is raised with
+    the whole curve as ``result``.
+    """
+    ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
+    own = scene_of(scene).motion.entrainment_speed
+    speed = own if speed is None else validate.number("speed", speed, "m/s")
+    ready = at_tolerance(scene, tolerance, model)
+    points: list[FrictionResult | None] = [None] * ratios.size
+    errors: dict[int, Exception] = {}
+    start = None
+    for done, i in enumerate(np.argsort(np.abs(ratios), kind="stable"), start=1):
+        asked = ready.scene.with_(motion={"slide_roll_ratio": float(ratios[i])})
+        try:
+            found = friction(prepare(asked, like=ready), speed, start=start)
+        except LubfricError as error:
+            errors[int(i)] = outcome = error
+        else:
+            start = found if found.balance.film is not None else None
+            points[i] = outcome = replace(found, balance=None)
+        if on_point:
+            on_point(done, ratios.size, float(ratios[i]), outcome)
+    result = _collected(ratios, speed, points, errors)
+    if errors and raise_on_failure:
+        _raise(result)
+    return result
+
+
+def _collected(ratios, speed, points, errors) -> TractionResult:
+    columns = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
+    worst = max((p.report.residual for p in points if p is not None), default=np.inf)
+    tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
+    notes = tuple(f"slide-roll ratio {ratios[i]:g}: {error}" for i, error in sorted(errors.items()))
+    status = ITERATION_LIMIT if errors else CONVERGED
+    report = Report("traction", status, ratios.size - len(errors), float(worst), float(tolerance), notes=notes)
+    return TractionResult(ratios, float(speed), columns, tuple(points), errors, report)
+
+
+def _raise(result: TractionResult) -> None:
+    refused = [error for error in result.errors.values() if isinstance(error, ValidityError)]
+    if len(refused) == len(result.errors):
+        raise ValidityError("; ".join(result.validity), tuple(e for r in refused for e in r.entries), result)
+    first = result.errors[min(result.errors)]
+    raise ConvergenceError(f"{result.report.message}; first: {first}", result.report, result)

@@ -1,0 +1,105 @@
+"""Results drawn on axes: one's own, or new ones of pyplot."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..plot import BLUE, GREEN, GREY, RED
+
+
+def axes_or_new(ax, size=(7, 4.5)):
+    """``ax``, or the axes of a new figure."""
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+
+    return pyplot.subplots(figsize=size, layout="constrained")[1]
+
+
+def curve_axes(curve, ax=None, **style):
+    """Friction over speed of a `lubfric.StribeckResult`, with its parts; where it chose its speeds, as interpolated."""
+    axes = axes_or_new(ax)
+    good = np.isfinite(curve.coefficient) & (curve.speed != 0)
+    order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]
+    speed, total = np.abs(curve.speed[order]), (curve.contact_load + curve.film_load)[order]
+    style = {"color": BLUE, "label": "friction coefficient"} | style
+    if "interpolation" in curve.report.residuals:
+        fine = np.geomspace(speed[0], speed[-1], 400)
+        axes.plot(fine, curve.at(fine), **style)
+        axes.plot(speed, curve.coefficient[order], "o", ms=4, color=style["color"])
+        contact, film = curve.parts_at(fine)
+    else:
+        fine, contact, film = speed, curve.boundary_force[order] / total, curve.shear_force[order] / total
+        axes.plot(speed, curve.coefficient[order], "o-", ms=4, **style)
+    axes.plot(fine, contact, "--", color=RED, lw=1, label="from the contact spots")
+    axes.plot(fine, film, "--", color=GREEN, lw=1, label="from the film")
+    axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
+    axes.set_ylim(bottom=min(0.0, 1.1 * float(curve.coefficient[order].min(initial=0.0))))
+    axes.legend(frameon=False)
+    return axes
+
+
+def pressure_axes(point, ax=None):
+    """Pressure of the contact of a `lubfric.FrictionResult` with fields, over x and y."""
+    axes = axes_or_new(ax)
+    x, y = point.x * 1e6, point.y * 1e6
+    _image(axes, x, y, point.pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+    axes.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
+    return axes
+
+
+def surface_axes(surface, ax=None):
+    """Heights of a `lubfric.Surface`, over x and y."""
+    axes = axes_or_new(ax)
+    (nx, ny), (dx, dy) = surface.shape, surface.spacing
+    heights = (surface.heights - np.nanmean(surface.heights)) * 1e9
+    _image(axes, np.arange(nx) * dx * 1e6, np.arange(ny) * dy * 1e6, heights, "cividis", "height (nm)")
+    axes.set_title(f"Sq = {surface.sq * 1e9:.4g} nm")
+    return axes
+
+
+def history_axes(history, ax=None):
+    """Friction over time of a `lubfric.TransientResult`, with its parts."""
+    axes = axes_or_new(ax)
+    sense = np.where(history.sliding_speed < 0, -1.0, 1.0)
+    scale, unit = time_scale(float(history.time[-1]))
+    time, contact = history.time * scale, history.boundary_force * sense / history.load
+    axes.plot(time, history.coefficient, color=BLUE, label="friction coefficient")
+    axes.plot(time, contact, "--", color=RED, lw=1, label="from the contact spots")
+    film = (history.couette_force + history.rolling_force) * sense / history.load
+    axes.plot(time, film, "--", color=GREEN, lw=1, label="from the film")
+    axes.set(xlabel=f"time ({unit})", ylabel="friction coefficient (-)")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.15 * (high - low))
+    axes.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
+    return axes
+
+
+def time_scale(longest: float) -> tuple[float, str]:
+    """(factor, unit) that shows times up to ``longest`` [s] as numbers above one."""
+    for scale, unit in ((1.0, "s"), (1e3, "ms")):
+        if longest * scale >= 1.0:
+            return scale, unit
+    return 1e6, "µs"
+
+
+def loop_axes(history, ax=None):
+    """Friction over entrainment speed of a `lubfric.TransientResult`: its hysteresis loop, the start marked."""
+    axes = axes_or_new(ax)
+    axes.plot(history.entrainment_speed, history.coefficient, color=BLUE)
+    axes.plot(history.entrainment_speed[:1], history.coefficient[:1], "o", color=GREY, label="start")
+    middle = history.time.size // 2
+    if history.time.size > 2:
+        ends = [(history.entrainment_speed[i], history.coefficient[i]) for i in (middle, middle + 1)]
+        axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "->", "color": BLUE, "mutation_scale": 18})
+    axes.set(xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
+    axes.legend(frameon=False)
+    return axes
+
+
+def _image(axes, x, y, values, colours, label, **limits) -> None:
+    half_x, half_y = 0.5 * (x[1] - x[0] if x.size > 1 else 1.0), 0.5 * (y[1] - y[0] if y.size > 1 else 1.0)
+    extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
+    image = axes.imshow(values.T, origin="lower", aspect="auto", cmap=colours, extent=extent, **limits)
+    axes.figure.colorbar(image, ax=axes, label=label)
+    axes.set(xlabel="x (µm), along the motion", ylabel="y (µm), along the line")

@@ -1,0 +1,81 @@
+"""An operating point for eyes: its numbers in a line, its fields where a user looks for them, its contact drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InputError
+from .shown import Shown
+
+
+class PointShown(Shown):
+    """What `lubfric.FrictionResult` shows."""
+
+    def _facts(self) -> dict[str, str]:
+        facts = {
+            "U": f"{self.speed:.4g} m/s",
+            "f": f"{self.coefficient:.5g}",
+            "F_C": f"{self.contact_load:.4g} N",
+            "F_H": f"{self.film_load:.4g} N",
+            "lambda": f"{self.film_to_roughness_ratio:.3g}",
+            "": self.report.status,
+        }
+        if self.validity:
+            facts["cautions"] = "; ".join(entry.what for entry in self.validity)
+        return facts
+
+    @property
+    def shows_contact(self) -> bool:
+        """Whether `pressure` and `gap` are there."""
+        return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
+
+    @property
+    def x(self) -> np.ndarray:
+        """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
+        return self._grid("x")
+
+    @property
+    def y(self) -> np.ndarray:
+        """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
+        return self._grid("y")
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
+        return self._field("pressure")
+
+    @property
+    def gap(self) -> np.ndarray:
+        """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
+        return self._field("gap")
+
+    def plot_contact(self, ax=None):
+        """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
+        from .axes import pressure_axes
+
+        return pressure_axes(self, ax)
+
+    def _grid(self, name: str) -> np.ndarray:
+        if self.deterministic is not None:
+            result = self.deterministic.result
+            return result.x if name == "x" else np.arange(result.pressure.shape[1]) * result.spacing[1]
+        found = None if self.balance is None else getattr(self.balance.contact, name)
+        if found is None:
+            raise InputError(
+                f"this point keeps no {name}; allowed: lubfric.friction(..., fields=True) under a cylinder"
+            )
+        return found
+
+    def _field(self, name: str) -> np.ndarray:
+        if self.deterministic is not None:
+            return getattr(self.deterministic.result, name)
+        if self.balance is None or self.balance.contact.fields is None:
+            why = (
+                "it is separated"
+                if self.contact_load == 0
+                else "its fields were not kept, or come from a contact curve"
+            )
+            raise InputError(
+                f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True"
+            )
+        return getattr(self.balance.contact.fields, name)

@@ -1,0 +1,88 @@
+"""Traction curves: shape, the same numbers as single points, errors kept, files, maps of two keys."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.cli import main
+from lubfric.curves.draw import plot_map
+
+SCENE = lubfric.load_scene("paper").with_(
+    bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
+    lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
+    | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08},
+    motion={"entrainment_speed": 2.0},
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 2e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+)
+
+
+@pytest.fixture(scope="module")
+def model():
+    return lubfric.prepare(SCENE)
+
+
+def test_traction_rises_peaks_and_falls_with_heat_and_rises_without(model):
+    ratios = np.geomspace(1e-3, 2, 12)
+    f = lubfric.traction(model, ratios).coefficient
+    top = int(np.argmax(f))
+    assert 3 < top < 11 and np.all(np.diff(f[: top + 1]) > 0) and np.all(np.diff(f[top:]) < 0)
+    cold = lubfric.traction(SCENE.with_(numerics={"heat": "off"}), ratios).coefficient
+    assert np.all(np.diff(cold) > 0) and cold[-1] > 1.5 * f[-1]
+
+
+def test_points_are_those_of_friction_in_the_order_asked_for(model):
+    ratios = [0.5, 0.0, -0.5, 2.0]
+    curve = lubfric.traction(model, ratios, speed=0.5)
+    assert curve.speed == 0.5 and list(curve.ratio) == ratios
+    for i, ratio in enumerate(ratios):
+        alone = lubfric.friction(lubfric.prepare(SCENE.with_(motion={"slide_roll_ratio": ratio}), like=model), 0.5)
+        assert curve.coefficient[i] == pytest.approx(alone.coefficient, rel=0.01, abs=1e-5)
+        assert curve["film_load"][i] == pytest.approx(alone.film_load, rel=0.01)
+    assert curve.points[1].boundary_force == 0  # rolling: spots do not slide
+
+
+def test_a_refused_ratio_is_marked_and_the_others_kept():
+    plain = SCENE.with_(
+        lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}, numerics={"heat": "off"}
+    )
+    with pytest.raises(lubfric.LubfricError) as caught:
+        lubfric.traction(plain, [0.0, 1.0])
+    curve = caught.value.result
+    assert set(curve.errors) == {1} and np.isfinite(curve.coefficient[0]) and np.isnan(curve.coefficient[1])
+    assert isinstance(curve.errors[1], lubfric.ValidityError) and any("not valid" in v for v in curve.validity)
+
+
+def test_command_writes_the_curve(tmp_path, capsys):
+    (tmp_path / "map.npy").write_bytes(b"")
+    np.save(tmp_path / "map.npy", np.random.default_rng(1).normal(0, 2e-8, (128, 64)))
+    (tmp_path / "s.toml").write_text(
+        '[bodies]\nradius = 0.01\nwidth = 0.01\nhertz_pressure = 1e9\nmaterial = "steel"\n'
+        "boundary_friction_coefficient = 0.1\n[lubricant]\ngrade = 'ISO VG 68'\nviscosity_index = "
+        "95\ntemperature_celsius = 70\n"
+        "eyring_stress = 5e6\nlimiting_stress_coefficient = 0.08\n[motion]\nentrainment_speed = 2.0\n"
+        "[surface]\nfile = 'map.npy'\nspacing = 4e-6\n"
+    )
+    out = tmp_path / "o"
+    assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0.01:1:4", "--out", str(out)]) == 0
+    rows = list(csv.reader((out / "traction.csv").read_text().splitlines()))
+    record = json.loads((out / "result.json").read_text())
+    assert len(rows) == 5 and rows[0][0] == "ratio [-]" and rows[0][-1] == "validity"
+    assert float(rows[2][rows[0].index("coefficient [-]")]) == pytest.approx(record["columns"]["coefficient"][1])
+    assert (out / "traction.png").stat().st_size > 10_000
+    assert "inlet heating factors" in capsys.readouterr().err
+
+
+def test_a_map_over_two_keys_is_drawn(model, tmp_path):
+    study = lubfric.study(SCENE, {"lubricant.temperature_celsius": [40, 60, 80]}, [1.0, 3.0])
+    assert study.status.shape == (3, 2) and study.failed == 0
+    plot_map(tmp_path / "map.png", study, "speed", "lubricant.temperature_celsius")
+    assert (tmp_path / "map.png").stat().st_size > 10_000
+    f = study["coefficient"]
+    single = lubfric.friction(lubfric.prepare(SCENE.with_(lubricant={"temperature_celsius": 80}), like=model), 3.0)
+    assert f[2, 1] == pytest.approx(single.coefficient, rel=0.01)
+    with pytest.raises(lubfric.InputError, match="not varied"):
+        plot_map(tmp_path / "x.png", study, "speed", "bodies.load")

@@ -1,0 +1,46 @@
+"""The finite-element film in a given gap: the rigid cylinder in closed form, and a prescribed part of its own
+pressure."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from verification.exact import Parabola
+from verification.fem.fluid import Fluid
+from verification.fem.report import InputError
+from verification.fem.rough_film import GivenGap, rough_film
+
+EXACT = Parabola(viscosity=0.01, speed=0.1, radius=2e-3, film_thickness=1e-6)
+
+
+def given(contact=lambda x: np.zeros(x.shape, bool)):
+    x = np.linspace(-1.2e-4, 6e-5, 241)
+    wide = np.ones(8)
+    gap, pressure = EXACT.film([x])[:, None] * wide, EXACT.pressure([x])[:, None] * wide
+    return GivenGap(x, 7.5e-7, gap, pressure, contact(x)[:, None] & (wide > 0), 2e-3, 0.0)
+
+
+@pytest.mark.parametrize("contact", [lambda x: x > 1, lambda x: np.abs(x + 2e-5) < 1e-5], ids=["film", "film and spot"])
+def test_it_is_the_rigid_cylinder(contact):
+    gap = given(contact)
+    found = rough_film(gap, Fluid(0.01), 0.1, cells=8, refinements=0)
+    carried = found.pressure.sum(axis=0).mean() * (gap.x[1] - gap.x[0]) + found.upstream
+    assert carried == pytest.approx(EXACT.load, rel=3e-3)
+    assert found.flow == pytest.approx(EXACT.flow, rel=3e-3)
+    assert np.abs(found.pressure - EXACT.pressure([gap.x])[:, None]).max() < 4e-3 * found.pressure.max()
+
+
+def test_a_prescribed_pressure_is_kept_and_pushes_the_film_beside_it():
+    gap = given(lambda x: np.abs(x + 2e-5) < 1e-5)
+    doubled = replace(gap, pressure=2 * gap.pressure)
+    found = rough_film(doubled, Fluid(0.01), 0.1, cells=8, refinements=0)
+    inside = np.abs(gap.x + 2e-5) < 0.8e-5
+    assert found.pressure[inside] == pytest.approx(doubled.pressure[inside, :4], rel=1e-6)
+    assert found.flow < 0.9 * EXACT.flow
+
+
+def test_a_gap_that_is_not_its_mirror_image_is_refused():
+    gap = given()
+    with pytest.raises(InputError, match="symmetric"):
+        replace(gap, gap=gap.gap * (1 + 0.1 * np.arange(8)))

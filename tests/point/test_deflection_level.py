@@ -1,0 +1,84 @@
+"""Which pressure deflects the film, chosen by a number: its estimate bounds the change, the limits are right, and it is
+told."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.point.deflection import own_pressure_error
+
+HEAVY = lubfric.load_scene("paper").with_(
+    bodies={
+        "radius": 0.01,
+        "hertz_pressure": 0.95e9,
+        "width": 0.01,
+        "e_prime": 2.27e11,
+        "boundary_friction_coefficient": 0.12,
+    },
+    lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6}
+    | {"limiting_stress_coefficient": 0.06},
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 1e-7, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"film_deflection": "auto"},
+)
+
+
+def by(scene, option, speed, **like):
+    return lubfric.friction(scene.with_(numerics={"film_deflection": option}), speed, **like)
+
+
+def test_boundary_limit_at_heavy_load():
+    curve = lubfric.stribeck(HEAVY, [1e-5, 1e-4, 1e-3])
+    assert curve.coefficient[0] == pytest.approx(0.12, rel=0.01)
+    assert by(HEAVY, "hydrodynamic", 1e-5).coefficient < 0.07  # what the film's own pressure alone leaves
+    assert all("whole load" in p.decision.deflection for p in curve.points)
+    assert not any("does not tend" in text for text in curve.validity)
+
+
+def test_the_paper_keeps_its_own_pressure_and_its_numbers():
+    paper = lubfric.load_scene("paper")
+    assert paper.numerics.film_deflection == "hydrodynamic"
+    for speed in (0.003, 0.03, 0.3):
+        auto = by(paper, "auto", speed)
+        if "own pressure, at most" in auto.decision.deflection or auto.contact_load == 0:
+            assert auto.coefficient == lubfric.friction(paper, speed).coefficient
+        assert auto.coefficient == pytest.approx(lubfric.friction(paper, speed).coefficient, rel=0.01)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_estimate_bounds_the_change(seed):
+    rng = np.random.default_rng(seed)
+    length = 10 ** rng.uniform(-5.2, -4.7)
+    scene = HEAVY.with_(
+        bodies={"hertz_pressure": 10 ** rng.uniform(7.8, 8.4), "radius": 3e-3, "hardness": None},
+        surface={"sq": 10 ** rng.uniform(-7, -6.3), "correlation_length": length},
+        contact={"shape": (96, 48), "spacing": 2.2e-6},
+    )
+    speed = 10 ** rng.uniform(-3, -1)
+    own, scaled = by(scene, "hydrodynamic", speed), by(scene, "scaled", speed)
+    if own.contact_load == 0:
+        pytest.skip("separated")
+    found = own_pressure_error(scene, own.balance)
+    assert abs(own.coefficient / scaled.coefficient - 1) <= found + 0.006  # both are solved to 1 %
+    auto = by(scene, "auto", speed)
+    chosen = own if found <= 0.005 else scaled
+    assert auto.coefficient == pytest.approx(chosen.coefficient, rel=1e-12)
+
+
+def test_a_tighter_tolerance_asks_for_the_whole_load_earlier():
+    paper = lubfric.load_scene("paper").with_(numerics={"film_deflection": "auto"})
+    loose, tight = (lubfric.friction(paper, 0.03, tolerance=t) for t in (0.1, 0.002))
+    assert "own pressure, at most" in loose.decision.deflection and "whole load" in tight.decision.deflection
+
+
+def test_films_in_time_keep_their_own_pressure():
+    from lubfric.history.plan import Transient
+    from lubfric.unsteady.setup import begin
+
+    small = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.9e-6})
+    first = [
+        begin(small.with_(numerics={"film_deflection": o}), Transient(duration=1e-3)) for o in ("auto", "hydrodynamic")
+    ]
+    assert np.array_equal(first[0].start.terms.P, first[1].start.terms.P)
+    with pytest.raises(lubfric.InputError, match="auto"):
+        begin(small.with_(numerics={"film_deflection": "scaled"}), Transient(duration=1e-3))

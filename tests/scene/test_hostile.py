@@ -1,0 +1,60 @@
+"""Bad input of every kind is refused in words; a sample of what ``python -m verification stability`` runs in full."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from verification.hostile import scenes
+from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, SLOW, Case, judge
+from verification.hostile.command import COUNTS, GROUPS, cases, outcomes, table
+
+
+def test_the_scene_that_is_damaged_is_a_good_one(tmp_path):
+    """Else every damage would be refused for the wrong reason."""
+    found = scenes.case("good", scenes.text_of(scenes.GOOD)).run(tmp_path)
+    assert 0 < found.coefficient < 0.1 and found.report.converged
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_a_sample_of_bad_inputs_is_refused(group):
+    found = [o for o in outcomes(1, 0.12, [group])]
+    assert len(found) > 20
+    assert [str(o) for o in found if o.verdict not in GOOD] == []
+
+
+def test_there_are_enough_and_they_repeat():
+    assert sum(COUNTS.values()) >= 2500
+    names = [[case.name for case in cases(3, 0.2)] for _ in range(2)]
+    assert names[0] == names[1] and len(names[0]) > 500
+    assert names[0] != [case.name for case in cases(4, 0.2)]
+
+
+def test_every_key_of_a_scene_is_attacked():
+    attacked = {(section, key) for section, key, _ in scenes.mutations()}
+    for section, keys in lubfric.Scene.__dataclass_fields__.items():
+        if section in ("surface", "contact", "numerics", "motion"):
+            kind = type(getattr(lubfric.load_scene("paper"), section))
+            assert {(section, key) for key in kind.__dataclass_fields__} <= attacked
+
+
+@pytest.mark.parametrize(
+    "run, verdict",
+    [
+        (lambda folder: 0.1, ACCEPTED),
+        (lambda folder: 1 / 0, RAW),
+        (lambda folder: np.float64(1) / 0, RAW),
+        (lambda folder: validated("load"), REFUSED),
+    ],
+)
+def test_the_judge_tells_them_apart(tmp_path, run, verdict):
+    found = judge(Case("call", "a call", run), tmp_path)
+    assert found.verdict == verdict and verdict in table([found])
+
+
+def test_the_judge_sees_what_is_slow(tmp_path, monkeypatch):
+    monkeypatch.setattr("verification.hostile.case.MOST_SECONDS", -1.0)
+    assert judge(Case("call", "a call", lambda folder: validated("load")), tmp_path).verdict == SLOW
+
+
+def validated(name):
+    raise lubfric.InputError(f"{name} = -1 N is out of range")

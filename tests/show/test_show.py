@@ -1,0 +1,152 @@
+"""Results for eyes: one line each, tables, axes that hold the numbers; scenes as dicts and as text."""
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import lubfric
+from lubfric.history import Harmonic, Ramp, Table
+from lubfric.scene_file import builtin_scenes
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+)
+MODEL = lubfric.prepare(SCENE)
+HISTORY = lubfric.Transient(0.01, outputs=20, speed=Harmonic(mean=0.05, amplitude=0.04, frequency=100.0))
+
+
+@pytest.fixture(scope="module")
+def point():
+    return lubfric.friction(MODEL, 0.01, fields=True)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return lubfric.stribeck(MODEL, [0.003, 0.03, 0.3])
+
+
+@pytest.fixture(scope="module")
+def history():
+    return lubfric.transient(replace(MODEL, scene=replace(SCENE, transient=HISTORY)))
+
+
+def axes():
+    return Figure().add_subplot()
+
+
+def lines(ax):
+    return {line.get_label(): line.get_xydata() for line in ax.lines}
+
+
+def test_every_result_is_one_line_and_one_table(point, curve, history):
+    results = {
+        "f 0.07": point,
+        "3 speeds": curve,
+        "21 times": history,
+        "48 x 48 points": MODEL.surface,
+        "48 x 48 cells": point.balance.contact.fields,
+    }
+    for words, result in results.items():
+        assert words in repr(result) and "\n" not in repr(result) and len(repr(result)) < 250, repr(result)
+        html = result._repr_html_()
+        assert html.startswith("<table>") and html.count("<tr>") == html.count("</tr>") >= 1
+    assert f"{point.coefficient:.5g}" in repr(point) and "converged" in repr(point)
+
+
+def test_fields_are_where_a_user_looks_for_them(point):
+    cell = (point.x[1] - point.x[0]) * (point.y[1] - point.y[0])
+    width = point.y[-1] + point.y[1]
+    load = point.pressure.sum() * cell * SCENE.bodies.width / width
+    assert load == pytest.approx(point.contact_load, rel=1e-3)
+    assert point.gap.shape == (point.x.size, point.y.size) and abs(point.x.mean()) < 1.1e-6
+    with pytest.raises(lubfric.InputError, match="fields=True"):
+        lubfric.stribeck(MODEL, [0.01]).points[0].pressure
+    with pytest.raises(lubfric.InputError, match="separated"):
+        lubfric.friction(MODEL, 1.0).pressure
+
+
+def test_a_curve_is_drawn_on_given_axes(curve):
+    ax = axes()
+    assert curve.plot(ax, label="mine", color="k") is ax
+    found = lines(ax)
+    np.testing.assert_array_equal(found["mine"], np.stack([curve.speed, curve.coefficient], axis=1))
+    parts = found["from the contact spots"][:, 1] + found["from the film"][:, 1]
+    np.testing.assert_allclose(parts, curve.coefficient, rtol=1e-12)
+    assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
+
+
+def test_a_history_and_its_loop_are_drawn(history):
+    found = lines(history.plot(axes()))
+    np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)
+    parts = found["from the contact spots"][:, 1] + found["from the film"][:, 1]
+    np.testing.assert_allclose(parts, found["friction coefficient"][:, 1], rtol=1e-9)
+    loop = history.plot_loop(axes()).lines[0].get_xydata()
+    np.testing.assert_array_equal(loop, np.stack([history.entrainment_speed, history.coefficient], axis=1))
+
+
+def test_maps_are_drawn_the_right_way_round(point):
+    ax = point.plot_contact(axes())
+    image = ax.images[0]
+    np.testing.assert_array_equal(image.get_array(), point.pressure.T / 1e9)
+    left, right, bottom, top = image.get_extent()
+    assert right - left == pytest.approx(48 * 1.1) == top - bottom
+    heights = MODEL.surface.plot(axes()).images[0].get_array()
+    assert np.std(heights) == pytest.approx(MODEL.surface.sq * 1e9)
+
+
+def test_without_axes_new_ones_are_made(curve):
+    from matplotlib import pyplot
+
+    ax = curve.plot()
+    assert ax.figure.number in pyplot.get_fignums()
+    pyplot.close(ax.figure)
+
+
+# scenes as dicts and text
+
+
+@pytest.mark.parametrize("name", builtin_scenes())
+def test_a_scene_comes_back_from_its_text(name):
+    scene = lubfric.load_scene(name)
+    table = tomllib.loads(scene.to_toml())
+    assert lubfric.load_scene(table) == scene
+
+
+def test_histories_come_back_from_their_text():
+    table = Table(times=(0.0, 0.1, 0.1, 1.0), values=(1.0, 2.0, 3.0, 4.0))
+    plan = lubfric.Transient(1.0, speed=Ramp(start=0.1, end=0.2, until=1.0), load=table, viscosity=Harmonic(mean=0.1))
+    scene = SCENE.with_(transient=plan)
+    assert lubfric.load_scene(tomllib.loads(scene.to_toml())) == scene
+
+
+def test_an_oil_keeps_its_numbers():
+    scene = SCENE.with_(lubricant={"grade": 100, "viscosity_index": 95, "temperature_celsius": 60.0})
+    again = lubfric.load_scene(tomllib.loads(scene.to_toml()))
+    assert again.lubricant == replace(scene.lubricant, oil=None) and again.bodies == scene.bodies
+
+
+def test_a_dict_is_a_scene():
+    table = {
+        "bodies": {"radius": 2e-3, "width": 6e-3, "load": 5.5, "e_prime": 231e9, "boundary_friction_coefficient": 0.09},
+        "lubricant": {"viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9},
+        "motion": {"entrainment_speed": 0.01},
+        "surface": {"sq": 1e-7, "correlation_length": 4e-6},
+        "contact": {"shape": [48, 48], "spacing": 1.1e-6},
+    }
+    before = repr(table)
+    assert lubfric.load_scene(table).bodies.load == 5.5 and repr(table) == before
+    with pytest.raises(lubfric.InputError, match="did you mean 'load'"):
+        lubfric.load_scene(table | {"bodies": table["bodies"] | {"laod": 1.0}})
+
+
+def test_parts_of_a_scene_are_exported():
+    bodies = lubfric.Bodies(2e-3, 6e-3, 5.5, 231e9, 0.09)
+    assert lubfric.Scene(bodies, lubfric.Lubricant(0.36, 25e-9), lubfric.Motion(0.01), SCENE.surface).bodies is bodies
+
+
+def test_the_text_of_an_error_is_its_message():
+    for error in (lubfric.ConvergenceError("text", "report", "result"), lubfric.ValidityError("text", (), "result")):
+        assert str(error) == "text" and f"{error}" == "text"

@@ -1,0 +1,71 @@
+"""One bad input, and how the library met it."""
+
+from __future__ import annotations
+
+import resource
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import lubfric
+
+MOST_SECONDS, MOST_BYTES = 8.0, 2 * 2**30
+REFUSED, PASSED = "refused", "passed as it may"
+RAW, ACCEPTED, SLOW, LARGE, WORDLESS = "raw error", "accepted", "slow", "large", "says too little"
+GOOD = (REFUSED, PASSED)
+
+
+@dataclass(frozen=True)
+class Case:
+    """``run(folder)`` hands the bad input to the library; ``folder`` is empty and its own.
+
+    may_pass: damage done at random, which can leave a good file: then an answer is right too, another exception never.
+    """
+
+    group: str
+    name: str
+    run: Callable[[Path], object]
+    may_pass: bool = False
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a case ended: one of the verdicts above, in how many seconds, with which words."""
+
+    case: Case
+    verdict: str
+    seconds: float
+    words: str
+
+    def __str__(self) -> str:
+        return f"{self.case.group}: {self.case.name}: {self.verdict} after {self.seconds:.2f} s: {self.words}"
+
+
+def peak_memory() -> int:
+    """Largest resident size of this process so far [bytes]."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+
+
+def judge(case: Case, folder: Path) -> Outcome:
+    """Run one case. Only `lubfric.LubfricError` is a refusal; its words must be one short paragraph."""
+    before, begun = peak_memory(), time.process_time()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            found = case.run(folder)
+        verdict, words = (PASSED if case.may_pass else ACCEPTED), repr(found)[:200]
+    except lubfric.LubfricError as error:
+        words = str(error)
+        verdict = REFUSED if 10 <= len(words) <= 1200 else WORDLESS
+    except BaseException as error:  # what must never happen
+        if isinstance(error, KeyboardInterrupt):
+            raise
+        verdict, words = RAW, f"{type(error).__name__}: {error}"
+    seconds, after = time.process_time() - begun, peak_memory()
+    if verdict in GOOD and seconds > MOST_SECONDS:
+        verdict = SLOW
+    if verdict in GOOD and after > max(before, MOST_BYTES):
+        verdict = LARGE
+    return Outcome(case, verdict, seconds, words[:300])

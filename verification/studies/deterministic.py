@@ -1,0 +1,139 @@
+"""The deterministic mixed film of lubfric: its limits, its grids, and its film in the same gap by finite elements."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+import lubfric
+from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.domain import reach
+from lubfric.deterministic.refine import solve_refined
+from lubfric.deterministic.start import dry_contact
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant
+from lubfric.surface import Surface
+
+from ..check import ABSOLUTE, AT_MOST, Check, Table
+from ..fem.fluid import Fluid
+from ..fem.rough_film import GivenGap, rough_film
+
+RADIUS, E_PRIME, VISCOSITY, ALPHA = 2e-3, 231e9, 0.36, 25e-9
+LOAD, WIDTH = 917.0, 90e-6
+SPOT = 1e8  # Pa: from there on the pressure is prescribed to the finite elements
+CASES = {  # cells over 90 µm and speeds [m/s]
+    "quick": ((112, (0.1,)),),
+    "default": ((128, (0.1,)), (192, (0.03,))),
+    "full": ((128, (0.1,)), (192, (0.03,)), (256, (0.1, 0.03, 0.01))),
+}
+
+
+def deterministic(level: str):
+    """One pressure for film and contact: the smooth film of `solve_ehl`, the dry contact of `solve_contact`, and the
+    film in the rough gap by finite elements.
+
+    The gap of a deterministic solution is handed to a finite-element Reynolds solver on triangles, with the pressure of
+    the spots above 100 MPa, as what one would call contact; flow and load of the film around them must come out again.
+    In a thin film under such pressures the gap does not determine the pressure well enough to be given. The surface
+    is its own mirror image, so that half of it can be meshed.
+    """
+    yield from smooth()
+    yield from dry()
+    for cells, speeds in CASES[level]:
+        for speed in speeds:
+            yield from same_gap(cells, speed)
+    if level == "full":
+        yield from refinement()
+
+
+def contact(speed: float, load: float = LOAD, lubricant: Lubricant | None = None) -> LineContact:
+    """The paper's cylinder."""
+    return LineContact(load, RADIUS, E_PRIME, speed, lubricant or Lubricant(VISCOSITY, ALPHA))
+
+
+def surface(cells: int, seed: int = 1) -> Surface:
+    """100 nm, Gaussian, 8 µm, over 90 by 70 µm, its own mirror image along y."""
+    fine = lubfric.generate_surface(
+        (256, 128), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed
+    )
+    mirrored = replace(fine.cropped((256, 100)).periodic("mirror", axes=(False, True)), periodic_axes=(True, True))
+    return mirrored.resampled(shape=(cells, round(cells * 100 / 256) * 2))
+
+
+def problem(cells: int, speed: float, seed: int = 1):
+    """The deterministic problem on that surface."""
+    return lay_out(surface(cells, seed), contact(speed), sliding=2 * speed, boundary_friction=0.09, hardness=6e9)
+
+
+def smooth():
+    """A surface without roughness."""
+    for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
+        line = contact(speed, load, Lubricant(VISCOSITY, ALPHA, density_law="dowson-higginson"))
+        step = sum(reach(line, 0.0)) / 512
+        flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
+        found = solve_point(lay_out(flat, line, sliding=2 * speed, boundary_friction=0.09))
+        film = lubfric.solve_ehl(
+            load_per_width=load,
+            radius=RADIUS,
+            e_prime=E_PRIME,
+            entrainment_speed=speed,
+            viscosity=VISCOSITY,
+            pressure_viscosity_coefficient=ALPHA,
+            density="dowson-higginson",
+            tolerance=1e-4,
+        )
+        for name, value, expected in (
+            ("smallest", found.min_gap, film.min_film),
+            ("flow", found.flow_film, film.flow_film),
+        ):
+            yield Check(
+                f"smooth, {load:g} N/m, {speed:g} m/s: {name} film", value, expected, 1e-3, "solve_ehl", unit="m"
+            )
+
+
+def dry():
+    """At 2 µm/s the fluid carries nothing."""
+    case = problem(64, 2e-6)
+    found, exact = solve_point(case).pressure, dry_contact(case, tolerance=1e-8).pressure
+    difference = np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2))
+    yield Check("dry limit: rms of the pressure", difference, 0.0, 0.01, "solve_contact", ABSOLUTE)
+
+
+def same_gap(cells: int, speed: float):
+    """Flow and load of the film by finite elements in the gap that was found."""
+    case = problem(cells, speed)
+    found = solve_point(case)
+    pressure = 0.5 * (found.pressure + found.pressure[:, ::-1])
+    gap = 0.5 * (found.gap + found.gap[:, ::-1])
+    spots = pressure > SPOT
+    given = GivenGap(found.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
+    judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells, refinements=0)
+    half = pressure.shape[1] // 2
+    free, cell = ~spots[:, :half], case.spacing[0] / half
+    load = pressure[:, :half][free].sum() * cell + found.inlet_load
+    by_elements = judge.pressure[free].sum() * cell + judge.upstream
+    name = f"{cells} cells, {speed:g} m/s"
+    note = f"{100 * load / LOAD:.0f} % of the load is outside the spots"
+    yield Check(
+        f"{name}: load of the film", by_elements, load, 5e-3, "finite elements in the same gap", unit="N/m", note=note
+    )
+    flow = found.flow_film * speed
+    yield Check(f"{name}: flow", judge.flow, flow, 5e-3, "finite elements in the same gap", unit="m^2/s")
+
+
+def refinement():
+    """f on 128, 256 and 512 cells, five surfaces."""
+    rows, worst = [], 0.0
+    for seed in range(1, 6):
+        for speed in (0.03, 0.01, 0.003):
+            grids = [(n, round(n * 100 / 256) * 2) for n in (128, 256, 512)]
+            # noqa: B023
+            found = solve_refined(lambda shape: problem(shape[0], speed, seed), grids, tolerance=0.0, least=3)
+            f = [r.coefficient for r in found.results]
+            order = np.log2(abs(f[1] - f[0]) / max(abs(f[2] - f[1]), 1e-300))
+            rows.append((seed, speed, *f, order, found.error))
+            worst = max(worst, abs(f[1] / f[2] - 1))
+    columns = ("surface", "speed [m/s]", "f 128", "f 256", "f 512", "order", "estimated error of 512")
+    yield Table("refinement", "The coefficient on three grids", columns, tuple(rows))
+    yield Check("f on 256 against 512 cells, largest change", worst, 0.0, 5e-3, "the finer grid", AT_MOST)
