@@ -16,6 +16,7 @@ SUBCOMMANDS: dict[str, str] = {
     "figures": "verification.figures",
     "levels": "verification.levels",
     "mutations": "verification.mutations",
+    "sampling": "verification.sampling",
     "charts": "verification.charts",
     "stability": "verification.stability",
     "tables": "verification.tables",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from ..line_contact import LineContact
@@ -12,6 +13,7 @@ from ..validity.bodies import of_motion
 from ..validity.entry import Validity
 from ..validity.film import of_pressure, of_thickness
 from .domain import lay_out
+from .problem import Problem
 from .refine import Refined, solve_refined
 from .takes import check_scene
 
@@ -39,12 +41,8 @@ def _keeps(surface: Surface, shape) -> bool:
     return half.sq >= KEPT * surface.sq
 
 
-def deterministic_point(scene: Scene, surface: Surface, speed: float, start: Refined | None = None) -> Refined:
-    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on grids fine enough for ``numerics.tolerance``.
-
-    A negative speed turns the map round. Raises `InputError` (`lubfric.deterministic.takes`) and `ConvergenceError`.
-    """
-    check_scene(scene)
+def layer(scene: Scene, surface: Surface, speed: float) -> Callable[[tuple[int, int]], Problem]:
+    """lay(shape): the problem of ``surface`` at ``speed`` [m/s], the map on ``shape``; a negative speed turns it."""
     bodies = scene.bodies
     contact = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, abs(speed), scene.lubricant)
     if speed < 0:
@@ -59,9 +57,17 @@ def deterministic_point(scene: Scene, surface: Surface, speed: float, start: Ref
             hardness=bodies.hardness,
         )
 
-    shapes = grids(scene, surface)
+    return lay
+
+
+def deterministic_point(scene: Scene, surface: Surface, speed: float, start: Refined | None = None) -> Refined:
+    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on grids fine enough for ``numerics.tolerance``.
+
+    Raises `InputError` (`lubfric.deterministic.takes`) and `ConvergenceError`.
+    """
+    check_scene(scene)
     tolerance = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    return solve_refined(lay, shapes, tolerance=tolerance, start=start)
+    return solve_refined(layer(scene, surface, speed), grids(scene, surface), tolerance=tolerance, start=start)
 
 
 def words(found: Refined) -> str:

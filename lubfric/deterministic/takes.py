@@ -1,4 +1,4 @@
-"""Which scenes a deterministic film takes."""
+"""Which scenes a film in a resolved rough gap takes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TAKEN = (
 WHY = {
     "slide_roll_ratio": " (the rough body, surface 1, at rest: else the film is not steady)",
     "region": " (there is no volume balance; means are over the Hertz strip)",
-    "film_deflection": " (one pressure deflects film and contact)",
+    "film_deflection": " (no smooth film is deflected)",
     "closure": " (nothing is shared: one pressure carries the load)",
 }
 
@@ -27,18 +27,25 @@ WHY = {
 HEAT = ("auto", "off")
 
 
+def whole(scene: Scene) -> bool:
+    """The gap is resolved: one pressure in it, or one-way load sharing."""
+    return scene.numerics.model == "deterministic" or scene.numerics.closure == "one-way"
+
+
 def check_scene(scene: Scene) -> None:
-    """Raise `InputError` for what a deterministic film does not take."""
+    """Raise `InputError` for what a film in a resolved gap does not take."""
+    one_way = scene.numerics.model != "deterministic"
+    asked = "numerics.closure = 'one-way'" if one_way else "numerics.model = 'deterministic'"
+    instead = "numerics.closure = 'load'" if one_way else "numerics.model = 'auto'"
     for section, key, allowed in TAKEN:
         value = getattr(getattr(scene, section), key)
-        if value not in (allowed, "auto"):
+        if value not in (allowed, "auto") and not (one_way and key == "closure"):
             raise InputError(
-                f"{section}.{key} = {value!r} does not go with numerics.model = 'deterministic'; "
-                f"allowed: {allowed!r}{WHY.get(key, '')}, or numerics.model = 'auto'"
+                f"{section}.{key} = {value!r} does not go with {asked}; allowed: {allowed!r}{WHY.get(key, '')}, "
+                f"or {instead}"
             )
     if scene.numerics.heat not in HEAT:
         raise InputError(
-            f"numerics.heat = {scene.numerics.heat!r} does not go with numerics.model = 'deterministic', which "
-            "is isothermal; "
+            f"numerics.heat = {scene.numerics.heat!r} does not go with {asked}, which is isothermal; "
             f"allowed: {', '.join(map(repr, HEAT))}"
         )

@@ -1,0 +1,1 @@
+"""Load sharing in the contact's own gap: ``numerics.closure = "one-way"``."""

@@ -1,0 +1,98 @@
+"""The film in a given rough gap: Reynolds' equation in the reduced pressure, linear, with rupture.
+
+With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q whatever the viscosity law, so that one sparse matrix
+a gap holds it all. Cells in contact are walls. Q >= 0, outflow >= 0 where Q = 0, one of them zero (Swift-Stieber), by
+active sets. Constant density and no shear thinning: a gap that is given rests on neither.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+from ..deterministic.faces import couette_flow
+from ..deterministic.inlet import Inlet, inlet
+from ..deterministic.problem import Problem
+from ..deterministic.reynolds import first_film
+from ..deterministic.start import RUPTURE
+from ..errors import ConvergenceError
+from ..report import STAGNATED, Report
+
+SETS = 400  # of active cells tried
+FORGIVEN = 1e-6  # cells that change between sets, of all: they flip between p = 0 and next to nothing
+
+
+@dataclass(frozen=True)
+class GapFilm:
+    """Q [Pa] (nx, ny) of a gap; ruptured (bool); what comes from upstream; and how many sets were tried."""
+
+    reduced: np.ndarray
+    ruptured: np.ndarray
+    inlet: Inlet
+    sets: int
+
+
+def gap_film(problem: Problem, gap, closed, ruptured=None) -> GapFilm:
+    """The film of ``gap`` [m] (nx, ny) around the cells ``closed`` (bool); ``ruptured``: the set to start from.
+
+    ``problem``: its lubricant is isoviscous. Stops when no cell changes
+    sides. Raises `ConvergenceError` after `SETS`.
+    """
+    system, right, upstream = _system(problem, gap, closed)
+    free, n = ~closed.ravel(), gap.size
+    out = _outlet(problem, gap).ravel() if ruptured is None else ruptured.ravel().copy()
+    for count in range(1, SETS + 1):
+        active = np.flatnonzero(free & ~out)
+        Q = np.zeros(n)
+        Q[active] = _solve(system[active][:, active].tocsc(), right[active])
+        flow = system @ Q - right
+        new = (Q < 0) | (out & (flow >= 0))
+        changed = np.count_nonzero((new != out) & free)
+        out = new
+        if changed <= FORGIVEN * n:
+            Q = np.maximum(Q, 0.0).reshape(gap.shape)
+            first = np.maximum(first_film(problem, gap), problem.floor)
+            return GapFilm(Q, out.reshape(gap.shape), inlet(problem, Q[0], first), count)
+    report = Report("film in a given gap", STAGNATED, SETS, float(changed) / n, FORGIVEN)
+    raise ConvergenceError(report.message, report)
+
+
+def _outlet(problem: Problem, gap) -> np.ndarray:
+    """Where a smooth film as thick as the mean gap at x = 0 would have ruptured."""
+    middle = float(gap[np.argmin(np.abs(problem.x))].mean())
+    return np.repeat((problem.x > RUPTURE * math.sqrt(2 * problem.radius * middle))[:, None], gap.shape[1], axis=1)
+
+
+def _solve(matrix: csc_matrix, right) -> np.ndarray:
+    return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve(right)
+
+
+def _system(problem: Problem, gap, closed):
+    """Matrix and right side of outflow = 0 in every cell [m/s], and the inlet at Q = 0."""
+    (nx, ny), (dx, dy) = gap.shape, problem.spacing
+    viscous = 12 * problem.lubricant.viscosity
+    open_ = ~closed
+    along = np.where(open_[1:] & open_[:-1], (0.5 * (gap[1:] + gap[:-1])) ** 3, 0.0) / (viscous * dx**2)
+    beside = np.roll(gap, -1, axis=1)
+    across = np.where(open_ & np.roll(open_, -1, axis=1), (0.5 * (gap + beside)) ** 3, 0.0) / (viscous * dy**2)
+    upstream = inlet(problem, np.zeros(ny), np.maximum(first_film(problem, gap), problem.floor))
+    diagonal = across + np.roll(across, 1, axis=1)
+    diagonal[:-1] += along
+    diagonal[1:] += along
+    diagonal[0] -= upstream.by_pressure / dx
+    number = np.arange(nx * ny).reshape(nx, ny)
+    rows = [number, number[:-1], number[1:], number, np.roll(number, -1, axis=1)]
+    columns = [number, number[1:], number[:-1], np.roll(number, -1, axis=1), number]
+    data = [diagonal, -along, -along, -across, -across]
+    flat = [np.concatenate([part.ravel() for part in parts]) for parts in (data, rows, columns)]
+    carried = couette_flow(problem, gap).flow / dx
+    carried[:-1] = np.where(open_[1:] & open_[:-1], carried[:-1], 0.0)
+    right = -carried
+    right[1:] += carried[:-1]
+    right[0] += upstream.flow / dx
+    matrix = csc_matrix((flat[0], (flat[1], flat[2])), shape=(nx * ny,) * 2).tocsr()
+    return matrix, right.ravel(), upstream

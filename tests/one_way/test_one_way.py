@@ -1,0 +1,99 @@
+"""One-way load sharing: its film against closed forms, its balance, its limits, and the deterministic film."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.analytic import rigid
+from lubfric.deterministic import lay_out
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant, viscosity
+from lubfric.one_way.film import gap_film
+from lubfric.one_way.limit import pressure_limit
+from lubfric.one_way.point import solve_one_way
+from lubfric.surface import Surface
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"closure": "one-way", "grid": "given"}
+)
+MODEL = lubfric.prepare(SCENE)
+
+
+def smooth(h0, n=512, load=900.0, oil=None):
+    oil = oil or Lubricant(0.01, viscosity_law="constant")
+    contact = LineContact(load, 2e-3, 1e13, 0.1, oil)
+    ends = (1.2e-4, 5e-5)
+    flat = Surface(np.zeros((64, 1)), (sum(ends) / n,) * 2, periodic_axes=(True, True))
+    return lay_out(flat, contact, sliding=0.2, boundary_friction=0.09, ends=ends)
+
+
+def test_the_film_of_a_given_gap_is_martins():
+    h0 = 1e-6
+    problem = smooth(h0)
+    found = gap_film(problem, problem.rigid_gap + h0, np.zeros(problem.heights.shape, bool))
+    exact = rigid.pressure(problem.x, h0, radius=2e-3, entrainment_speed=0.1, viscosity=0.01)
+    assert np.abs(found.reduced[:, 0] - exact).max() < 2e-3 * exact.max()
+    carried = found.reduced.sum() * problem.spacing[0] + found.inlet.load
+    assert carried == pytest.approx(4.8950 * 0.01 * 0.1 * 2e-3 / h0, rel=1e-3)
+
+
+def test_a_smooth_rigid_film_is_lifted_to_its_load():
+    load = 50.0
+    found = solve_one_way(smooth(0, load=load))
+    assert found.lifted and found.contact_load == 0
+    h0 = 4.8950 * 0.01 * 0.1 * 2e-3 / load
+    assert found.gap.min() == pytest.approx(h0, rel=5e-3)
+    friction = rigid.couette_friction(h0, radius=2e-3, speed_difference=0.2, viscosity=0.01)
+    assert found.couette == pytest.approx(friction, rel=1e-2)
+
+
+def test_walls_stop_the_flow():
+    """A wall across the whole width lets nothing pass: what comes in goes back up the gap, at a higher pressure."""
+    problem = smooth(1e-6)
+    wall = np.abs(problem.x)[:, None] < 1e-6
+    free = gap_film(problem, problem.rigid_gap + 1e-6, np.zeros_like(wall))
+    shut = gap_film(problem, problem.rigid_gap + 1e-6, wall)
+    assert abs(shut.inlet.flow[0]) < 1e-6 * free.inlet.flow[0] and shut.reduced.max() > 2 * free.reduced.max()
+
+
+@pytest.mark.parametrize("film, sliding", [(20e-9, 0.02), (200e-9, 0.2), (1e-6, 0.02)])
+def test_the_pressure_limit_is_where_the_film_rubs_like_the_contact(film, sliding):
+    oil = Lubricant(0.36, 25e-9)
+    p = float(pressure_limit(oil, np.array([film]), sliding, 0.09)[0])
+    assert float(viscosity(oil, p)) * sliding / film == pytest.approx(0.09 * p, rel=1e-2)
+    assert np.isinf(pressure_limit(Lubricant(0.36, viscosity_law="constant"), np.array([film]), sliding, 0.09)).all()
+
+
+def test_loads_add_up_and_the_limits_are_those_of_film_and_contact():
+    curve = lubfric.stribeck(MODEL, [0.3, 0.03, 0.003, 1e-5])
+    assert curve.contact_load + curve.film_load == pytest.approx(SCENE.bodies.load, rel=2.1e-3)
+    assert np.all(np.diff(curve.contact_load) >= 0) and curve.contact_load[0] == 0
+    assert curve.coefficient[-1] == pytest.approx(0.09, rel=5e-3)
+    assert curve.boundary_force == pytest.approx(0.09 * curve.contact_load)
+
+
+def test_it_is_near_the_deterministic_film():
+    for speed, within in ((0.3, 0.03), (0.003, 0.02)):
+        whole = lubfric.friction(SCENE.with_(numerics={"closure": "load", "model": "deterministic"}), speed)
+        assert lubfric.friction(MODEL, speed).coefficient == pytest.approx(whole.coefficient, rel=within)
+
+
+def test_it_is_turned_with_the_speed_and_warm_starts_change_nothing():
+    from dataclasses import replace
+
+    turned = lubfric.prepare(SCENE, surface=replace(MODEL.surface, heights=MODEL.surface.heights[::-1]))
+    forward = lubfric.friction(MODEL, 0.01)
+    assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(forward.coefficient, rel=1e-9)
+    warm = lubfric.friction(MODEL, 0.01, start=lubfric.friction(MODEL, 0.02))
+    assert warm.coefficient == pytest.approx(forward.coefficient, rel=4e-3)
+
+
+@pytest.mark.parametrize("change", [{"contact": {"geometry": "flat"}}, {"motion": {"slide_roll_ratio": 0.5}}])
+def test_what_it_does_not_take_is_refused(change):
+    with pytest.raises(lubfric.InputError, match="one-way"):
+        lubfric.prepare(SCENE.with_(**change))
+
+
+def test_a_transient_is_refused():
+    with pytest.raises(lubfric.InputError, match="one-way"):
+        lubfric.transient(SCENE, [0.0, 1e-3])
