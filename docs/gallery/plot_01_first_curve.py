@@ -12,7 +12,7 @@ import numpy as np
 import lubfric
 
 scene = lubfric.load_scene("paper")
-curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 13))
+curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 9))
 
 # %%
 # The two forces add up to the load of 5.5 N at every speed.

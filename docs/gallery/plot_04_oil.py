@@ -23,11 +23,11 @@ print(used.pressure_viscosity_coefficient(343.15).text)
 # %%
 # A scene takes grade, index and temperature as keys.
 
-scene = lubfric.load_scene("paper")
+scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1})
 curves = {}
 for celsius in (40, 70, 100):
     keys = {"grade": "ISO VG 68", "viscosity_index": 95.0, "temperature": celsius + 273.15}
-    curves[celsius] = lubfric.stribeck(scene.with_(lubricant=keys), np.geomspace(1e-3, 3.0, 9))
+    curves[celsius] = lubfric.stribeck(scene.with_(lubricant=keys), np.geomspace(1e-3, 3.0, 7))
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
 left.semilogy(temperature - 273.15, viscosity, color="#1f5a94")

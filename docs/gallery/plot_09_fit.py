@@ -11,7 +11,9 @@ import numpy as np
 
 import lubfric
 
-scene = lubfric.load_scene("paper").with_(contact={"shape": (100, 100), "spacing": 0.9e-6})
+scene = lubfric.load_scene("paper").with_(
+    contact={"shape": (100, 100), "spacing": 0.9e-6}, numerics={"sampling": "patch", "tolerance": 0.02}
+)
 speeds = np.geomspace(1e-3, 0.3, 10)
 rng = np.random.default_rng(4)
 truth = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.12}), speeds)
