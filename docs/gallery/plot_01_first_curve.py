@@ -2,8 +2,8 @@
 A first Stribeck curve
 ======================
 
-The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the asperities
-carry the load at low speed, the film carries it at high speed, and in between they share it.
+The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the
+asperities carry the load at low speed, the film carries it at high speed, and in between they share it.
 """
 
 import matplotlib.pyplot as plt

@@ -2,7 +2,8 @@
 Oil and temperature
 ===================
 
-From the oil can to the friction coefficient: an ISO VG 68 oil, its viscosity index, and the temperature of the bath.
+From the oil can to the friction coefficient: an ISO VG 68 oil, its viscosity index, and the temperature of
+the bath.
 """
 
 import matplotlib.pyplot as plt
@@ -16,7 +17,8 @@ temperature = np.linspace(293.15, 393.15, 41)  # K
 viscosity = [used.viscosity(t) for t in temperature]
 
 # %%
-# The pressure-viscosity coefficient is not on the can. It is estimated, and the estimate says how far measured oils lie from it.
+# The pressure-viscosity coefficient is not on the can. It is estimated, and the estimate says how far
+# measured oils lie from it.
 
 print(used.pressure_viscosity_coefficient(343.15).text)
 

@@ -2,8 +2,8 @@
 Two rough bodies
 ================
 
-Both surfaces of a contact are rough. Their maps are brought to one grid and added: what counts is the gap between them. Here a
-coarse ground surface meets a finer one.
+Both surfaces of a contact are rough. Their maps are brought to one grid and added: what counts is the gap
+between them. Here a coarse ground surface meets a finer one.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 A study over loads and viscosities
 ==================================
 
-A study varies any key of a scene. It needs no loops, keeps every finished point in a folder when one is given, and hands back a
-table. Here twelve combinations of load and viscosity are solved at four speeds each.
+A study varies any key of a scene. It needs no loops, keeps every finished point in a folder when one is
+given, and hands back a table. Here twelve combinations of load and viscosity are solved at four speeds each.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 A contact that stops and starts
 ===============================
 
-The speed falls to zero and rises again within 20 ms. Friction on the way down and on the way up is not the same: the film that is
-left between the surfaces has to be squeezed out first.
+The speed falls to zero and rises again within 20 ms. Friction on the way down and on the way up is not the
+same: the film that is left between the surfaces has to be squeezed out first.
 """
 
 import matplotlib.pyplot as plt

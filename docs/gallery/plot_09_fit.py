@@ -2,8 +2,8 @@
 A fit to a measured curve
 =========================
 
-Which boundary friction coefficient explains a measured Stribeck curve, and how well can the data tell? The measurement of this
-example is made up: a computed curve with 5 % noise, so that the answer is known.
+Which boundary friction coefficient explains a measured Stribeck curve, and how well can the data tell? The
+measurement of this example is made up: a computed curve with 5 % noise, so that the answer is known.
 """
 
 import matplotlib.pyplot as plt

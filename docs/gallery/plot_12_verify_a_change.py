@@ -2,9 +2,9 @@
 Check a change against a closed form
 ====================================
 
-A change to the contact solver is believed when its error falls at the rate it should. Here the pressure under a smooth cylinder is
-held against Hertz's formula on ever finer grids: second order at the peak, first order in the mean square, because Hertz's pressure
-falls like a square root at its edge.
+A change to the contact solver is believed when its error falls at the rate it should. Here the pressure under
+a smooth cylinder is held against Hertz's formula on ever finer grids: second order at the peak, first order
+in the mean square, because Hertz's pressure falls like a square root at its edge.
 """
 
 import matplotlib.pyplot as plt
