@@ -7,6 +7,7 @@ import math
 from .analytic import film as film_formulas
 from .errors import InputError
 from .inputs import input_lines
+from .plausible import told_doubts
 from .point.outlook import outlook
 from .rough.height_map import contact_map
 from .scene import Scene
@@ -20,7 +21,8 @@ SOLVE_FIELDS = 12  # arrays of 8-byte numbers, one a cell, at the peak of a cont
 def describe_scene(scene: Scene) -> str:
     """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
     bodies, lubricant, patch = scene.bodies, scene.lubricant, scene.contact
-    surface = contact_map(scene)
+    with told_doubts(scene):
+        surface = contact_map(scene)
     w = bodies.load / bodies.width
     nx, ny = surface.heights.shape
     lines = [
