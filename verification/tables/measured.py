@@ -102,9 +102,18 @@ def _seconds(job) -> float:
     return min(found)
 
 
+def mutants() -> Table:
+    """What catches each mutant (minutes)."""
+    from .. import mutations
+    from ..run import run
+
+    return Table(list(mutations.COLUMNS), mutations.rows(run(mutations.trials(), "default", workers=2)))
+
+
 TABLES: dict[str, Callable[[], Table]] = {
     "stribeck": stribeck,
     "film-load-of-patches": film_load_of_patches,
     "hertz-line": hertz_line,
     "times": times,
+    "mutants": mutants,
 }
