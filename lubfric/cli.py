@@ -48,6 +48,11 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
     _add_maps(run)
     run.add_argument(
+        "--sampling-tolerance",
+        type=float,
+        help="relative standard error of f that a finite rough surface may leave (default: of the scene, 0.02)",
+    )
+    run.add_argument(
         "--animation",
         action="store_true",
         help="also draw film and pressure of a scene with [transient] as animation.gif",
@@ -104,6 +109,8 @@ def _run(arguments) -> int:
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    if arguments.sampling_tolerance is not None:
+        scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
     if arguments.ratios and scene.transient is None:

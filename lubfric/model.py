@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
 from .rough.contract import RoughContact
-from .rough.height_map import contact_map
+from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
+from .sampling.lines import Lines
+from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
 from .surface import Surface
 from .validate import instance
@@ -23,9 +25,10 @@ from .validity.entry import Validity
 class Model:
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
-    known: assumptions that bodies and map do not meet.
-
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes.
+    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
+    bodies
+    and map do not meet; lines: where ``surface`` is a line of the scene's roughness, more of it; given: it was given to
+    `prepare`, and is all there is.
     """
 
     scene: Scene
@@ -33,6 +36,8 @@ class Model:
     contact: RoughContact
     film_levels: tuple[FilmLevel, ...] = LEVELS
     known: tuple[Validity, ...] = ()
+    lines: Lines | None = None
+    given: bool = False
 
 
 def prepare(
@@ -46,7 +51,8 @@ def prepare(
     """Build what does not depend on the speed: the height map and the rough contact.
 
     ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
-    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so).
+    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so). Without one, a scene with
+    ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md).
     ``like``: a model of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
@@ -60,11 +66,32 @@ def prepare(
     _check_levels(scene, levels)
     if like is not None:
         _check_likeness(scene, like.scene, surface, contact)
-        surface, contact = like.surface, like.contact.again(scene, like.scene)
-    else:
-        surface = contact_map(scene, surface)
-        contact = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, contact, levels, beforehand(scene, surface))
+        return _another(scene, like)
+    given = surface is not None or contact is not None
+    if not given and takes_line(scene):
+        return _on_a_line(scene, levels)
+    surface = contact_map(scene, surface)
+    contact = rough_contact(scene, surface) if contact is None else contact
+    return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+
+
+def _another(scene: Scene, like: Model) -> Model:
+    """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other
+    cells."""
+    lines = None
+    if not like.given and (like.lines is not None or takes_line(scene)):
+        lines = like.lines.again(scene) if like.lines is not None and takes_line(scene) else None
+        if lines is None:
+            return prepare(scene, film_levels=like.film_levels)
+    contact = like.contact.again(scene, like.scene)
+    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
+
+
+def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Model:
+    lines = lines_of(scene)
+    surface, contact = pilot(scene, lines)
+    check_grid(scene, surface)
+    return Model(scene, surface, contact, levels, beforehand(scene, surface), lines)
 
 
 def scene_of(scene: Scene | Model) -> Scene:

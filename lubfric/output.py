@@ -15,6 +15,7 @@ from . import __version__
 from .errors import InputError
 from .model import Model
 from .result import FrictionResult
+from .sampling.uncertainty import UncertaintyCurve
 from .scene import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
@@ -35,6 +36,7 @@ UNITS = {
     "flash_temperature_rise": "K",
     "film_temperature_rise": "K",
     "seconds": "s",
+    "line_length": "m",
 }
 
 
@@ -69,6 +71,7 @@ def csv_bytes(curve: StribeckResult) -> bytes:
     """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold
     there."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
+    columns |= {f"{name} [{UNITS.get(name, '-')}]": v for name, v in uncertainty_columns(curve.uncertainty).items()}
     texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
     return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
 
@@ -80,6 +83,19 @@ def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
     writer.writerow(columns)
     writer.writerows(zip(*(values.tolist() for values in columns.values())))
     return file.getvalue().encode()
+
+
+def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
+    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
+    return {
+        "interval_low": found.interval[:, 0],
+        "interval_high": found.interval[:, 1],
+        "numerical_error": found.numerical,
+        "sampling_error": found.sampling,
+        "line_scatter": found.line_scatter,
+        "participation": found.participation,
+        "line_length": found.length,
+    }
 
 
 class Columns(dict):
@@ -147,7 +163,11 @@ def _point(curve: StribeckResult, index: int) -> dict:
     point = curve.points[index]
     if point is None:
         return {"speed": curve.speed[index], "error": str(curve.errors[index])} | told
-    return {name: getattr(point, name) for name in QUANTITIES} | {"report": point.report.as_dict()} | told
+    known = {
+        "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+        "errors": asdict(point.errors),
+    }
+    return {name: getattr(point, name) for name in QUANTITIES} | known | {"report": point.report.as_dict()} | told
 
 
 def plain(value):

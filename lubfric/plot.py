@@ -33,6 +33,9 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
     figure = _figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
+    if np.isfinite(c.get("interval_low", np.array([np.nan]))).any():
+        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
+        top.fill_between(speed, c["interval_low"], c["interval_high"], **band)
     top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
     top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
     top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from .deterministic.refine import Refined
 from .model import Model
@@ -15,6 +15,8 @@ from .point.balance import Balance
 from .point.decision import Decision
 from .point.judge import judged_validity
 from .report import Report
+from .sampling.line_friction import LineStart
+from .sampling.uncertainty import FieldErrors, Uncertainty
 from .show.point import PointShown
 from .validity.entry import Validity
 
@@ -33,6 +35,11 @@ class FrictionResult(PointShown):
     (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged
     by (``decision.text`` in words); ``validity``: the assumptions that do not hold
     (`lubfric.Validity`); a severe one is there only where it was accepted.
+
+    ``uncertainty``: of the coefficient, from solvers and grids and because a finite surface stands for all of it (an
+    `Uncertainty`: docs/uncertainty.md); ``errors``: relative, of every other number (`FieldErrors`), as
+    ``errors.contact_load``. ``line``: what the long line of a scene leaves for a neighbouring speed to start from;
+    ``balance`` then has the fields of its first 180 correlation lengths, and forces and areas are those of all of it.
     """
 
     speed: float
@@ -62,6 +69,9 @@ class FrictionResult(PointShown):
     validity: tuple[Validity, ...] = ()
     deterministic: Refined | None = None
     one_way: tuple[OneWay, ...] = ()
+    uncertainty: Uncertainty = Uncertainty()
+    errors: FieldErrors = FieldErrors()
+    line: LineStart | None = field(default=None, repr=False)
 
     @property
     def starts(self) -> bool:
@@ -71,7 +81,7 @@ class FrictionResult(PointShown):
 
     def without_fields(self) -> FrictionResult:
         """Its numbers alone."""
-        return replace(self, balance=None, deterministic=None, one_way=())
+        return replace(self, balance=None, deterministic=None, one_way=(), line=None)
 
 
 def result_of(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:

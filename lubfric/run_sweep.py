@@ -162,6 +162,6 @@ def _progress(done, total, speed, outcome) -> None:
         say(f"[{done}/{total}] U = {speed:.4g} m/s {verb}: {outcome}")
     else:
         say(
-            f"[{done}/{total}] U = {speed:.4g} m/s: f = {outcome.coefficient:.5g}, "
+            f"[{done}/{total}] U = {speed:.4g} m/s: {outcome.uncertainty.short(outcome.coefficient)}, "
             f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
         )

@@ -29,6 +29,7 @@ MODELS = ("auto", "full", "deterministic")
 FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
 CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
 GRIDS = ("auto", "given")
+SAMPLINGS = ("line", "patch")
 
 
 @dataclass(frozen=True)
@@ -173,6 +174,9 @@ class Numerics:
     film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
     matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
     the range of the model are returned, marked, instead of refused.
+
+    What surface it is modelled with: sampling "line", a line of the scene's roughness as long as the standard error
+    ``sampling_tolerance`` of f asks, relative (docs/uncertainty.md); "patch", the one patch of ``contact.shape``.
     """
 
     tolerance: float = 0.01
@@ -187,6 +191,8 @@ class Numerics:
     film_level: str = "auto"
     contact_level: str = "auto"
     grid: str = "auto"
+    sampling: str = "line"
+    sampling_tolerance: float = 0.02
     heat: str = "auto"
     accept: bool = False
 
@@ -196,6 +202,7 @@ class Numerics:
             ("film_level", FILM_LEVELS),
             ("contact_level", CONTACT_LEVELS),
             ("grid", GRIDS),
+            ("sampling", SAMPLINGS),
             ("heat", HEATS),
         ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
@@ -209,6 +216,7 @@ class Numerics:
                         f"allowed: {', '.join(map(repr, allowed))}"
                     )
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
+        validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
         for name in ("ehl_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)

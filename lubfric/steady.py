@@ -11,8 +11,8 @@ from .deterministic.point import deterministic_point
 from .errors import InputError
 from .model import Model, at_tolerance
 from .one_way.answer import one_way_point, one_way_result
-from .point.deflection import solved_as_deflected
-from .result import FrictionResult, result_of
+from .result import FrictionResult
+from .sampling.answer import answered
 from .scene import FASTEST, Scene
 from .validity.entry import refused
 
@@ -37,7 +37,8 @@ def friction(
     (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``:
     no load is shared, one pressure carries it (docs/deterministic.md).
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
-    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid.
+    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
+    solved; on a long line they are those of the line, on its cells.
     Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
     not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
@@ -58,8 +59,7 @@ def friction(
         shared = one_way_point(ready.scene, ready.surface, speed, start.one_way if start else ())
         result = one_way_result(ready, speed, shared, begun)
     else:
-        chosen, point = solved_as_deflected(ready, speed, start.balance if start else None, given_grid=fields)
-        result = result_of(chosen, speed, point, begun)
+        result = answered(ready, speed, start, fields, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "

@@ -16,6 +16,7 @@ from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
+from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from .scene import Scene
 from .show import Shown
 from .store import fingerprint
@@ -27,7 +28,17 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
-NOT_NUMBERS = ("report", "balance", "decision", "validity", "deterministic", "one_way")
+NOT_NUMBERS = (
+    "report",
+    "balance",
+    "decision",
+    "validity",
+    "deterministic",
+    "one_way",
+    "uncertainty",
+    "errors",
+    "line",
+)
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
 
 
@@ -38,7 +49,8 @@ class StribeckResult(Shown):
     Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
     results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
     range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
-    speeds.
+    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity:
+    its relative errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
     """
 
     speed: np.ndarray
@@ -65,6 +77,8 @@ class StribeckResult(Shown):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    uncertainty: UncertaintyCurve
+    field_errors: dict[str, np.ndarray]
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a speed, refused or not."""
@@ -246,4 +260,16 @@ def _collect(speeds, points, errors) -> StribeckResult:
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
     report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
-    return StribeckResult(**columns, points=tuple(points), errors=errors, report=report)
+    return StribeckResult(
+        **columns,
+        points=tuple(points),
+        errors=errors,
+        report=report,
+        uncertainty=curve_of([None if p is None else p.uncertainty for p in points]),
+        field_errors=_field_errors(points),
+    )
+
+
+def _field_errors(points) -> dict[str, np.ndarray]:
+    """Relative errors by quantity, NaN where a point failed."""
+    return {name: np.array([np.nan if p is None else getattr(p.errors, name) for p in points]) for name in FIELDS}

@@ -17,6 +17,7 @@ SUBCOMMANDS: dict[str, str] = {
     "levels": "verification.levels",
     "model": "verification.model",
     "mutations": "verification.mutations",
+    "sampling": "verification.sampling",
     "charts": "verification.charts",
     "stability": "verification.stability",
     "tables": "verification.tables",

@@ -15,7 +15,8 @@ from dataclasses import replace
 from .check import AT_LEAST, AT_MOST, Check
 from .frame import Command
 from .frame import main as run
-from .mutants import MUTANTS, applied
+from .mutant import applied
+from .mutants import MUTANTS
 from .report import Report
 from .run import quiet, run_one
 from .studies import STUDIES, Study

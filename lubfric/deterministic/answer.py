@@ -9,8 +9,11 @@ from dataclasses import replace
 from ..model import Model
 from ..point.decision import Decision
 from ..result import FrictionResult
+from ..sampling.uncertainty import field_errors_of, not_sampled
 from .point import notes, validity, words
 from .refine import Refined
+
+NO_PLACES = "not estimated for one pressure of film and contact"
 
 
 def deterministic_result(model: Model, speed: float, found: Refined, begun: float) -> FrictionResult:
@@ -55,4 +58,6 @@ def deterministic_result(model: Model, speed: float, found: Refined, begun: floa
         decision=decision,
         validity=passed,
         deterministic=found,
+        uncertainty=not_sampled(found.error, scene, across, NO_PLACES),
+        errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
     )

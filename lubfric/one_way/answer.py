@@ -14,10 +14,13 @@ from ..deterministic.takes import check_scene
 from ..model import Model
 from ..point.decision import Decision
 from ..result import FrictionResult
+from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..scene import Scene
 from ..surface import Surface
 from ..validity.bodies import of_motion
 from .point import OneWay, solve_one_way
+
+NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
 
 
 def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[OneWay, ...] = ()) -> tuple[OneWay, ...]:
@@ -80,4 +83,6 @@ def one_way_result(model: Model, speed: float, found: tuple[OneWay, ...], begun:
         decision=decision,
         validity=passed,
         one_way=found,
+        uncertainty=not_sampled(None, scene, model.surface.size[1], NOT_KNOWN),
+        errors=field_errors_of({}, NOT_KNOWN),
     )

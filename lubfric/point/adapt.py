@@ -9,6 +9,7 @@ from ..film.ladder import given_level, level_for
 from ..line_contact import LineContact
 from ..model import Model
 from ..report import CONVERGED, Report
+from ..rough.contract import RoughContact
 from .balance import Balance, separated
 from .decision import Decision, alone, dry, in_contact
 from .forces import dry_forces
@@ -22,10 +23,11 @@ SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, and how far it was modelled."""
+    """A balance, how far it was modelled, and the contact it was found on: the model's own, a coarser one or a part."""
 
     balance: Balance
     decision: Decision
+    contact: RoughContact
 
 
 def solved(model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
@@ -67,7 +69,7 @@ def _dry(model: Model) -> Solved:
         notes=("no entrainment: all contact",),
     )
     balance = Balance(0.0, scene.bodies.load, None, state, report, dry_forces(scene), None)
-    return Solved(balance, dry(model))
+    return Solved(balance, dry(model), contact)
 
 
 def _certainly_touching(model: Model, speed: float) -> bool:
@@ -92,7 +94,7 @@ def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
         if cells == point.settings.film_cells:
             break
         point, film = replace(point, settings=replace(point.settings, film_cells=cells)), balance.film
-    return Solved(balance, alone(Stage(point, balance, left_out)))
+    return Solved(balance, alone(Stage(point, balance, left_out)), model.contact)
 
 
 def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: bool) -> Solved:
@@ -110,4 +112,4 @@ def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: b
     grids = [model.contact] if own else coarser_grids(model.contact, model.surface.sq)
     stage, index, error = on_enough_cells(point, grids, start)
     decision = in_contact(stage, error, finest=index == len(grids) - 1)
-    return Solved(stage.balance, decision)
+    return Solved(stage.balance, decision, stage.point.contact)

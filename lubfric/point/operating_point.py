@@ -83,7 +83,7 @@ class OperatingPoint:
     def trial(self, film_load: float, contact_load: float, start: Start, imposed=None) -> Trial:
         """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load``
         [N] under it."""
-        found = self._film(film_load, start, imposed)
+        found = self.film(film_load, start, imposed)
         film, shape = self.imposed_on(self.contact, found)
         contact = self._contact.close(film, contact_load, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
@@ -91,7 +91,7 @@ class OperatingPoint:
     def trial_with_imposed_film(self, film_load: float, start: Start) -> Trial:
         """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then
         has."""
-        found = self._film(film_load, start)
+        found = self.film(film_load, start)
         film, shape = self.imposed_on(self.contact, found)
         contact_load, contact = self._contact.carry(film, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
@@ -123,7 +123,8 @@ class OperatingPoint:
         share = min(whole / (thickness * bodies.load), 0.9)
         return math.log(share / (1 - share))
 
-    def _film(self, film_load: float, start: Start, imposed=None) -> Film:
+    def film(self, film_load: float, start: Start, imposed=None) -> Film:
+        """The film that carries ``film_load`` [N], deflected by the line pressure ``imposed`` too."""
         return self.settings.level.solve(
             self.line(film_load),
             tolerance=self.settings.film_tolerance,

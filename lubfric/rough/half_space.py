@@ -119,11 +119,13 @@ class HalfSpaceContact(HalfSpaceGrid):
         )
 
 
-def half_space_contact(scene: Scene, heights, spacing, operator: HalfSpace | None = None) -> HalfSpaceContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this
-    grid."""
+def half_space_contact(
+    scene: Scene, heights, spacing, operator: HalfSpace | None = None, x: np.ndarray | None = None
+) -> HalfSpaceContact:
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid;
+    ``x`` [m] (nx,): cell centres (None: evenly about the line of contact)."""
     bodies, numerics = scene.bodies, scene.numerics
-    x = centred_axis(heights.shape[0], spacing[0])
+    x = centred_axis(heights.shape[0], spacing[0]) if x is None else x
     weight = area_weight(scene, x, spacing[0])
     if operator is None:
         operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)

@@ -34,14 +34,31 @@ def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
 
 
 def _of_the_scene(scene: Scene) -> Surface:
-    bodies = [(scene.surface, "surface")]
-    if scene.counterface is not None:
-        bodies.append((scene.counterface, "counterface"))
-    maps = [_of_one_body(scene, rough, name) for rough, name in bodies]
-    surface = maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
-    if all(rough.file is None for rough, _ in bodies):
-        return surface
-    return _cut_to_contact(scene, surface, any(rough.extension == "mirror" for rough, _ in bodies))
+    surface = whole_map(scene)
+    return _cut_to_contact(scene, surface, extended(scene)) if measured(scene) else surface
+
+
+def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
+    """The roughness of each body that has one, and its section of the scene."""
+    bodies = [(scene.surface, "surface"), (scene.counterface, "counterface")]
+    return [(rough, name) for rough, name in bodies if rough is not None]
+
+
+def measured(scene: Scene) -> bool:
+    """Any of its maps comes from a file."""
+    return any(rough.file is not None for rough, _ in rough_bodies(scene))
+
+
+def extended(scene: Scene) -> bool:
+    """A map that is too short is continued by its mirror image."""
+    return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
+
+
+def whole_map(scene: Scene) -> Surface:
+    """The heights of both bodies as one map: measured ones whole and on their own grid, generated ones on the contact
+    grid."""
+    maps = [_of_one_body(scene, rough, name) for rough, name in rough_bodies(scene)]
+    return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
 
 
 def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
@@ -75,7 +92,7 @@ def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surf
         correlation_length=rough.correlation_length,
         acf=rough.acf,
         decay_level=rough.decay_level,
-        seed=rough.seed if name == "surface" else _other_seed(rough.seed),
+        seed=rough.seed if name == "surface" else other_seed(rough.seed),
     )
     if rough.oversize == 1:
         return surface
@@ -83,7 +100,7 @@ def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surf
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
-def _other_seed(seed: int) -> int:
+def other_seed(seed: int) -> int:
     """A seed whose numbers are independent of those of ``seed``, and of those of the seeds beside it."""
     return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
 
@@ -125,12 +142,12 @@ def refuse_outliers(surface: Surface) -> None:
         )
 
 
-def _cut_to_contact(scene: Scene, surface: Surface, extended: bool) -> Surface:
+def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
     """The middle of an open map, on the contact grid, closed where the contact is periodic."""
     patch, reach = scene.contact, 2 * REACH * scene.bodies.half_width
     if patch.spacing is not None:
         surface = surface.resampled(spacing=patch.spacing)
-    if extended:
+    if continued:
         length = reach if patch.shape is None else patch.shape[0] * surface.spacing[0]
         surface = surface.continued(length) if patch.shape or patch.geometry == "cylinder" else surface
     nx, ny = patch.shape or surface.shape
@@ -140,6 +157,6 @@ def _cut_to_contact(scene: Scene, surface: Surface, extended: bool) -> Surface:
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
-            f"{'' if extended else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
+            f"{'' if continued else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
         )
     return surface.cropped((nx, ny)).periodic("mirror", axes=(patch.geometry == "flat", True))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
@@ -92,12 +92,18 @@ def without_fields(outcome):
     return outcome
 
 
+def bare(result: FrictionResult) -> FrictionResult:
+    """Without what the start of a neighbour can make again (`lubfric.sampling.line_friction.LineStart`)."""
+    return result if result.line is None else replace(result, line=result.line.bare())
+
+
 def _storable(outcome):
     """A result as it is, an exception as a `Failure`."""
     if not isinstance(outcome, Exception):
-        return outcome
+        return bare(outcome)
     if isinstance(outcome, ValidityError):
-        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), outcome.result)
+        result = None if outcome.result is None else bare(outcome.result)
+        return Failure("ValidityError", outcome.message, None, tuple(outcome.entries), result)
     report = outcome.report if isinstance(outcome, ConvergenceError) else None
     return Failure(type(outcome).__name__, str(outcome), report)
 

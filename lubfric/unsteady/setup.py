@@ -75,6 +75,7 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
             f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
             f"found {base.numerics.cavitated_shear!r}"
         )
+    _refuse_steady_only(base)
     load = plan.load or Constant(base.bodies.load)
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
         raise InputError(
@@ -90,6 +91,18 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
     return Run(model, plan, sharing, plan.sliding, start, grid_error)
+
+
+def _refuse_steady_only(scene: Scene) -> None:
+    """Raise `InputError` for what is asked of the steady model by name and a transient does not do."""
+    done = {"film_level": ("auto", "ehl"), "closure": ("load",), "heat": ("auto", "off")}
+    done["contact_level"] = ("auto", "flat", "semi-periodic")
+    for name, allowed in done.items():
+        value = getattr(scene.numerics, name)
+        if value not in allowed:
+            raise InputError(
+                f"numerics.{name} = {value!r} is not done in a transient; allowed: {', '.join(map(repr, allowed))}"
+            )
 
 
 def _volume_tolerance(scene: Scene) -> float:

@@ -238,7 +238,7 @@ def test_bad_input(bad):
 
 # ------------------------------------------------------------------ load sharing
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 HEAVY = PAPER.with_(
     bodies={"load": 550.0, "hardness": None},
     contact={"spacing": 1.5e-6, "shape": (256, 96)},

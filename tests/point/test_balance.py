@@ -15,7 +15,11 @@ from lubfric.point.operating_point import OperatingPoint, Settings, Start
 from lubfric.report import ITERATION_LIMIT
 from lubfric.rough.strip import strip_weight
 
-SCENE = lubfric.load_scene("paper").with_(bodies={"load": 1.0, "width": 1.0, "hardness": None})
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(bodies={"load": 1.0, "width": 1.0, "hardness": None})
+)
 ROUGH = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
 
 

@@ -15,7 +15,7 @@ from lubfric.film.ladder import LEVELS, higher, lowest_level
 from lubfric.line_contact import LineContact
 from lubfric.report import ITERATION_LIMIT, Report
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 B = PAPER.bodies
 TOUCHING, SIGMA, STIFFNESS = 300e-9, 250e-9, 4.0  # m, m, N
 FILM = EvenFilmLevel(stiffness=1e-4)  # 1e-4 U B/F_H: 100 nm of 5.5 N at 1 m/s

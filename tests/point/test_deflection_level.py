@@ -7,19 +7,23 @@ import pytest
 import lubfric
 from lubfric.point.deflection import own_pressure_error
 
-HEAVY = lubfric.load_scene("paper").with_(
-    bodies={
-        "radius": 0.01,
-        "hertz_pressure": 0.95e9,
-        "width": 0.01,
-        "e_prime": 2.27e11,
-        "boundary_friction_coefficient": 0.12,
-    },
-    lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6}
-    | {"limiting_stress_coefficient": 0.06},
-    contact={"shape": (128, 64), "spacing": 4e-6},
-    surface={"sq": 1e-7, "correlation_length": 3e-5, "acf": "gaussian"},
-    numerics={"film_deflection": "auto"},
+HEAVY = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(
+        bodies={
+            "radius": 0.01,
+            "hertz_pressure": 0.95e9,
+            "width": 0.01,
+            "e_prime": 2.27e11,
+            "boundary_friction_coefficient": 0.12,
+        },
+        lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6}
+        | {"limiting_stress_coefficient": 0.06},
+        contact={"shape": (128, 64), "spacing": 4e-6},
+        surface={"sq": 1e-7, "correlation_length": 3e-5, "acf": "gaussian"},
+        numerics={"film_deflection": "auto"},
+    )
 )
 
 
@@ -36,7 +40,7 @@ def test_boundary_limit_at_heavy_load():
 
 
 def test_the_paper_keeps_its_own_pressure_and_its_numbers():
-    paper = lubfric.load_scene("paper")
+    paper = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
     assert paper.numerics.film_deflection == "hydrodynamic"
     for speed in (0.003, 0.03, 0.3):
         auto = by(paper, "auto", speed)
@@ -66,7 +70,9 @@ def test_the_estimate_bounds_the_change(seed):
 
 
 def test_a_tighter_tolerance_asks_for_the_whole_load_earlier():
-    paper = lubfric.load_scene("paper").with_(numerics={"film_deflection": "auto"})
+    paper = (
+        lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(numerics={"film_deflection": "auto"})
+    )
     loose, tight = (lubfric.friction(paper, 0.03, tolerance=t) for t in (0.1, 0.002))
     assert "own pressure, at most" in loose.decision.deflection and "whole load" in tight.decision.deflection
 
@@ -75,7 +81,11 @@ def test_films_in_time_keep_their_own_pressure():
     from lubfric.history.plan import Transient
     from lubfric.unsteady.setup import begin
 
-    small = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.9e-6})
+    small = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"sampling": "patch"})
+        .with_(contact={"shape": (64, 64), "spacing": 0.9e-6})
+    )
     first = [
         begin(small.with_(numerics={"film_deflection": o}), Transient(duration=1e-3)) for o in ("auto", "hydrodynamic")
     ]

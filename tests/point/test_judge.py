@@ -11,7 +11,11 @@ from lubfric.film.shear import ShearForce
 from lubfric.point.forces import Forces, forces
 from lubfric.point.judge import judged_validity
 
-PAPER = lubfric.load_scene("paper").with_(contact={"shape": (96, 96), "spacing": 0.9e-6})
+PAPER = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(contact={"shape": (96, 96), "spacing": 0.9e-6})
+)
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ from lubfric.model import prepare
 from lubfric.point.grids import coarser_grids
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 
 
 def line_contact(m, l, lubricant):

@@ -9,8 +9,14 @@ import lubfric
 from lubfric.analytic import rigid
 from lubfric.model import prepare
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (96, 96), "spacing": 0.6e-6}, surface={"correlation_length": 4e-6}, numerics={"tolerance": 1e-3}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(
+        contact={"shape": (96, 96), "spacing": 0.6e-6},
+        surface={"correlation_length": 4e-6},
+        numerics={"tolerance": 1e-3},
+    )
 )
 MODEL = prepare(SCENE)
 FLAT = lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing": 8e-6})

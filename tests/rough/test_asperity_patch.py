@@ -12,10 +12,14 @@ from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
 from lubfric.rough.contact_curve import contact_curve
 
-CYLINDER = lubfric.load_scene("paper").with_(
-    contact={"shape": (96, 96), "spacing": 0.6e-6},
-    surface={"correlation_length": 4e-6},
-    numerics={"tolerance": 1e-3},
+CYLINDER = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(
+        contact={"shape": (96, 96), "spacing": 0.6e-6},
+        surface={"correlation_length": 4e-6},
+        numerics={"tolerance": 1e-3},
+    )
 )
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (128, 128), "spacing": 8e-6},

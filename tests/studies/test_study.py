@@ -19,8 +19,10 @@ from lubfric.studies.journal import Journal, outcome_of, record_of
 from lubfric.studies.run import run_piece
 
 ROOT = Path(__file__).parents[2]
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 )
 SPEEDS = (0.003, 0.03, 0.3)
 VARY = {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}
@@ -91,7 +93,7 @@ def counted(model, speed, **options):
     print("solved", flush=True)
     return found
 chain.friction = counted
-scene = lubfric.load_scene("paper").with_(
+scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
 print("done", flush=True)

@@ -32,6 +32,8 @@ seed = 7
 [contact]
 shape = [64, 64]
 spacing = 0.9e-6
+[numerics]
+sampling = "patch"
 """
 
 

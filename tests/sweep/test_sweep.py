@@ -15,8 +15,10 @@ from lubfric.store import digest
 from lubfric.studies import chain
 from lubfric.sweep import QUANTITIES
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
 )
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 

@@ -19,10 +19,14 @@ from lubfric.model import prepare
 from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (64, 64), "spacing": 0.8e-6},
-    surface={"correlation_length": 5e-6},
-    motion={"entrainment_speed": 0.02},
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"sampling": "patch"})
+    .with_(
+        contact={"shape": (64, 64), "spacing": 0.8e-6},
+        surface={"correlation_length": 5e-6},
+        motion={"entrainment_speed": 0.02},
+    )
 )
 MODEL = prepare(SCENE)
 
@@ -173,7 +177,9 @@ import numpy as np
 import lubfric
 from lubfric.history import Harmonic
 from lubfric.history.plan import Transient
-scene = lubfric.load_scene("paper").with_(contact={"shape": (64, 64), "spacing": 0.8e-6},
+scene = lubfric.load_scene("paper").with_(
+    numerics={"sampling": "patch"},
+    contact={"shape": (64, 64), "spacing": 0.8e-6},
     surface={"correlation_length": 5e-6},
     transient=Transient(0.01, outputs=20, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0)))
 folder, die = sys.argv[1], len(sys.argv) > 3
@@ -298,8 +304,10 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
-    scene = lubfric.load_scene("paper").with_(
-        transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2))
+    scene = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"sampling": "patch"})
+        .with_(transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)))
     )
     begun = time.perf_counter()
     found = lubfric.transient(scene)

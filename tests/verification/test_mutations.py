@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from verification import mutations
-from verification.mutants import MUTANTS, Mutant, applied, located
+from verification.mutant import Mutant, applied, located
+from verification.mutants import MUTANTS
 from verification.mutations import NONE, judged, trial
 
 NAMES = [m.name for m in MUTANTS]

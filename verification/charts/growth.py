@@ -94,7 +94,9 @@ SWEEP = (
     + """
 import lubfric
 from lubfric.model import prepare
-model = prepare(lubfric.load_scene("paper").with_(contact={"shape": (50, 50), "spacing": 1.8e-6}))
+model = prepare(lubfric.load_scene("paper").with_(
+    numerics={"sampling": "patch"}, contact={"shape": (50, 50), "spacing": 1.8e-6}
+))
 lubfric.stribeck(model, [0.1])
 """
     + BEFORE

@@ -16,7 +16,7 @@ from .draw import axes, image, png
 from .page import PaperFigure
 from .spread import spread
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "full"})  # on the grid of the paper
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "full", "sampling": "patch"})  # on the grid of the paper
 MODELS = {
     "half-space, elastic": {"bodies": {"hardness": None}},
     "half-space, elastic-plastic": {},

@@ -12,13 +12,17 @@ from .page import PaperFigure
 from .spread import spread
 
 OIL = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
+PATCH = {"sampling": "patch"}  # the paper's own
 SCENES = {
-    "cylinder": lubfric.load_scene("paper"),
+    "cylinder": lubfric.load_scene("paper").with_(numerics=PATCH),
     "flat strip, 500 MPa": lubfric.load_scene("flat").with_(
         bodies={"load": 132.3}, contact={"shape": (256, 256)}, lubricant=OIL
     ),
     "cylinder, 1 GPa": lubfric.load_scene("paper").with_(
-        bodies={"load": 550.0, "hardness": None}, contact={"spacing": 1.2e-6, "shape": (320, 160)}, lubricant=OIL
+        numerics=PATCH,
+        bodies={"load": 550.0, "hardness": None},
+        contact={"spacing": 1.2e-6, "shape": (320, 160)},
+        lubricant=OIL,
     ),
 }
 SPEEDS = {"cylinder": (1e-3, 1), "flat strip, 500 MPa": (1e-3, 10), "cylinder, 1 GPa": (1e-5, 1)}

@@ -75,7 +75,7 @@ def scene(values: dict, index: int) -> Scene:
         Motion(values["speed"]),
         Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
         Patch(shape=shape, spacing=(across, cell)),
-        Numerics(film_deflection="hydrodynamic"),
+        Numerics(film_deflection="hydrodynamic", sampling="patch"),
         name=f"scene {index}",
     )
 

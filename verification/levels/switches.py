@@ -21,7 +21,11 @@ def scan(points: int = 240) -> list[Check]:
     """f beside that of the full model at ``points`` speeds shared by the lubricants, cold starts."""
     rows = []
     for name, lubricant in LUBRICANTS.items():
-        model = prepare(lubfric.load_scene("paper").with_(lubricant=lubricant, numerics={"tolerance": TOLERANCE}))
+        model = prepare(
+            lubfric.load_scene("paper").with_(
+                lubricant=lubricant, numerics={"tolerance": TOLERANCE, "sampling": "patch"}
+            )
+        )
         for speed in np.geomspace(1e-3, 10.0, points // len(LUBRICANTS)):
             auto = lubfric.friction(model, float(speed))
             full = lubfric.friction(model, float(speed), tolerance=5e-4, model="full")

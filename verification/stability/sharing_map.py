@@ -47,6 +47,7 @@ def model_of(name: str, sq: float, shape: int, **sections) -> Model:
     else:
         roughness = {"sq": sq, "correlation_length": 9e-6 * 32 / shape if shape < 48 else 4e-6}
         grid = {"shape": (shape, shape // 2), "spacing": 90e-6 / shape}
+    scene = scene.with_(numerics={"sampling": "patch"})
     return prepare(scene.with_(surface=roughness, contact=grid, **sections))
 
 

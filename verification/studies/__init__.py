@@ -69,6 +69,10 @@ STUDIES: tuple[Study, ...] = (
         "verification.studies.formulations:formulations",
         "Contact formulations of the paper against the default",
     ),
+    Study("wiring_film", "verification.wiring.film:wiring_film", "Every option reaches the number: film and shear"),
+    Study("wiring_contact", "verification.wiring.contact:wiring_contact", "Every option reaches the number: contact"),
+    Study("wiring_maps", "verification.wiring.maps:wiring_maps", "Every option reaches the number: height maps"),
+    Study("wiring_time", "verification.wiring.time:wiring_time", "Every option reaches the number: motion in time"),
     Study("transient", "verification.studies.transient:transient", "Smooth contact in time: squeeze, stops, jumps"),
     Study(
         "transient_mixed",

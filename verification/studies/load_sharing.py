@@ -27,6 +27,14 @@ from ..rates import fitted_order
 LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
+TIGHT = {  # the model of the finite elements: no more and no less
+    "ehl_tolerance": 1e-4,
+    "balance_tolerance": 1e-6,
+    "model": "full",
+    "film_deflection": "hydrodynamic",
+    "heat": "off",
+    "accept": True,
+}
 PARTS = 9  # of a cell, to take the mean displacement on
 SOURCE = "film and contact by finite elements, own root finder"
 
@@ -100,9 +108,7 @@ class Point:
 
 def scene() -> lubfric.Scene:
     """The paper's cylinder, everything modelled on the grid given."""
-    return lubfric.load_scene("paper").with_(
-        numerics={"tolerance": 1e-4, "ehl_tolerance": 1e-4, "balance_tolerance": 1e-6, "model": "full"}
-    )
+    return lubfric.load_scene("paper").with_(numerics=TIGHT | {"tolerance": 1e-4})
 
 
 def elastic() -> Elastic:

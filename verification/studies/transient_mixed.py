@@ -33,7 +33,9 @@ def transient_mixed(level: str):
     """
     n = CELLS[level]
     scene = lubfric.load_scene("paper").with_(
-        contact={"shape": (n, n), "spacing": 90e-6 / n}, motion={"entrainment_speed": LARGEST}
+        contact={"shape": (n, n), "spacing": 90e-6 / n},
+        motion={"entrainment_speed": LARGEST},
+        numerics={"sampling": "patch"},
     )
     model = prepare(scene)
     yield from steady(model)

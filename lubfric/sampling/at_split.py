@@ -1,0 +1,51 @@
+"""Film and friction of a balance at another division of the load, its contact left as it is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..model import Model
+from ..point.balance import Lubricated
+from ..point.forces import forces
+from ..point.operating_point import OperatingPoint, Settings, Start, Trial
+from ..rough.contract import RoughContact
+from ..rough.strip import weighted_mean
+
+ANY = 0.1  # tolerance of a film whose grid is given
+
+
+def at(model: Model, speed: float, contact: RoughContact, balance: Lubricated) -> OperatingPoint:
+    """The operating point of ``balance`` on ``contact``, its film to be solved again on the grid that it has."""
+    return OperatingPoint(model, speed, contact, Settings(balance.level, ANY, 0.0, film_cells=balance.film.cells))
+
+
+def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -> Lubricated:
+    """``balance`` with ``contact_load`` [N] and the film that carries the rest."""
+    film_load = balance.contact_load + balance.film_load - contact_load
+    imposed = balance.film.imposed
+    given = None if imposed is None else (imposed.x, imposed.pressure)
+    film = point.film(film_load, Start(balance.film), given)
+    found = Trial(film=film, contact=balance.contact, film_load=film_load, contact_load=contact_load)
+    friction = forces(point.scene, balance.level, found, balance.slope)
+    return replace(balance, contact_load=contact_load, film_load=film_load, film=film, forces=friction)
+
+
+def quantities(point: OperatingPoint, balance: Lubricated) -> dict[str, float]:
+    """What is reported of a balance, by the names of `FrictionResult`; mean_gap is the mean film over A, which fills
+    it."""
+    film, found = balance.film, balance.forces
+    return {
+        "coefficient": found.coefficient,
+        "contact_load": balance.contact_load,
+        "film_load": balance.film_load,
+        "shear_force": found.shear.total,
+        "couette_force": found.shear.couette,
+        "rolling_force": found.shear.rolling,
+        "boundary_force": found.boundary,
+        "min_film": film.min_film,
+        "central_film": film.central_film,
+        "inlet_film_factor": found.heat.film_factor,
+        "flash_temperature_rise": found.heat.flash,
+        "film_temperature_rise": found.heat.film,
+        "mean_gap": weighted_mean(film.film_at(point.contact.x), point.contact.weight),
+    }

@@ -1,0 +1,167 @@
+"""From the errors of a gap to those of everything reported: `Uncertainty` and the errors by field."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..point.adapt import Solved
+from ..point.balance import Balance
+from ..point.forces import Forces
+from .grid_pair import mean_of
+from .influence import BlockError
+from .line_record import Pooled
+from .response import Response
+from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, percent
+
+FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
+SHEAR = ("shear_force", "couette_force", "rolling_force")
+HEAT = ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
+AREAS = ("real_contact_area_fraction", "real_contact_area")
+ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
+
+
+@dataclass(frozen=True)
+class Numerical:
+    """What solvers and grids leave open: film, relative; gap [m], equivalent error of the mean gap at given load (the
+    closing of the volume, the grid of the contact); shear: of the sum of the film's shear stress, relative to f;
+    area: of the contact area, relative (NaN: cannot be told)."""
+
+    film: float
+    gap: float
+    shear: float
+    area: float
+
+
+def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, area: float) -> Numerical:
+    """Of a balance closed to ``volume_residual``: ``grid_gap`` [m] what the contact grid may still change of the mean
+    gap, ``area`` of the contact area, relative."""
+    balance = point.balance
+    volume = 2 * abs(volume_residual) * balance.contact.mean_film if balance.contact_load > 0 else 0.0
+    return Numerical(film_error(point), volume + grid_gap, point.balance.forces.quadrature, area)
+
+
+def film_error(point: Solved) -> float:
+    """Estimated relative error of the film: what its level leaves out, and its grid."""
+    film = point.balance.film
+    if film is None:
+        return 0.0
+    residuals = film.report.residuals
+    return max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0)) + point.decision.left_out.total
+
+
+def coefficient_error(numerical: Numerical, found: Forces, response: Response | None) -> float:
+    """Estimated relative error of f from solvers and grids: the parts added, as if they all went one way."""
+    gap = response.relative("coefficient", numerical.gap) if response is not None else 0.0
+    return found.sensitivity * numerical.film + gap + numerical.shear
+
+
+def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, together: Pooled, response):
+    """Relative errors by the names of `FrictionResult` where there is contact: standard error from the surface and
+    estimated error from solvers and grids, root of the sum of squares.
+
+    An error of the gap moves the division of the load and everything with it (`Response.rates`); films have the error
+    of the film solve itself besides, the area what its blocks scatter by at given load and what its grid may change.
+    """
+    gap = math.hypot(gap_error.error, numerical.gap + numerical.film * balance.contact.mean_film)
+    errors = {name: response.relative(name, gap) for name in response.rates or ()}
+    errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
+    for name in FILMS:
+        errors[name] = errors.get(name, 0.0) + numerical.film
+    for name in (*SHEAR, *HEAT):
+        errors[name] = errors.get(name, 0.0) + numerical.film
+    load = balance.contact_load / together.contact_load if together.contact_load else 0.0
+    for name, value, error, slope in (
+        (AREAS[0], together.area_fraction, together.area.error, response.slopes.area),
+        (AREAS[1], together.touched_length, together.touched.error, response.slopes.touched),
+    ):
+        if value == 0:
+            errors[name] = math.nan
+            continue
+        by_load = slope * load * together.contact_load / value * errors.get("contact_load", 0.0)
+        errors[name] = math.hypot(by_load, error / value, numerical.area)
+    if together.plastic_fraction > 0:  # a count of spots
+        changed = balance.contact.plastic_area_fraction / together.plastic_fraction - 1
+        errors["plastic_area_fraction"] = math.hypot(together.participation**-0.5, changed)
+    return errors
+
+
+def dry_errors(together: Pooled) -> dict[str, float]:
+    """Without entrainment all is contact: the areas alone scatter."""
+    pairs = ((together.area_fraction, together.area.error), (together.touched_length, together.touched.error))
+    areas = {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, pairs)}
+    return areas | dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
+
+
+def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
+    """Without contact everything hangs on the film, of relative error ``film``."""
+    return dict.fromkeys(FILMS, film) | dict.fromkeys((*SHEAR, *HEAT), film + found.quadrature) | {"film_load": 0.0}
+
+
+def uncertainty_of(
+    coefficient: float,
+    numerical: float,
+    sampling: float,
+    error: BlockError,
+    together: Pooled,
+    scene,
+    area_needed=1.0,
+    notes=(),
+) -> Uncertainty:
+    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in
+    its text."""
+    asked, notes = scene.numerics.sampling_tolerance, [*notes]
+    if sampling > asked and area_needed > 1:
+        notes.append(
+            f"the map ends before the {percent(asked)} asked: it would take about {area_needed:.2g} times its area"
+        )
+    elif sampling > asked:
+        notes.append(f"more than the {percent(asked)} asked")
+    few = 0 < together.participation < FEW and sampling > 0.25 * asked
+    if few:
+        notes.append(
+            f"few spots carry the load (participation {together.participation:.2g}, below {FEW:g}): the interval "
+            "is too narrow more often than it says"
+        )
+    width = scene.bodies.width
+    return Uncertainty(
+        numerical=numerical,
+        sampling=sampling,
+        interval=interval(coefficient, numerical, sampling, error.freedom),
+        line_scatter=sampling * math.sqrt(together.length / width),
+        participation=together.participation,
+        length=together.length,
+        freedom=float(error.freedom),
+        tolerance=asked,
+        area_needed=area_needed,
+        notes=tuple(notes),
+    )
+
+
+def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
+    """Uncertainty and errors by field of a `LineFound`."""
+    found = line.point.balance.forces
+    rest = mean_of(line.grid, "rest", 0.0)
+    area = mean_of(line.grid, "area_error", 0.0) / math.sqrt(max(len(line.grid), 1))
+    numerical = numerical_errors(line.point, line.first.contact.volume_residual, rest, area)
+    relative = coefficient_error(numerical, found, line.response)
+    if line.response is None:  # separated
+        sampling = line.missed
+        error, errors = BlockError(0.0, ORDER), film_alone_errors(numerical.film, found)
+    elif not line.response.rates:
+        sampling, error, errors = 0.0, BlockError(0.0, ORDER), dry_errors(line.together)
+    else:
+        sampling, error = line.response.relative("coefficient", line.gap_error.error), line.gap_error
+        errors = field_errors(line.point.balance, numerical, error, line.together, line.response)
+    needed = (sampling / scene.numerics.sampling_tolerance) ** 2 if line.map_ends else 1.0
+    known = uncertainty_of(found.coefficient, relative, sampling, error, line.together, scene, max(needed, 1.0))
+    return known, field_errors_of(errors | {"coefficient": math.hypot(relative, sampling)}, why_not(line.point))
+
+
+def why_not(point: Solved) -> str:
+    """Why the error of a quantity is not told."""
+    if point.balance.film is None:
+        return "no entrainment: there is no film"
+    if point.balance.contact_load == 0:
+        return "no contact was met: it has no relative error"
+    return "there was none of it, or too little to tell"

@@ -1,0 +1,99 @@
+"""Lines of a generated surface: as many and as long as asked, each a piece of the same endless one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..rough.height_map import rough_bodies
+from ..roughness import Roughness
+from ..scene import Scene
+from ..surface import Surface, generate_surface
+from ..validate import spacing as checked_spacing
+from .cells import Cells, cells_of_a_box, choose_cells, reach_of
+
+LINE, PAIR = 0, 1  # streams of seeds
+
+
+@dataclass(frozen=True)
+class GeneratedLines:
+    """Lines of the surface of ``scene`` on ``cells``; correlation ``lengths`` [m] at 1/e along x and y."""
+
+    scene: Scene
+    cells: Cells
+    lengths: tuple[float, float]
+    available: float = math.inf
+    nested: bool = False
+
+    def windows(self, length: float) -> int:
+        """A generated line is one piece."""
+        return 1
+
+    def line(self, index: int, length: float) -> Surface:
+        """Line number ``index``, about ``length`` [m] long, on the coarse cells."""
+        return self._piece((LINE, index), self.cells, length)
+
+    def pair(self, index: int, length: float) -> Surface:
+        """A piece on the scene's own cells, to be compared with every so-manieth cell of itself."""
+        fx, fy = self.cells.factors
+        columns = self.cells.columns(length) * fy
+        return self._piece((PAIR, index), Cells((1, 1), self.cells.spacing, self.cells.count * fx), length, columns)
+
+    def again(self, scene: Scene) -> GeneratedLines | None:
+        """The same for another scene with the same cells."""
+        other = generated_lines(scene)
+        return other if other.cells == self.cells else None
+
+    def halved(self) -> GeneratedLines:
+        """The same on cells half as long."""
+        return GeneratedLines(self.scene, self.cells.halved(), self.lengths)
+
+    def _piece(self, stream, cells: Cells, length: float, columns: int | None = None) -> Surface:
+        shape = cells.count, columns or cells.columns(length)
+        maps = [_one_body(rough, name, stream, cells, shape) for rough, name in rough_bodies(self.scene)]
+        return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+
+
+def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surface:
+    surface = generate_surface(
+        (shape[0] * rough.oversize, shape[1]),
+        cells.coarse,
+        sq=rough.sq,
+        correlation_length=rough.correlation_length,
+        acf=rough.acf,
+        decay_level=rough.decay_level,
+        seed=seed_of(rough.seed, *stream, *(() if name == "surface" else (1,))),
+    )
+    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq)
+
+
+def generated_lines(scene: Scene) -> GeneratedLines:
+    """Lines of the generated surface of ``scene``, the sum of both bodies', as long in x as its patch or, unless that
+    is the area A, as the contact is, if it is longer."""
+    patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
+    if patch.shape is None or patch.spacing is None:
+        raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
+    spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    lengths = tuple(min(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
+    blocks = tuple(max(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
+    if patch.region == "box":
+        return GeneratedLines(scene, cells_of_a_box(spacing, lengths, half_width, patch.shape[0]), blocks)
+    sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
+    reach = max(patch.shape[0] * spacing[0], reach_of(scene, sq))
+    return GeneratedLines(scene, choose_cells(spacing, lengths, half_width, reach), blocks)
+
+
+def lengths_of(rough) -> tuple[float, float]:
+    """Correlation lengths [m] at 1/e along x and y."""
+    decay = -math.log(rough.decay_level)
+    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
+    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
+    return float(both[0]) / factor, float(both[1]) / factor
+
+
+def seed_of(*words: int) -> int:
+    """One number of many: far apart for neighbouring words."""
+    return int(np.random.SeedSequence(words).generate_state(1)[0])

@@ -1,0 +1,145 @@
+"""What the coarse cells of a line change: the same piece of surface on its own cells and on every so-manieth of
+them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..film.contract import Film
+from ..point.operating_point import OperatingPoint
+from ..rough.contract import ContactState
+from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
+from .pieces import thinned
+
+SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
+MOST_CELLS = 300_000  # of a piece, where a coarser one would do
+
+
+@dataclass(frozen=True)
+class GridStep:
+    """Changes when the cells of a line become finer, at the line's film and ``contact_load`` [N].
+
+    gap [m]: of the mean gap; error: its standard error; rest [m]: estimated change still to come on the scene's own
+    cells
+    (0: they were reached). area: factor on the contact area, area_error: its relative standard error and the rest;
+    plastic: to be added
+    to the plastic area fraction. beyond [m]: estimated change on cells half as long as the scene's own (NaN: own
+    cells not reached).
+    """
+
+    gap: float
+    error: BlockError
+    rest: float
+    beyond: float
+    area: float
+    area_error: float
+    plastic: float
+    contact_load: float
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Of every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact; plastic
+    share of A."""
+
+    gap: np.ndarray
+    touching: np.ndarray
+    plastic: float
+
+
+def _ladder(factors) -> list[tuple[int, int]]:
+    """Factors of the cells from the line's down to the scene's own, each halved."""
+    steps = [factors]
+    while steps[-1] != (1, 1):
+        steps.append(tuple(max(1, f // 2) for f in steps[-1]))
+    return steps
+
+
+def grid_step(
+    lines,
+    index: int,
+    length: float,
+    point: OperatingPoint,
+    film: Film,
+    contact_load: float,
+    gap_slope: float,
+    enough: float,
+) -> GridStep:
+    """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no
+    further than until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
+
+    ``point``, ``film`` and ``contact_load`` [N] are the line's; gap_slope dG/dP [m²/N]. The change is averaged over
+    blocks along y, each with its influence on the mean gap (`influence`).
+    """
+    scene, surface, steps = lines.scene, lines.pair(index, length), _ladder(lines.cells.factors)
+    rows, changes, rest = [], [], math.inf
+    for factors in steps:
+        if rest <= enough and surface.heights.size / math.prod(factors) > MOST_CELLS:
+            break
+        contact = thinned(scene, surface, lines.cells, factors)
+        thickness, under = point.imposed_on(contact, film)
+        state = contact.close(thickness, contact_load, None, under)
+        rows.append(_by_row(contact, state, gap_slope, lines.cells.factors[1] // factors[1]))
+        if len(rows) > 1:
+            changes.append(float(np.mean(rows[-1].gap) - np.mean(rows[-2].gap)))
+            rest = remaining(changes)
+    own = len(rows) == len(steps)
+    step, correlation = lines.cells.coarse[1], lines.lengths[1]
+    difference = rows[-1].gap - rows[0].gap
+    area, area_error = _ratio(rows[-1].touching, rows[0].touching, step, correlation)
+    return GridStep(
+        gap=float(difference.mean()),
+        error=block_error(difference, step, correlation),
+        rest=0.0 if own else rest,
+        beyond=rest if own else math.nan,
+        area=area,
+        area_error=area_error
+        if own
+        else math.hypot(area_error, _ratio(rows[-1].touching, rows[-2].touching, step, correlation)[0] - 1),
+        plastic=rows[-1].plastic - rows[0].plastic,
+        contact_load=contact_load,
+    )
+
+
+def _ratio(fine, coarse, step, correlation) -> tuple[float, float]:
+    """Ratio of the means of two fields along y, and its relative standard error."""
+    if not coarse.any() or not fine.any():
+        return 1.0, math.nan
+    ratio = float(fine.mean() / coarse.mean())
+    return ratio, block_error(fine - ratio * coarse, step, correlation).error / float(fine.mean())
+
+
+def mean_error(steps) -> BlockError:
+    """Of the mean change of the gap over several pieces [m]; zero where there are none to compare."""
+    if not steps:
+        return BlockError(0.0, 1)
+    found = add_errors(*(g.error for g in steps))
+    return BlockError(found.error / len(steps), found.freedom)
+
+
+def mean_of(steps, name: str, without: float) -> float:
+    """Mean of a field of `GridStep` over pieces; ``without`` any."""
+    return sum(getattr(g, name) for g in steps) / len(steps) if steps else without
+
+
+def remaining(changes) -> float:
+    """What further halving changes: the rest of a geometric series from the last two changes, ratio 1/4 to 3/4 (1/2
+    from one)."""
+    last = abs(changes[-1])
+    before = abs(changes[-2]) if len(changes) > 1 else 0.0
+    ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5
+    return last * ratio / (1 - ratio)
+
+
+def _by_row(contact, state: ContactState, gap_slope: float, rows: int) -> _Rows:
+    """Means over ``rows`` cells along y."""
+    gap, load = strip_gap(contact, state), line_load(contact, state)
+    touching = contact.weight @ (state.pressure > 0) / contact.weight.sum()
+    return _Rows(
+        gap_influence(gap, load, gap_slope).reshape(-1, rows).mean(axis=1),
+        touching.reshape(-1, rows).mean(axis=1),
+        state.plastic_area_fraction,
+    )

@@ -1,0 +1,83 @@
+"""The scatter of a long contact from place to place, read off one solution of it.
+
+At a given film and approach each place y along the line has its own strip-mean gap G(y) and its own line load P(y). A
+place that carries more than its share leaves less for the others, who then stand further apart: the mean gap at the
+*given mean load* feels the influence ``I(y) = G(y) - beta (P(y) - mean P)``, ``beta = dG/dP`` at a given film. Means of
+I over blocks longer than its correlation are nearly independent, and their scatter is the standard error of the mean.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+MOST_BLOCKS, LEAST_BLOCKS = 32, 8
+BLOCK = 5.0  # correlation lengths of the surface along y in a block, at least
+SPOT = 1.75  # correlation lengths along y in a block over which the participation is counted
+
+
+@dataclass(frozen=True)
+class BlockError:
+    """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
+
+    error: float
+    freedom: int
+
+
+def strip_gap(contact, state) -> np.ndarray:
+    """G(y) [m] (ny,): mean over the strip A of the gap at every place along the line, of a `ContactState` with
+    fields."""
+    return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
+
+
+def line_load(contact, state) -> np.ndarray:
+    """P(y) [N/m] (ny,): load per length at every place along the line."""
+    return state.pressure.sum(axis=0) * contact.spacing[0]
+
+
+def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
+    """I(y) [m] (ny,): strip_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
+    return strip_gap - slope * (line_load - line_load.mean())
+
+
+def block_error(values, step: float, correlation_length: float) -> BlockError:
+    """Standard error of the mean of ``values`` (ny,), cells of ``step`` [m], from block means.
+
+    s/sqrt(n) of n = 8 to 32 blocks of at least five correlation lengths [m]; a rest of less than a block is left out.
+    Infinite, with no degree of freedom, where the line is shorter than eight such blocks.
+    """
+    count = min(MOST_BLOCKS, int(values.size * step / (BLOCK * correlation_length)))
+    if count < LEAST_BLOCKS:
+        return BlockError(math.inf, 0)
+    size = values.size // count
+    means = values[: size * count].reshape(count, size).mean(axis=1)
+    return BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+
+
+def spot_loads(line_load, step: float, correlation_length: float) -> np.ndarray:
+    """Loads [N/m x cells] of short blocks, about one contact spot each."""
+    size = max(1, round(SPOT * correlation_length / step))
+    return line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
+
+
+def participation(loads) -> float:
+    """(sum P)²/sum P²: how many equally loaded blocks would carry as unevenly."""
+    square = float(np.sum(np.square(loads)))
+    return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
+
+
+def add_errors(*parts: BlockError) -> BlockError:
+    """Error of a sum of independent quantities."""
+    return weighted_errors([(1.0, part) for part in parts])
+
+
+def weighted_errors(parts) -> BlockError:
+    """Error of a sum of independent quantities with weights, (weight, `BlockError`) each; degrees of freedom by Welch
+    and Satterthwaite (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    terms = [((weight * part.error) ** 2, part.freedom) for weight, part in parts]
+    variance = sum(v for v, _ in terms)
+    if variance == 0 or not math.isfinite(variance):
+        return BlockError(math.sqrt(variance), sum(f for _, f in terms))
+    return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))

@@ -1,0 +1,19 @@
+"""How long a line has to be."""
+
+from __future__ import annotations
+
+import math
+
+PILOT = 180.0  # correlation lengths along y of the first line
+LONGEST = 1900.0  # of one line
+GROWTH = 4.0  # times the length so far: a standard error from few blocks is no guide further
+SAFETY = 1.15
+MOST = 256 * PILOT  # of all lines together
+MOST_CELLS = 1_500_000  # of one line: memory
+
+
+def next_length(so_far: float, reached: float, asked: float, longest: float) -> float:
+    """Length still missing for the standard error ``asked``, (reached/asked)² x 1.15 in all; at least a quarter of
+    what there is, at most thrice that or ``longest``."""
+    wanted = so_far * (SAFETY * (reached / asked) ** 2 - 1.0) if math.isfinite(reached) else GROWTH * so_far
+    return min(max(wanted, 0.25 * so_far), (GROWTH - 1.0) * so_far, longest)

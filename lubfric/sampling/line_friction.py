@@ -1,0 +1,169 @@
+"""Friction of an endless rough line, as surely as asked: pilot, length, grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..model import Model
+from ..point.adapt import Solved, solved
+from ..point.balance import Balance, balanced, divided, separated
+from ..point.deflection import solved_as_deflected
+from ..rough.contract import ContactState
+from ..rough.half_space import HalfSpaceContact
+from .at_split import at, quantities, redivided
+from .grid_pair import GridStep, mean_error, mean_of
+from .influence import BlockError, add_errors
+from .line_record import Pooled
+from .pieces import line_contact
+from .response import Response, touched_length
+from .sample import Sample
+
+SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
+LINE_VOLUME = 0.03  # volume residual of a further line, at most; the rest is corrected to first order
+LIGHT = 0.1  # of the load on the contact: it touches for sure
+
+
+@dataclass(frozen=True)
+class Used:
+    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again) and the state it
+    was left in."""
+
+    length: float
+    contact: HalfSpaceContact | None
+    state: ContactState
+
+
+@dataclass(frozen=True)
+class LineStart:
+    """What a neighbouring speed goes on from: the balance of the pilot, the further lines, what the grid changed."""
+
+    first: Balance
+    used: tuple[Used, ...] = ()
+    grid: tuple[GridStep, ...] = ()
+
+    def bare(self) -> LineStart:
+        """Without what can be made again, to the same bits."""
+        return replace(self, used=tuple(replace(line, contact=None) for line in self.used))
+
+
+@dataclass(frozen=True)
+class LineFound:
+    """The balance that all lines together and the grid ask for, and what is known of its error.
+
+    first: the balance of the pilot line as it is; used: the further lines.
+    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed:
+    what contact
+    that lines without any have missed by chance would add to f, relative; map_ends: no longer line could be had.
+    """
+
+    point: Solved
+    first: Balance
+    together: Pooled
+    response: Response | None = None
+    gap_error: BlockError = BlockError(0.0, 1)
+    grid: tuple[GridStep, ...] = ()
+    missed: float = 0.0
+    map_ends: bool = False
+    used: tuple[Used, ...] = ()
+
+    @property
+    def start(self) -> LineStart:
+        """For a neighbouring speed."""
+        return LineStart(self.first, self.used, self.grid)
+
+
+def line_friction(model: Model, speed: float, start: LineStart | None = None) -> tuple[Model, LineFound]:
+    """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
+    ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found
+    of the same model at a neighbouring speed."""
+    before = start.grid if start else ()
+    model, first = solved_as_deflected(model, speed, start.first if start else None, given_grid=True)
+    sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
+    while (length := sample.wanted()) > 0:
+        length, contact, state = _next_line(sample, length, len(used), start)
+        if sample.anchor is None:
+            found = solved(
+                replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
+            )
+        else:
+            found = _on_line(sample, contact, state)
+        sample = sample.with_line(contact, found, before)
+        used = (*used, Used(length, contact, replace(found.balance.contact, fields=None)))
+    return model, replace(_found(sample), used=used)
+
+
+def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
+    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring
+    speed, if it is long enough, or a new one of ``length``."""
+    if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
+        there = start.used[index]
+        return there.length, there.contact or _line(sample.model, index, there.length), there.state
+    state = replace(sample.first.balance.contact, fields=None, pressure=None)
+    return length, _line(sample.model, index, length), state
+
+
+def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
+    return line_contact(model.scene, model.lines.line(index + 1, length))
+
+
+def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
+    """Balance on one more line from where the lines so far have theirs, with the film's level and grid of the anchor.
+
+    The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response
+    gives, to first order.
+    """
+    anchor, scene = sample.anchor, sample.model.scene
+    there = anchor.point.balance
+    here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
+    point = at(sample.model, sample.speed, contact, there)
+    point = replace(point, settings=replace(point.settings, volume_tolerance=LINE_VOLUME))
+    if here.contact_load < LIGHT * scene.bodies.load:
+        alone = separated(point, here.film)
+        if alone.contact.volume_residual <= 0:
+            return Solved(alone, anchor.point.decision, contact)
+    slope = -0.5 / (anchor.response.split * there.contact.mean_film)
+    found = balanced(point, replace(here, contact=state, slope=slope))
+    found.report.raise_if_failed(found)
+    contact.check(found.contact)
+    corrected = found.moved(-found.contact.volume_residual / slope).contact_load
+    return Solved(replace(found, contact_load=corrected), anchor.point.decision, contact)
+
+
+def _found(sample: Sample) -> LineFound:
+    together, anchor, first = sample.together, sample.anchor, sample.first
+    if first.balance.film is None:
+        return LineFound(first, first.balance, together, anchor.response)
+    ended = sample.reached > sample.model.scene.numerics.sampling_tolerance and sample.model.lines.nested
+    if anchor is None:
+        return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
+    error = add_errors(together.gap, mean_error(anchor.grid))
+    return LineFound(
+        _divided(sample, together),
+        first.balance,
+        together,
+        anchor.response,
+        error,
+        anchor.grid,
+        map_ends=ended,
+    )
+
+
+def _divided(sample: Sample, together: Pooled) -> Solved:
+    """The anchor's point with the load divided as all lines and the grid ask."""
+    anchor, scene = sample.anchor, sample.model.scene
+    balance = anchor.point.balance
+    whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
+    split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
+    point = at(sample.model, sample.speed, anchor.contact, balance)
+    final = redivided(point, balance, divided(scene.bodies.load, split)[1])
+    film, area = quantities(point, final)["mean_gap"], mean_of(anchor.grid, "area", 1.0)
+    columns = area * together.touched_length / touched_length(balance.contact)
+    state = replace(
+        balance.contact,
+        mean_gap=film,
+        mean_film=film,
+        contact_fraction=balance.contact.contact_fraction * columns,
+        real_contact_area_fraction=together.area_fraction * area,
+        plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
+    )
+    return Solved(replace(final, contact=state), anchor.point.decision, anchor.contact)

@@ -1,0 +1,139 @@
+"""What one line gave, and several together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..rough.contract import ContactState
+from .influence import (
+    BlockError,
+    block_error,
+    gap_influence,
+    line_load,
+    participation,
+    spot_loads,
+    strip_gap,
+    weighted_errors,
+)
+from .response import Slopes
+
+FEWEST_WINDOWS = 3
+NOTHING = BlockError(math.inf, 0)
+
+
+@dataclass(frozen=True)
+class LineRecord:
+    """One line in balance: length [m], contact load [N] of the whole width; standard errors of its mean gap [m], of its
+    contact area fraction of A [-] and of its contact area per length [m], all at given load; loads of its short
+    blocks; its area fractions and its contact area per length. A line whose film clears its summits has no spots and
+    no errors of its own."""
+
+    length: float
+    contact_load: float = 0.0
+    gap: BlockError = NOTHING
+    area: BlockError = NOTHING
+    touched: BlockError = NOTHING
+    spots: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    area_fraction: float = 0.0
+    plastic_fraction: float = 0.0
+    touched_length: float = 0.0
+
+
+def length_of(contact) -> float:
+    """Of a line [m]."""
+    return contact.heights.shape[1] * contact.spacing[1]
+
+
+def record(
+    contact,
+    state: ContactState,
+    load: float,
+    slopes: Slopes,
+    correlation_length: float,
+    windows: int = 1,
+    rows: slice = slice(None),
+) -> LineRecord:
+    """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map
+    that follow each other along y; ``rows`` along y that count, where others only mirror them.
+
+    The standard error is the larger of those from blocks along y and, of three and more, from windows: a surface that
+    differs from place to place shows it there.
+    """
+    by_place, step = line_load(contact, state)[rows], contact.spacing[1]
+    touching = state.pressure[:, rows] > 0
+    touched = touching.sum(axis=0) * contact.spacing[0]
+
+    def error(values, slope):
+        return _larger(gap_influence(values, by_place, slope), step, correlation_length, windows)
+
+    return LineRecord(
+        by_place.size * step,
+        load,
+        error(strip_gap(contact, state)[rows], slopes.gap),
+        error(contact.weight @ touching / contact.weight.sum(), slopes.area),
+        error(touched, slopes.touched),
+        spot_loads(by_place, step, correlation_length),
+        state.real_contact_area_fraction,
+        state.plastic_area_fraction,
+        float(touched.mean()),
+    )
+
+
+def _larger(values, step, correlation_length, windows) -> BlockError:
+    blocks = block_error(values, step, correlation_length)
+    if windows < FEWEST_WINDOWS:
+        return blocks
+    size = values.size // windows
+    means = values[: size * windows].reshape(windows, size).mean(axis=1)
+    by_window = BlockError(float(means.std(ddof=1)) / math.sqrt(windows), windows - 1)
+    known = [e for e in (blocks, by_window) if math.isfinite(e.error)]
+    return max(known, key=lambda e: e.error)
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """Lines together, each weighted by its length [m]; names as in `LineRecord`."""
+
+    length: float
+    contact_load: float
+    gap: BlockError
+    area: BlockError
+    touched: BlockError
+    participation: float
+    area_fraction: float
+    plastic_fraction: float
+    touched_length: float
+
+
+def pooled(records) -> Pooled:
+    """The mean over ``records``; their errors add as independent ones do. A line without contact is as uncertain, for
+    its length, as those with it."""
+    length = sum(r.length for r in records)
+
+    def mean(name):
+        return sum(r.length * getattr(r, name) for r in records) / length
+
+    return Pooled(
+        length,
+        mean("contact_load"),
+        _over_lines(records, "gap"),
+        _over_lines(records, "area"),
+        _over_lines(records, "touched"),
+        participation(np.concatenate([r.spots for r in records])),
+        mean("area_fraction"),
+        mean("plastic_fraction"),
+        mean("touched_length"),
+    )
+
+
+def _over_lines(records, name: str) -> BlockError:
+    """Error of the mean over ``records`` of the quantity ``name``."""
+    touching = [r for r in records if r.spots.size]
+    part, length = sum(r.length for r in touching), sum(r.length for r in records)
+    if not touching:
+        return NOTHING
+    found = weighted_errors([(r.length / part, getattr(r, name)) for r in touching])
+    return BlockError(found.error * math.sqrt(part / length), found.freedom)

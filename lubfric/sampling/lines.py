@@ -1,0 +1,46 @@
+"""What a source of long lines answers: `Lines`."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from ..scene import Scene
+from ..surface import Surface
+from .cells import Cells
+
+
+class Lines(Protocol):
+    """Lines of one rough surface, each a `Surface` periodic along y; see `generated` and `windows`.
+
+    scene: whose they are; cells: of every line; lengths: correlation lengths [m] at 1/e along x and y; available [m]:
+    the longest line
+    there is (infinite where more can be made); nested: a longer line holds the shorter ones, so that it takes their
+    place, or is another place of the surface, so that it joins them.
+    """
+
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def cells(self) -> Cells: ...
+    @property
+    def lengths(self) -> tuple[float, float]: ...
+    @property
+    def available(self) -> float: ...
+    @property
+    def nested(self) -> bool: ...
+
+    def line(self, index: int, length: float) -> Surface:
+        """Line number ``index``, about ``length`` [m] long."""
+
+    def pair(self, index: int, length: float) -> Surface:
+        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long: a whole number of those of a
+        line."""
+
+    def windows(self, length: float) -> int:
+        """Of how many separate stretches of the surface a line of ``length`` [m] is made."""
+
+    def again(self, scene: Scene) -> Lines | None:
+        """The same lines for ``scene``, of another load, motion or tolerance; None where it needs other cells."""
+
+    def halved(self) -> Lines:
+        """The same surface on cells half as long, no shorter than the scene's own."""

@@ -1,0 +1,41 @@
+"""Whether a scene is solved on a long line, and on which."""
+
+from __future__ import annotations
+
+from ..rough.half_space import HalfSpaceContact
+from ..rough.height_map import measured, rough_bodies, whole_map
+from ..scene import Scene
+from ..surface import Surface
+from .generated import generated_lines
+from .length import MOST_CELLS, PILOT
+from .lines import Lines
+from .pieces import line_contact
+from .windows import measured_lines
+
+
+def takes_line(scene: Scene) -> bool:
+    """A rough half-space under a cylinder, its sampling not given as one patch and nothing but the tolerances to decide
+    what is modelled."""
+    numerics, contact = scene.numerics, scene.contact
+    levels = numerics.model == "auto" and numerics.contact_level == "auto" and numerics.closure != "one-way"
+    modelled = contact.geometry == "cylinder" and contact.model == "half-space"
+    return (
+        numerics.sampling == "line" and levels and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
+    )
+
+
+def lines_of(scene: Scene) -> Lines:
+    """Lines of the scene's surface, generated or measured; on the scene's own cells where ``numerics.grid`` is
+    given."""
+    found = measured_lines(scene, whole_map(scene)) if measured(scene) else generated_lines(scene)
+    if scene.numerics.grid == "given":
+        while found.cells.factors != (1, 1):
+            found = found.halved()
+    return found
+
+
+def pilot(scene: Scene, lines: Lines) -> tuple[Surface, HalfSpaceContact]:
+    """The first line, 180 correlation lengths long where memory and map allow, and the contact on it."""
+    longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
+    surface = lines.line(0, min(PILOT * lines.lengths[1], longest))
+    return surface, line_contact(scene, surface)

@@ -1,0 +1,58 @@
+"""Contact that a line of finite length misses by chance, where its film just clears its summits."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .influence import SPOT
+
+OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
+EULER = 0.5772156649
+
+
+def missed_share(model, film, found, correlation_length: float) -> float:
+    """What `missed_load` would add to f, relative to it; NaN where the contact has no cells or too few along y."""
+    if model.contact.grid is None or model.contact.nominally_flat or not found.coefficient:
+        return math.nan
+    bodies = model.scene.bodies
+    heights = model.surface.heights - model.surface.heights.mean()
+    load = missed_load(
+        heights, model.surface.spacing, film.film_at(model.contact.x), bodies.e_prime, bodies.width, correlation_length
+    )
+    return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
+
+
+def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
+    """Expected contact load [N] of the whole width that summits beyond the highest one of the line would carry.
+
+    The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, fitted by its first two
+    moments: of what lies below zero, exp(-...) blocks in number and its scale a in height, each carries as much as a
+    sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5
+    1.33.
+    An order of magnitude, and no more.
+    """
+    height, step = heights - film[:, None], spacing[1]
+    size = max(1, round(SPOT * correlation_length / step))
+    rows = height.max(axis=0)
+    blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
+    if blocks.size < 4:
+        return math.nan
+    scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi
+    place = float(blocks.mean()) - EULER * scale
+    if scale == 0:
+        return 0.0
+    rate = -math.expm1(-math.exp(min(place / scale, 50.0)))  # of blocks that touch
+    spot = 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * scale**1.5 * OVERLAP
+    return rate * spot / (size * step) * width
+
+
+def summit_radius(heights, spacing) -> float:
+    """Radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
+    z, (dx, dy) = heights, spacing
+    i, j = np.unravel_index(int(z[1:-1].argmax()), z[1:-1].shape)
+    i, columns = i + 1, z.shape[1]
+    along = (2 * z[i, j] - z[i - 1, j] - z[i + 1, j]) / dx**2
+    across = (2 * z[i, j] - z[i, j - 1] - z[i, (j + 1) % columns]) / dy**2
+    return 1.0 / math.sqrt(max(along, 1e-3) * max(across, 1e-3))

@@ -1,0 +1,139 @@
+"""What is known of the error where one patch stands for the surface: of a scene that asks for it, or of a map that
+was given."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..point.adapt import Solved
+from ..rough.height_map import measured, rough_bodies
+from .estimate import (
+    AREAS,
+    ORDER,
+    Numerical,
+    coefficient_error,
+    dry_errors,
+    field_errors,
+    film_alone_errors,
+    film_error,
+    uncertainty_of,
+    why_not,
+)
+from .generated import lengths_of
+from .influence import BLOCK, LEAST_BLOCKS, BlockError
+from .line_record import NOTHING, LineRecord, pooled, record
+from .missed import missed_share
+from .response import Response, Slopes
+from .sample import response_of
+from .uncertainty import FieldErrors, Uncertainty, field_errors_of
+from .windows import length_or_half
+
+NO_AREA = "contact areas need the scene's own grid: fields=True, numerics.grid = 'given'"
+UNKNOWN = "not known: {}"
+
+
+def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErrors]:
+    """Uncertainty and errors by field of a point on one patch.
+
+    The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half
+    of a mirrored map counts. Nothing more is made of the surface: it is all there is.
+    """
+    balance = point.balance
+    length = model.surface.size[1] / (2 if _mirrored(model) else 1)
+    correlation, why = _correlation_length(model), ""
+    response, gap_error, there = None, NOTHING, LineRecord(length, balance.contact_load)
+    if balance.film is None:
+        gap_error = BlockError(0.0, LEAST_BLOCKS)
+    elif balance.contact_load > 0:
+        response = _from_slope(point)
+        long_enough = length >= LEAST_BLOCKS * BLOCK * correlation
+        if balance.contact.fields is None:
+            why = UNKNOWN.format("this contact has no places along y to compare")
+        elif not long_enough:
+            why = UNKNOWN.format(
+                f"{length / correlation:.2g} correlation lengths along y, {LEAST_BLOCKS * BLOCK:g} are needed"
+            )
+        else:
+            response = response_of(model, speed, point.contact, balance)
+            rows = point.contact.heights.shape[1] // (2 if _mirrored(model) else 1)
+            there = record(
+                point.contact, balance.contact, balance.contact_load, response.slopes, correlation, rows=slice(0, rows)
+            )
+            gap_error = there.gap
+    return _told(model, point, response, gap_error, there, why)
+
+
+def _told(model, point: Solved, response, gap_error, there, why):
+    scene, balance = model.scene, point.balance
+    found = balance.forces
+    numerical = _numerical(point, response)
+    relative, together = coefficient_error(numerical, found, response), pooled([there])
+    known: dict[str, float] = {}
+    if response is not None:
+        finite = gap_error if math.isfinite(gap_error.error) else BlockError(0.0, 1)
+        known = field_errors(balance, numerical, finite, together, response)
+        sampling = response.relative("coefficient", gap_error.error) if not why else math.nan
+        if not math.isfinite(known.get(AREAS[0], math.nan)) and point.decision.grid_error is None:
+            known |= dict.fromkeys(AREAS, known["contact_load"])
+    elif balance.film is None:
+        sampling, known = 0.0, dry_errors(together)
+    else:
+        sampling = missed_share(model, balance.film, found, _correlation_length(model))
+        known = film_alone_errors(film_error(point), found)
+        gap_error, why = BlockError(0.0, ORDER), ""
+        if not math.isfinite(sampling):
+            why = UNKNOWN.format("the patch is too short along y to tell what contact it misses")
+    uncertainty = uncertainty_of(
+        found.coefficient, relative, sampling, gap_error, together, scene, notes=(why,) if why else ()
+    )
+    known["coefficient"] = relative if not math.isfinite(sampling) else math.hypot(relative, sampling)
+    return uncertainty, field_errors_of(known, NO_AREA if point.decision.grid_error is not None else why_not(point))
+
+
+def _numerical(point: Solved, response: Response | None) -> Numerical:
+    """Grid errors of f as errors of the gap, by the same response that carries them back."""
+    balance, decision = point.balance, point.decision
+    if response is None:
+        return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
+    volume = 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
+    per_gap = response.relative("coefficient", 1.0)
+    grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
+    area = 0.0 if decision.grid_error is None else math.nan
+    return Numerical(film_error(point), volume + grid, point.balance.forces.quadrature, area)
+
+
+def _from_slope(point: Solved) -> Response:
+    """`Response` from the slope of the balance alone, nothing solved: films follow the load as rigid ones do, more than
+    elastic ones; f by the sensitivity of `Forces`."""
+    balance = point.balance
+    film, total = balance.contact.mean_film, balance.contact_load + balance.film_load
+    slope = balance.slope or 0.5 * balance.contact_load * balance.film_load / total**2
+    split = -0.5 / (slope * film)
+    share = balance.contact_load / total
+    rates = {
+        "coefficient": point.balance.forces.sensitivity / abs(split * film),
+        "contact_load": share - 1,
+        "boundary_force": share - 1,
+        "film_load": share,
+    }
+    films = ("min_film", "central_film", "mean_gap", "shear_force", "couette_force", "rolling_force")
+    return Response(Slopes(0.0, 0.0, 0.0), split, rates | dict.fromkeys(films, share))
+
+
+def _mirrored(model) -> bool:
+    heights = model.surface.heights
+    return (
+        heights.shape[1] > 1
+        and bool(np.array_equal(heights[:, :2], heights[:, :-3:-1]))
+        and bool(np.array_equal(heights, heights[:, ::-1]))
+    )
+
+
+def _correlation_length(model) -> float:
+    """Along y [m], at 1/e: that of the scene, or of the map itself."""
+    scene = model.scene
+    if not measured(scene) and not model.given:
+        return max(lengths_of(rough)[1] for rough, _ in rough_bodies(scene))
+    return length_or_half(model.surface, 1)

@@ -1,0 +1,31 @@
+"""Rough contacts from pieces of a surface: of a line, and of a fine piece on ever coarser cells of its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..rough.half_space import HalfSpaceContact, half_space_contact
+from ..surface import Surface
+from .cells import Cells
+
+
+def line_contact(scene, surface: Surface) -> HalfSpaceContact:
+    """The contact of ``surface`` under the cylinder of ``scene``."""
+    return half_space_contact(scene, surface.heights - surface.heights.mean(), surface.spacing)
+
+
+def thinned(scene, surface: Surface, cells: Cells, factors: tuple[int, int]) -> HalfSpaceContact:
+    """Every ``factors``-th cell of a fine ``surface``, the coarsest of them being the columns of a line of
+    ``cells``."""
+    fx, fy = factors
+    first = cells.factors[0] // 2 % fx
+    x = cells.axis()[0] + (np.arange(surface.shape[0]) - cells.factors[0] // 2) * cells.spacing[0]
+    kept = replace(
+        surface,
+        heights=surface.heights[first::fx, fy // 2 :: fy],
+        spacing=(surface.spacing[0] * fx, surface.spacing[1] * fy),
+        mask=None,
+    )
+    return half_space_contact(scene, kept.heights - kept.heights.mean(), kept.spacing, x=x[first::fx])

@@ -1,0 +1,74 @@
+"""What a balance answers to an error of its gap: the split of the load, and everything that hangs on it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..point.balance import Balance
+from ..rough.contract import ContactState
+
+STEP = 0.05  # of s = ln(F_H/F_C), each way, for rates of the film
+LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Of a rough contact at a given film, per load P on the width [N/m]: gap [m²/N], the mean gap over A; area [m/N],
+    the contact area fraction of A; touched [m²/N], the contact area per length."""
+
+    gap: float
+    area: float
+    touched: float
+
+
+@dataclass(frozen=True)
+class Response:
+    """Linear answers of a balance.
+
+    slopes: of its contact. split: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at given load;
+    rates:
+    d ln q/ds of the reported quantities q along the balance of load, by name. Without a film the split is what it is.
+    """
+
+    slopes: Slopes
+    split: float = 0.0
+    rates: dict[str, float] | None = None
+
+    def relative(self, name: str, gap_error: float) -> float:
+        """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film."""
+        return abs(self.rates[name] * self.split * gap_error) if self.rates else 0.0
+
+
+def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
+    """Secants from ``load`` [N], at which the contact is ``state``, to 1.05 of it, which ``close`` solves for."""
+    more, step = close(load * (1 + LOAD_STEP)), LOAD_STEP * load / width
+    return Slopes(
+        (more.mean_gap - state.mean_gap) / step,
+        (more.real_contact_area_fraction - state.real_contact_area_fraction) / step,
+        (touched_length(more) - touched_length(state)) / step,
+    )
+
+
+def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[float], dict[str, float]]) -> Response:
+    """`Response` of a balance in contact with a film.
+
+    ``at_split(s)`` gives the quantities by name, "mean_gap" the mean film among them, at another division of the load
+    (no contact is solved). The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), dP/ds = -P F_H/F_T.
+    """
+    low, high = at_split(balance.split - STEP), at_split(balance.split + STEP)
+    film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
+    total = balance.contact_load + balance.film_load
+    load_rate = -balance.contact_load * balance.film_load / (total * width)
+    rates = {name: _log_rate(low[name], high[name]) for name in low}
+    return Response(slopes, -1.0 / (slopes.gap * load_rate - film_rate), rates)
+
+
+def touched_length(state: ContactState) -> float:
+    """Contact area per length of the line [m]."""
+    return float(state.contact_fraction.sum() * (state.x[1] - state.x[0]))
+
+
+def _log_rate(low: float, high: float) -> float:
+    middle = 0.5 * (low + high)
+    return (high - low) / (2 * STEP * middle) if middle else 0.0

@@ -1,0 +1,155 @@
+"""Lines so far, and whether they are enough."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from .. import budget
+from ..model import Model
+from ..point.adapt import Solved
+from ..point.balance import Balance, divided
+from ..rough.half_space import HalfSpaceContact
+from .at_split import at, quantities, redivided
+from .grid_pair import GridStep, grid_step, mean_error
+from .influence import add_errors
+from .length import LONGEST, MOST, MOST_CELLS, next_length
+from .line_record import LineRecord, Pooled, length_of, pooled, record
+from .missed import missed_share
+from .response import Response, respond, slopes_of
+from .uncertainty import FEW
+
+PAIR = 48.0  # correlation lengths along y of a piece on the scene's own cells
+MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
+MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
+LEAST_MORE = 0.25  # of the length so far
+SAME_LOAD = 0.15  # relative change of the contact load for which the grid's effect is not found anew
+
+
+@dataclass(frozen=True)
+class Anchor:
+    """The first line in contact: what is known of it holds for all. grid: what its cells change."""
+
+    contact: HalfSpaceContact
+    point: Solved
+    response: Response
+    grid: tuple[GridStep, ...]
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Lines of ``model`` solved at one speed: ``first`` that of the pilot, ``anchor`` of the first in contact."""
+
+    model: Model
+    speed: float
+    first: Solved
+    records: tuple[LineRecord, ...] = ()
+    anchor: Anchor | None = None
+
+    @property
+    def together(self) -> Pooled:
+        """All lines."""
+        return pooled(self.records)
+
+    @property
+    def reached(self) -> float:
+        """Relative standard error of f so far."""
+        if self.first.balance.film is None:
+            return 0.0
+        if self.anchor is None:
+            return self.missed
+        error = add_errors(self.together.gap, mean_error(self.anchor.grid))
+        return self.anchor.response.relative("coefficient", error.error)
+
+    @property
+    def missed(self) -> float:
+        """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and
+        the length of all."""
+        model, first = self.model, self.first
+        found = missed_share(model, first.balance.film, first.balance.forces, model.lines.lengths[1])
+        found = found if math.isfinite(found) else 0.0
+        return found * length_of(model.contact) / sum(r.length for r in self.records)
+
+    @property
+    def few(self) -> bool:
+        """Too few spots carry the load for an honest interval, and it matters."""
+        asked = self.model.scene.numerics.sampling_tolerance
+        return self.anchor is not None and self.together.participation < FEW and self.reached > MATTERS * asked
+
+    def wanted(self) -> float:
+        """Length [m] of the next line; 0 where no more is needed or to be had."""
+        lines, asked, so_far = self.model.lines, self.model.scene.numerics.sampling_tolerance, self.together.length
+        room = min(lines.available, MOST * lines.lengths[1]) - so_far
+        reached = self.reached
+        if room < LEAST_MORE * so_far or (reached <= asked and not self.few):
+            return 0.0
+        contact = self.model.contact
+        held = MOST_CELLS / contact.heights.shape[0] * contact.spacing[1]
+        more = next_length(so_far, max(reached, asked), asked, min(LONGEST * lines.lengths[1], held, room))
+        return so_far + more if lines.nested else more
+
+    def with_line(self, contact, point: Solved, before: tuple[GridStep, ...] = ()) -> Sample:
+        """The same with one more line; a longer one of a measured map takes the place of the shorter. ``before``:
+        what was found of the grid at a neighbouring speed."""
+        lines, balance, length = self.model.lines, point.balance, length_of(contact)
+        kept = () if lines.nested else self.records
+        if balance.contact_load == 0:
+            return replace(self, records=(*kept, LineRecord(length)))
+        anchor = self.anchor or _anchor(self.model, self.speed, contact, point, before)
+        found = record(
+            contact,
+            balance.contact,
+            balance.contact_load,
+            anchor.response.slopes,
+            lines.lengths[1],
+            lines.windows(length),
+        )
+        return replace(self, records=(*kept, found), anchor=anchor)
+
+
+def _anchor(model, speed: float, contact, point: Solved, before) -> Anchor:
+    response = response_of(model, speed, contact, point.balance)
+    return Anchor(contact, point, response, _grid(model, speed, point, response, before))
+
+
+def response_of(model, speed: float, contact, balance: Balance) -> Response:
+    """`Response` of a balance on ``contact``."""
+    scene, film = model.scene, balance.film
+    if film is None:
+        thickness = under = contact.x**2 / (2 * scene.bodies.radius)
+    else:
+        point = at(model, speed, contact, balance)
+        thickness, under = point.imposed_on(contact, film)
+
+    def close(load):
+        return contact.close(thickness, load, balance.contact, under)
+
+    slopes = slopes_of(balance.contact, balance.contact_load, scene.bodies.width, close)
+    if film is None:
+        return Response(slopes)
+
+    def at_split(split):
+        return quantities(point, redivided(point, balance, divided(scene.bodies.load, split)[1]))
+
+    return respond(scene.bodies.width, balance, slopes, at_split)
+
+
+def _grid(model, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
+    """Pieces on finer cells, until what they scatter by is a small part of the sampling tolerance; those of a
+    neighbouring speed where the contact carries as much."""
+    lines, numerics, balance = model.lines, model.scene.numerics, found.balance
+    load = balance.contact_load
+    if lines.cells.factors == (1, 1) or balance.film is None:
+        return ()
+    if before and abs(load / before[0].contact_load - 1) < SAME_LOAD:
+        return before
+    per_gap = response.relative("coefficient", 1.0)
+    enough, scatter = (
+        budget.CONTACT_GRID * numerics.tolerance / per_gap,
+        PAIR_SHARE * numerics.sampling_tolerance / per_gap,
+    )
+    steps, point = [], at(model, speed, found.contact, balance)
+    while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
+        length = PAIR * lines.lengths[1]
+        steps.append(grid_step(lines, len(steps), length, point, balance.film, load, response.slopes.gap, enough))
+    return tuple(steps)

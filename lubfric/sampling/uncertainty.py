@@ -1,0 +1,140 @@
+"""What is known about the error of a friction coefficient: `Uncertainty`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+CONFIDENCE = 0.95
+FEW = 10.0  # participation below which an interval covers less often than it says
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Of the friction coefficient of one operating point; see docs/uncertainty.md for what is not in it.
+
+    numerical: estimated relative error from film, grids and solvers; sampling: relative standard error because a finite
+    length of rough surface stands for all of it (NaN: cannot be told, ``text`` says why); interval: f at 95 %, from
+    both, by Student's t of ``freedom`` degrees; line_scatter: relative standard deviation of f between lines as wide as
+    that of the scene, another place on the surface each; participation: number of equally loaded spots that would
+    carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed
+    (1: enough).
+    """
+
+    numerical: float = math.nan
+    sampling: float = math.nan
+    interval: tuple[float, float] = (math.nan, math.nan)
+    line_scatter: float = math.nan
+    participation: float = math.nan
+    length: float = math.nan
+    freedom: float = 0.0
+    tolerance: float = math.nan
+    area_needed: float = 1.0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        first = f"f within {self.interval[0]:.4g} .. {self.interval[1]:.4g} (95 %): numerical {percent(self.numerical)}"
+        if not math.isfinite(self.sampling):
+            return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
+        surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
+        return "; ".join((f"{first}, {surface}", *self.notes))
+
+    def short(self, coefficient: float) -> str:
+        """f = value ± standard error, and where it comes from."""
+        if not math.isfinite(self.sampling):
+            return f"f = {coefficient:.4g} (numerical {percent(self.numerical)}, surface not known)"
+        both = math.hypot(self.numerical, self.sampling) * abs(coefficient)
+        digits = max(0, 1 - math.floor(math.log10(both))) if both > 0 else 4
+        return (
+            f"f = {coefficient:.{min(digits, 7)}f} ± {both:.1g} "
+            f"(numerical {percent(self.numerical)}, surface {percent(self.sampling)})"
+        )
+
+
+NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed")
+
+
+@dataclass(frozen=True)
+class UncertaintyCurve:
+    """`Uncertainty` of many operating points: arrays over them, NaN where a point failed; interval (n, 2)."""
+
+    numerical: np.ndarray
+    sampling: np.ndarray
+    interval: np.ndarray
+    line_scatter: np.ndarray
+    participation: np.ndarray
+    length: np.ndarray
+    area_needed: np.ndarray
+    text: tuple[str, ...]
+
+
+def curve_of(points) -> UncertaintyCurve:
+    """Of ``points``, each an `Uncertainty` or None."""
+    columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
+    both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
+    return UncertaintyCurve(**columns, interval=both, text=tuple("" if p is None else p.text for p in points))
+
+
+@dataclass(frozen=True)
+class FieldErrors:
+    """Estimated relative error of every reported quantity, one standard error where the surface is in it; NaN where it
+    cannot be told: ``reasons`` has the name and why."""
+
+    coefficient: float = math.nan
+    contact_load: float = math.nan
+    film_load: float = math.nan
+    shear_force: float = math.nan
+    couette_force: float = math.nan
+    rolling_force: float = math.nan
+    boundary_force: float = math.nan
+    real_contact_area_fraction: float = math.nan
+    real_contact_area: float = math.nan
+    plastic_area_fraction: float = math.nan
+    min_film: float = math.nan
+    central_film: float = math.nan
+    mean_gap: float = math.nan
+    film_to_roughness_ratio: float = math.nan
+    inlet_film_factor: float = math.nan
+    flash_temperature_rise: float = math.nan
+    film_temperature_rise: float = math.nan
+    reasons: dict[str, str] = field(default_factory=dict)
+
+
+FIELDS = tuple(name for name in FieldErrors.__dataclass_fields__ if name != "reasons")
+
+
+def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
+    """`FieldErrors` of the errors ``known`` by name; ``why`` of those that are not."""
+    found = {name: float(value) for name, value in known.items() if math.isfinite(value)}
+    return FieldErrors(**found, reasons={name: why for name in FIELDS if name not in found})
+
+
+def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:
+    """Where nothing is known of the surface beyond the ``length`` [m] that was solved, and ``why``."""
+    error = math.nan if numerical is None else numerical
+    asked = scene.numerics.sampling_tolerance
+    return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))
+
+
+def interval(value: float, numerical: float, sampling: float, freedom: float) -> tuple[float, float]:
+    """value (1 ± sqrt(numerical² + (t sampling)²)), t the 97.5 % quantile of Student's t with ``freedom`` degrees."""
+    if not math.isfinite(sampling):
+        return math.nan, math.nan
+    half = abs(value) * math.hypot(numerical, student(freedom) * sampling if sampling else 0.0)
+    return value - half, value + half
+
+
+def student(freedom: float) -> float:
+    """97.5 % quantile of Student's t."""
+    from scipy.special import stdtrit
+
+    return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
+
+
+def percent(value: float) -> str:
+    """Two digits and a percent sign."""
+    return f"{100 * value:.2g} %"

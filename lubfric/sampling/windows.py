@@ -1,0 +1,150 @@
+"""Lines from a measured map: windows of it across the motion, stacked into one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import InputError
+from ..rough.height_map import extended
+from ..scene import Scene
+from ..surface import Surface, correlation_length
+from .cells import Cells, choose_cells, reach_of
+
+APART = 4.0  # correlation lengths along the motion between windows that are independent
+BLEND = 2.0  # correlation lengths along y over which one window passes into the next
+
+
+@dataclass(frozen=True)
+class MeasuredLines:
+    """Lines of a measured ``surface``, on its own cells or every so-manieth of them.
+
+    starts: first columns of the windows that the map holds independently, in the order in which they are used: any
+    number of them is spread over the map. A longer line holds the shorter ones.
+    """
+
+    scene: Scene
+    surface: Surface
+    cells: Cells
+    lengths: tuple[float, float]
+    starts: tuple[int, ...]
+    nested: bool = True
+
+    @property
+    def window(self) -> float:
+        """Length [m] that one window adds to a line."""
+        return (self.surface.shape[1] - self._blend()) * self.surface.spacing[1]
+
+    @property
+    def available(self) -> float:
+        """Longest line [m] that the map holds."""
+        return len(self.starts) * self.window
+
+    def line(self, index: int, length: float) -> Surface:
+        """The shortest line of whole windows that is at least ``length`` [m] long, or of all; ``index`` tells
+        nothing."""
+        count = min(len(self.starts), max(1, math.ceil(length / self.window * (1 - 1e-9))))
+        fx, fy = self.cells.factors
+        pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
+        stacked = stack(pieces, self._blend())
+        rows = stacked.shape[1] // (4 * fy) * 4 * fy
+        note = f"{count} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
+        return self._made(stacked[:, fy // 2 : rows : fy], self.cells.coarse, note)
+
+    def windows(self, length: float) -> int:
+        """How many windows a line of ``length`` [m] holds."""
+        return max(1, round(length / self.window))
+
+    def pair(self, index: int, length: float) -> Surface:
+        """A piece of one window on the map's own cells."""
+        fx, fy = self.cells.factors
+        whole = self._columns(self.starts[index % len(self.starts)])
+        blend, unit = self._blend(), 4 * fy
+        rows = min(whole.shape[1] - blend, round(length / self.surface.spacing[1])) // unit * unit
+        first = (whole.shape[1] - rows - blend) // 2
+        piece = whole[:, first : first + rows + blend]
+        return self._made(stack([piece], blend)[:, :rows], self.surface.spacing, "a piece on the map's own cells")
+
+    def again(self, scene: Scene) -> MeasuredLines | None:
+        """The same for another scene with the same windows."""
+        other = measured_lines(scene, self.surface, self.lengths)
+        return other if (other.cells, other.starts) == (self.cells, self.starts) else None
+
+    def halved(self) -> MeasuredLines:
+        """The same on cells half as long."""
+        return replace(self, cells=self.cells.halved())
+
+    def _blend(self) -> int:
+        return min(max(1, round(BLEND * self.lengths[1] / self.surface.spacing[1])), self.surface.shape[1] // 4)
+
+    def _columns(self, start: int) -> np.ndarray:
+        return self.surface.heights[start : start + self.cells.count * self.cells.factors[0]]
+
+    def _made(self, heights, spacing, note) -> Surface:
+        return replace(
+            self.surface,
+            heights=heights,
+            spacing=spacing,
+            mask=None,
+            periodic_axes=(False, True),
+            notes=(*self.surface.notes, note),
+        )
+
+
+def stack(pieces, blend: int) -> np.ndarray:
+    """Arrays (nx, ny) one after the other along y, the last joined to the first: the last ``blend`` cells of each are
+    laid over the first of the next with weights cos and sin, whose squares add to 1, about the mean of all."""
+    mean = float(np.mean([p.mean() for p in pieces]))
+    angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
+    out = []
+    for before, piece in zip([pieces[-1], *pieces[:-1]], pieces):
+        part = piece[:, : piece.shape[1] - blend].copy()
+        part[:, :blend] = mean + np.sin(angle) * (piece[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
+        out.append(part)
+    return np.concatenate(out, axis=1)
+
+
+def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredLines:
+    """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``; its correlation
+    ``lengths`` [m] along x and y, where they are known."""
+    if scene.contact.spacing is not None:
+        surface = surface.resampled(spacing=scene.contact.spacing)
+    reach = reach_of(scene, surface.sq)
+    if extended(scene):
+        surface = surface.continued(reach)
+    half_width, (dx, _) = scene.bodies.half_width, surface.spacing
+    lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
+    if scene.contact.shape is not None:
+        reach = scene.contact.shape[0] * dx
+    cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
+    fine = cells.count * cells.factors[0]
+    while fine > surface.shape[0]:
+        cells = replace(cells, count=cells.count - 4)
+        fine = cells.count * cells.factors[0]
+    if cells.count < 1:
+        raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
+    step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
+    room = surface.shape[0] - fine
+    starts = room // 2 + step * np.arange(-(room // 2 // step), (room - room // 2) // step + 1)
+    return MeasuredLines(scene, surface, cells, lengths, tuple(int(starts[i]) for i in spread(len(starts))))
+
+
+def length_or_half(surface: Surface, axis: int) -> float:
+    """Correlation length [m] at 1/e; half the map where it is longer."""
+    try:
+        return correlation_length(surface, axis)
+    except InputError:
+        return 0.5 * surface.size[axis]
+
+
+def spread(count: int) -> list[int]:
+    """0 .. count - 1 from the middle, each next as far from those before as can be."""
+    left, order = set(range(count)), []
+    while left:
+        middle = 0.5 * (count - 1)
+        best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))
+        order.append(best)
+        left.remove(best)
+    return order

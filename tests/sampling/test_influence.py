@@ -1,0 +1,78 @@
+"""Errors of means along a line: closed forms and independent draws."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from lubfric.sampling.influence import (
+    BlockError,
+    add_errors,
+    block_error,
+    gap_influence,
+    participation,
+    spot_loads,
+    weighted_errors,
+)
+from lubfric.sampling.uncertainty import interval, student
+
+
+def correlated(rng, count, length):
+    """Unit variance, moving average over ``length`` points: the mean of n has the variance length/n."""
+    noise = rng.standard_normal(count + length - 1)
+    return np.convolve(noise, np.full(length, length**-0.5), "valid")
+
+
+def test_block_error_is_that_of_the_mean_of_correlated_values():
+    rng, count, length = np.random.default_rng(5), 3200, 10
+    draws = [correlated(rng, count, length) for _ in range(400)]
+    found = [block_error(d, 1.0, 2.0 * length) for d in draws]
+    assert found[0].freedom == 31
+    observed = np.std([d.mean() for d in draws])
+    assert np.sqrt(np.mean([f.error**2 for f in found])) == pytest.approx(observed, rel=0.1)
+    covered = np.mean([abs(d.mean()) <= student(f.freedom) * f.error for d, f in zip(draws, found)])
+    assert 0.92 <= covered <= 0.98
+
+
+def test_a_line_too_short_for_eight_blocks_tells_nothing():
+    assert block_error(np.arange(300.0), 1.0, 10.0) == BlockError(math.inf, 0)
+    assert block_error(np.arange(400.0), 1.0, 10.0).freedom == 7
+
+
+def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load():
+    load = np.random.default_rng(1).random(64)
+    gap = 3.0 - 2.0 * load
+    np.testing.assert_allclose(gap_influence(gap, load, -2.0), gap.mean(), rtol=1e-14)
+    assert gap_influence(gap, load, 5.0).mean() == pytest.approx(gap.mean(), rel=1e-14)
+
+
+@pytest.mark.parametrize("count", [1, 7, 50])
+def test_participation_counts_equal_loads(count):
+    loads = np.zeros(100)
+    loads[:count] = 3.0
+    assert participation(loads) == pytest.approx(count)
+    assert participation(np.zeros(4)) == 0.0
+
+
+def test_spot_loads_keep_the_load():
+    line = np.random.default_rng(2).random(96)
+    assert spot_loads(line, 1.0, 4.0).sum() == pytest.approx(line[: 96 // 7 * 7].sum())
+
+
+def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
+    both = add_errors(BlockError(3.0, 10), BlockError(4.0, 20))
+    assert both.error == pytest.approx(5.0)
+    assert both.freedom == int(25**2 / (9**2 / 10 + 16**2 / 20))
+    assert weighted_errors([(0.5, BlockError(2.0, 8)), (0.5, BlockError(2.0, 8))]).error == pytest.approx(
+        math.sqrt(2.0)
+    )
+    assert add_errors().error == 0.0
+
+
+@pytest.mark.parametrize("freedom", [1, 7, 31])
+def test_interval_is_students(freedom):
+    low, high = interval(2.0, 0.0, 0.01, freedom)
+    assert (high - low) / 2 == pytest.approx(stats.t.ppf(0.975, freedom) * 0.02, rel=1e-12)
+    assert interval(2.0, 0.03, 0.0, freedom) == pytest.approx((2 - 0.06, 2 + 0.06))
+    assert all(math.isnan(end) for end in interval(2.0, 0.01, math.nan, freedom))

@@ -1,0 +1,111 @@
+"""Friction of a long line: its interval against other lines, its response against solving again, its patches."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.cli import main
+from lubfric.output import read_csv
+from lubfric.point.adapt import solved
+from lubfric.rough.height_map import contact_map
+from lubfric.sampling.sample import response_of
+
+PAPER = lubfric.load_scene("paper")
+
+
+def test_intervals_cover_a_line_many_times_as_long():
+    truth = lubfric.friction(PAPER.with_(surface={"seed": 900}, numerics={"sampling_tolerance": 0.002}), 0.004)
+    points = [lubfric.friction(PAPER.with_(surface={"seed": s}), 0.004) for s in range(901, 917)]
+    f = np.array([p.coefficient for p in points])
+    sampling = np.array([p.uncertainty.sampling for p in points])
+    assert f.std(ddof=1) / f.mean() == pytest.approx(math.sqrt(np.mean(sampling**2)), rel=0.5)
+    covered = [p.uncertainty.interval[0] <= truth.coefficient <= p.uncertainty.interval[1] for p in points]
+    assert sum(covered) >= 13
+    apart = f.mean() - truth.coefficient
+    assert abs(apart) <= 3 * truth.coefficient * math.hypot(truth.uncertainty.sampling, sampling.mean() / 4)
+
+
+def test_the_error_asked_is_reached_and_a_longer_line_is_used():
+    loose, tight = (lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": s}), 0.02) for s in (0.1, 0.02))
+    assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
+    assert tight.uncertainty.length > 2 * loose.uncertainty.length
+    assert "few spots" not in tight.uncertainty.text and tight.uncertainty.participation >= 10
+    scatter = tight.uncertainty.sampling * math.sqrt(tight.uncertainty.length / PAPER.bodies.width)
+    assert tight.uncertainty.line_scatter == pytest.approx(scatter)
+
+
+def test_response_foretells_what_another_gap_does():
+    model, speed = lubfric.prepare(PAPER.with_(numerics={"tolerance": 1e-3, "balance_tolerance": 1e-6})), 0.003
+    point = solved(model, speed, given_grid=True)
+    balance = point.balance
+    response = response_of(model, speed, model.contact, balance)
+    rougher = dataclasses.replace(model.contact, heights=1.01 * model.contact.heights)
+    film = balance.film.film_at(model.contact.x)
+    change = rougher.close(film, balance.contact_load, balance.contact).mean_gap - balance.contact.mean_gap
+    again = solved(dataclasses.replace(model, contact=rougher), speed, balance, given_grid=True)
+    moved = again.balance.split - balance.split
+    assert response.split * change == pytest.approx(moved, rel=0.03)
+    f = again.balance.forces.coefficient / balance.forces.coefficient - 1
+    assert response.rates["coefficient"] * moved == pytest.approx(f, rel=0.05)
+    assert response.rates["contact_load"] == pytest.approx(-balance.film_load / PAPER.bodies.load, rel=1e-2)
+
+
+def test_loads_add_up_and_errors_belong_together():
+    point = lubfric.friction(PAPER, 0.003)
+    total = PAPER.bodies.load
+    assert point.contact_load + point.film_load == pytest.approx(total, rel=1e-12)
+    ratio = point.film_load / point.contact_load
+    assert point.errors.contact_load == pytest.approx(ratio * point.errors.film_load, rel=0.02)
+    assert point.mean_gap == pytest.approx(point.balance.contact.mean_film)
+    assert point.errors.coefficient == pytest.approx(
+        math.hypot(point.uncertainty.sampling, point.uncertainty.numerical)
+    )
+    assert 0 < point.errors.real_contact_area < 0.5 and "plastic_area_fraction" in point.errors.reasons
+
+
+def test_one_patch_is_what_it_was():
+    scene = PAPER.with_(numerics={"sampling": "patch"})
+    point = lubfric.friction(scene, 0.03)
+    assert point.coefficient == lubfric.friction(lubfric.prepare(scene, contact_map(scene)), 0.03).coefficient
+    assert point.balance.contact.fields.pressure.shape[1] <= 200
+    assert math.isnan(point.uncertainty.sampling) and "40 are needed" in point.uncertainty.text
+    assert all(math.isnan(end) for end in point.uncertainty.interval)
+
+
+def test_a_given_map_is_a_sample_and_its_mirror_image_no_more_of_it():
+    surface = lubfric.generate_surface((64, 512), 1.2e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=4)
+    half = dataclasses.replace(surface, periodic_axes=(False, False))
+    scene = PAPER.with_(contact={"shape": (64, 512), "spacing": 1.2e-6})
+    once = lubfric.friction(lubfric.prepare(scene, surface), 0.01).uncertainty
+    twice = lubfric.friction(lubfric.prepare(scene, half.periodic("mirror", axes=(False, True))), 0.01).uncertainty
+    assert 0.01 < once.sampling < 0.1 and once.length == pytest.approx(512 * 1.2e-6)
+    assert twice.length == pytest.approx(once.length) and twice.sampling == pytest.approx(once.sampling, rel=0.3)
+
+
+def test_contact_may_be_missed_where_the_film_just_clears_the_summits():
+    near, far = (lubfric.friction(PAPER, speed) for speed in (0.15, 1.0))
+    assert near.contact_load == far.contact_load == 0
+    assert near.uncertainty.sampling > 100 * far.uncertainty.sampling > 0
+    assert math.isnan(near.errors.contact_load) and "no contact" in near.errors.reasons["contact_load"]
+
+
+def test_a_model_is_used_again_or_made_again():
+    model = lubfric.prepare(PAPER)
+    same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
+    assert same.surface is model.surface and same.contact.operator is model.contact.operator
+    patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
+    assert patch.lines is None and patch.contact.heights.shape == PAPER.contact.shape
+    back = lubfric.prepare(PAPER, like=patch)
+    np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
+
+
+def test_the_command_tells_the_interval(tmp_path, capsys):
+    arguments = ["run", "paper", "--out", str(tmp_path), "--speeds", "0.002,0.5", "--sampling-tolerance", "0.05"]
+    assert main(arguments) == 0
+    assert "surface" in capsys.readouterr().err
+    columns = read_csv(tmp_path / "stribeck.csv")
+    assert np.all(columns["interval_low"] <= columns["coefficient"])
+    assert np.all(columns["coefficient"] <= columns["interval_high"]) and np.all(columns["sampling_error"] <= 0.05)

@@ -1,0 +1,586 @@
+"""Every key of a scene reaches the number, in steady, sweep and transient: corners, undone one key at a time.
+
+A corner is a scene with telling values of many keys. That each of them counts is seen by undoing it alone: f moves, or
+the scene is refused. That its value counts as it should is an oracle of its own below, or a test elsewhere that is
+named. That a sweep and a transient take all of them is seen by their answer to the corner being the steady one.
+
+To add a key: put it into a corner (`CORNERS`), and into `ORACLES` with a test that shows its value by something that
+shares no code with it: a closed form, a metamorphic relation, another solver.
+"""
+
+import dataclasses
+import math
+import typing
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.rough.height_map import contact_map
+
+NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_map`)
+MOVES = 0.02  # least relative change of f by an undone key: twice the tolerance of a scene
+BASE = lubfric.load_scene("flat").with_(
+    lubricant={"viscosity_law": "barus", "pressure_viscosity_coefficient": 1e-8},
+    motion={"entrainment_speed": 0.01, "speeds": ()},
+    surface={"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"},
+    contact={"shape": (48, 48), "spacing": 2e-6},
+    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "tolerance": 0.01},
+)
+SPEED = BASE.motion.entrainment_speed
+
+
+@cache
+def answer(scene, mode="steady"):
+    """f of ``scene`` in one of the three ways to ask for it."""
+    if mode == "steady":
+        return lubfric.friction(scene).coefficient
+    if mode == "sweep":
+        curve = lubfric.stribeck(scene, [2 * scene.motion.entrainment_speed, scene.motion.entrainment_speed])
+        return float(curve.coefficient[1])
+    plan = lubfric.Transient(1e-4, outputs=1)
+    return float(lubfric.transient(scene.with_(transient=plan)).coefficient[-1])
+
+
+def moved(corner, undone):
+    """Relative change of f by what is undone; infinite where the scene is refused without it."""
+    there = answer(corner)
+    try:
+        return abs(answer(undone()) / there - 1)
+    except lubfric.InputError:
+        return math.inf
+
+
+# --- corners --------------------------------------------------------------------------------------
+
+SIZES = BASE.with_(
+    bodies={"radius": 3e-3, "width": 5e-3, "load": 7.0, "e_prime": 150e9, "boundary_friction_coefficient": 0.12},
+    lubricant={"viscosity": 0.45, "pressure_viscosity_coefficient": 2.5e-8},
+    motion={"entrainment_speed": 0.015, "slide_roll_ratio": -1.2},
+    surface={"sq": 1.3e-7, "correlation_length": 6e-6, "acf": "exponential", "decay_level": 0.75, "seed": 6},
+    contact={"spacing": 3e-6, "shape": (64, 64)},
+)
+LAWS = BASE.with_(
+    bodies={"load": 200.0},
+    lubricant={
+        "viscosity": 0.1,
+        "viscosity_law": "roelands",
+        "pressure_viscosity_coefficient": 1.8e-8,
+        "density_law": "dowson-higginson",
+        "eyring_stress": 5e6,
+    },
+    motion={"entrainment_speed": 0.06, "slide_roll_ratio": 0.5},
+)
+LIMITS = LAWS.with_(
+    lubricant={"eyring_stress": None, "limiting_stress_coefficient": 1e-3, "limiting_stress_offset": 2e5},
+    motion={"entrainment_speed": 0.3, "slide_roll_ratio": 2.0},
+    surface={"sq": 1e-8},
+)
+CYLINDER = lubfric.load_scene("paper").with_(
+    bodies={"load": 40.0, "hardness": None, "width": 2e-3},
+    motion={"entrainment_speed": 0.003, "speeds": ()},
+    lubricant={"pressure_viscosity_coefficient": 1e-8},  # no pressure spike, whose shear a transient does not resolve
+    surface={"sq": 1.5e-7, "correlation_length": 12e-6, "oversize": 2},
+    contact={"region": "box", "shape": (64, 24), "spacing": (2e-6, 2.5e-6)},
+    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off"},
+)
+ASPERITIES = BASE.with_(contact={"model": "summits", "asperity_separation": "mean-plane"})
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """A map that needs every key of a file: barrelled, in µm with decimal commas, holes as -99, a spike, long and short
+    waves, its lay across; and another body's."""
+    folder = tmp_path_factory.mktemp("maps")
+    for name, seed in (("a.txt", 1), ("b.txt", 2)):
+        rough = lubfric.generate_surface(
+            (64, 36), 2e-6, sq=1e-7, correlation_length=(12e-6, 4e-6), acf="gaussian", seed=seed
+        )
+        x = np.linspace(-1, 1, 64)[:, None]
+        waves = 1.5e-7 * np.sin(9 * x) + 6e-8 * np.random.default_rng(seed).standard_normal((64, 36))
+        z = (rough.heights + waves + 2e-6 * x**2) * 1e6
+        z[20, 11] += 6.0
+        z[40:42, 20] = -99.0
+        text = "\n".join(", ".join(f"{v:.6f}".replace(".", ",") for v in row) for row in z.tolist())
+        (folder / name).write_text(text)
+    return folder
+
+
+FILE = {
+    "spacing": (2e-6, 2.5e-6),
+    "unit": "um",
+    "decimal": ",",
+    "missing_value": -99.0,
+    "form": "quadratic",
+    "outliers": "mask",
+    "s_filter": 1.5e-5,
+    "l_filter": 6e-5,
+    "motion_axis": "y",
+    "extension": "mirror",
+}
+PLAIN = {"spacing": None, "unit": None, "decimal": None, "missing_value": None, "form": "plane", "outliers": "keep"}
+PLAIN |= {"s_filter": None, "l_filter": None, "motion_axis": "x", "extension": "none"}
+
+
+def file_corner(folder, section):
+    """A cylinder under a measured map; the other body smooth, or the measured one the second."""
+    wide = CYLINDER.with_(
+        bodies={"load": 300.0, "radius": 8e-3},
+        contact={"region": "hertz", "shape": None, "spacing": None},
+    )
+    keys = {"file": str(folder / "a.txt"), **FILE}
+    if section == "surface":
+        return wide.with_(surface=keys)
+    flat = {"sq": 0.0, "correlation_length": 1e-5, "oversize": 1}
+    grid = {"shape": (96, 32), "spacing": 2.5e-6}
+    return wide.with_(surface=flat, contact=grid, counterface=keys)
+
+
+def undo(corner, base, section, key):
+    """``corner`` with one field as it is in ``base``."""
+    return lambda: corner.with_(**{section: {key: getattr(getattr(base, section), key)}})
+
+
+CORNERS = {
+    "sizes": (
+        SIZES,
+        {
+            (s, k): undo(SIZES, BASE, s, k)
+            for s, keys in {
+                "bodies": ("radius", "width", "load", "e_prime", "boundary_friction_coefficient"),
+                "lubricant": ("viscosity", "pressure_viscosity_coefficient"),
+                "motion": ("entrainment_speed", "slide_roll_ratio"),
+                "surface": ("sq", "correlation_length", "acf", "decay_level", "seed"),
+                "contact": ("spacing", "shape"),
+            }.items()
+            for k in keys
+        },
+    ),
+    "laws": (
+        LAWS,
+        {
+            ("lubricant", "viscosity_law"): lambda: LAWS.with_(lubricant={"viscosity_law": "barus"}),
+            ("lubricant", "density_law"): lambda: LAWS.with_(lubricant={"density_law": "constant"}),
+            ("lubricant", "eyring_stress"): lambda: LAWS.with_(lubricant={"eyring_stress": None}),
+        },
+    ),
+    "limits": (
+        LIMITS,
+        {
+            ("lubricant", "limiting_stress_coefficient"): lambda: LIMITS.with_(
+                lubricant={"limiting_stress_coefficient": None}
+            ),
+            ("lubricant", "limiting_stress_offset"): lambda: LIMITS.with_(lubricant={"limiting_stress_offset": 1e6}),
+        },
+    ),
+    "cylinder": (
+        CYLINDER,
+        {
+            ("contact", "geometry"): lambda: CYLINDER.with_(contact={"geometry": "flat"}),
+            ("contact", "region"): lambda: CYLINDER.with_(contact={"region": "hertz"}),
+            ("surface", "oversize"): lambda: CYLINDER.with_(surface={"oversize": 3}),
+        },
+    ),
+    "asperities": (
+        ASPERITIES,
+        {
+            ("contact", "model"): lambda: ASPERITIES.with_(contact={"model": "half-space"}),
+            ("contact", "asperity_separation"): lambda: ASPERITIES.with_(contact={"asperity_separation": "volume"}),
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("corner, key", [(c, k) for c, (_, keys) in CORNERS.items() for k in keys])
+def test_each_key_of_a_corner_moves_the_number(corner, key):
+    scene, undone = CORNERS[corner]
+    assert moved(scene, undone[key]) > MOVES
+
+
+@pytest.mark.parametrize("mode", ["sweep", "transient"])
+@pytest.mark.parametrize("corner", CORNERS)
+def test_a_sweep_and_a_transient_take_every_key_of_a_corner(corner, mode):
+    scene = CORNERS[corner][0]
+    assert answer(scene, mode) == pytest.approx(answer(scene), rel=0.6 * MOVES)
+
+
+@pytest.mark.parametrize("section", ["surface", "counterface"])
+def test_each_key_of_a_measured_map_moves_the_number(measured, section):
+    corner = file_corner(measured, section)
+    unfiltered = {"s_filter": None, "l_filter": None}
+    beside = {"missing_value": {"outliers": "keep"}, **dict.fromkeys(("motion_axis", "form", "outliers"), unfiltered)}
+    for key in FILE:  # holes told as numbers are outliers too, and filters leave little of form and lay
+        scene = corner.with_(**{section: beside.get(key, {})})
+        assert moved(scene, lambda: scene.with_(**{section: {key: PLAIN[key]}})) > NOT_NOTHING, key
+    assert moved(corner, lambda: corner.with_(**{section: {"sq": 3e-7}})) > MOVES
+    other = {"file": str(measured / "b.txt")}
+    assert moved(corner, lambda: corner.with_(**{section: other})) > MOVES
+    for mode in ("sweep", "transient"):
+        assert answer(corner, mode) == pytest.approx(answer(corner), rel=0.6 * MOVES)
+
+
+# --- oracles of the values ------------------------------------------------------------------------
+
+
+def test_similar_contacts_have_one_coefficient():
+    """Lengths times 2, pressures times 3: f stays (Barus has no pressure of its own)."""
+    a, b = 2.0, 3.0
+    scaled = {
+        "bodies": {"radius": a, "width": a, "load": a * a * b, "e_prime": b, "hardness": b},
+        "lubricant": {
+            "viscosity": a * b,
+            "pressure_viscosity_coefficient": 1 / b,
+            "eyring_stress": b,
+            "limiting_stress_offset": b,
+        },
+        "surface": {"sq": a, "correlation_length": a},
+        "contact": {"spacing": a},
+    }
+    scene = BASE.with_(
+        bodies={"hardness": 2e9},
+        lubricant={"eyring_stress": 1e6, "limiting_stress_coefficient": 0.04, "limiting_stress_offset": 2e6},
+        motion={"entrainment_speed": 0.05},
+    )
+    similar = scene.with_(
+        **{s: {k: getattr(getattr(scene, s), k) * factor for k, factor in keys.items()} for s, keys in scaled.items()}
+    )
+    assert answer(similar) == pytest.approx(answer(scene), rel=1e-3)
+    one = lubfric.friction(similar).contact_load / lubfric.friction(scene).contact_load
+    assert one == pytest.approx(a * a * b, rel=1e-3)
+
+
+@pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
+def test_only_the_product_of_speed_and_viscosity_counts(mode):
+    twin = BASE.with_(lubricant={"viscosity": 2 * BASE.lubricant.viscosity}, motion={"entrainment_speed": SPEED / 2})
+    assert answer(twin, mode) == pytest.approx(answer(BASE), rel=5e-3)
+
+
+@pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
+def test_boundary_friction_is_its_share_of_the_load(mode):
+    more = BASE.bodies.boundary_friction_coefficient + 0.05
+    share = lubfric.friction(BASE).contact_load / BASE.bodies.load
+    other = BASE.with_(bodies={"boundary_friction_coefficient": more})
+    assert answer(other, mode) - answer(BASE, mode) == pytest.approx(0.05 * share, rel=0.01)
+
+
+def test_couette_force_is_the_ratio_times_that_of_one():
+    """Newtonian: linear in the slide-roll ratio, and along the sliding whichever way that is."""
+    forces = [lubfric.friction(BASE.with_(motion={"slide_roll_ratio": r})).couette_force for r in (0.5, 2.0, -2.0)]
+    assert forces[1] == pytest.approx(4 * forces[0], rel=5e-3) and forces[2] == pytest.approx(forces[1], rel=5e-3)
+
+
+def own_stress(oil, p, rate):
+    """Shear stress by the laws as they are written, apart from `lubfric.lubricant`."""
+    if oil.viscosity_law == "barus":
+        log = oil.pressure_viscosity_coefficient * p
+    else:
+        z = oil.pressure_viscosity_coefficient * 1.96e8 / (math.log(oil.viscosity) + 9.67)
+        log = (math.log(oil.viscosity) + 9.67) * ((1 + p / 1.96e8) ** z - 1)
+    tau = oil.viscosity * np.exp(log * (oil.viscosity_law != "constant")) * rate
+    if oil.eyring_stress:
+        tau = oil.eyring_stress * np.arcsinh(tau / oil.eyring_stress)
+    if oil.limiting_stress_coefficient:
+        tau = np.minimum(tau, oil.limiting_stress_offset + oil.limiting_stress_coefficient * p)
+    return tau
+
+
+FILM = BASE.with_(
+    bodies={"load": 300.0},
+    motion={"entrainment_speed": 0.3, "slide_roll_ratio": 0.2},
+    lubricant={"viscosity": 0.08, "pressure_viscosity_coefficient": 1.5e-8},
+    surface={"sq": 0.0},
+    numerics={"tolerance": 2e-3},
+)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"viscosity_law": "roelands"},
+        {"viscosity_law": "roelands", "eyring_stress": 4e6},
+        {"limiting_stress_coefficient": 0.02, "limiting_stress_offset": 4e6},
+        {"density_law": "dowson-higginson", "viscosity_law": "roelands"},
+    ],
+)
+def test_shear_and_flow_of_a_film_obey_the_laws_asked_for(law):
+    """Couette force by quadrature of the law; and the mass flow rho (U h - h³ p'/12 eta) the same everywhere."""
+    scene = FILM.with_(lubricant=law)
+    result = lubfric.friction(scene)
+    film, oil, speed = result.balance.film, scene.lubricant, scene.motion.entrainment_speed
+    assert result.contact_load == 0
+    x, p, h = film.x, film.pressure, film.film_thickness
+    wet = x <= film.rupture
+    tau = own_stress(oil, p, scene.motion.slide_roll_ratio * speed / h)[wet]
+    inlet = oil.viscosity * scene.motion.slide_roll_ratio * speed * 2 * scene.bodies.radius / abs(x[0])
+    force = scene.bodies.width * (np.trapezoid(tau, x[wet]) + inlet)
+    assert result.couette_force == pytest.approx(force, rel=0.01)
+    pm, hm, slope = (p[1:] + p[:-1]) / 2, (h[1:] + h[:-1]) / 2, np.diff(p) / np.diff(x)
+    newtonian = dataclasses.replace(oil, eyring_stress=None, limiting_stress_coefficient=None)
+    eta = own_stress(newtonian, pm, 1.0)
+    rho = 1 + (0.6e-9 * pm / (1 + 1.7e-9 * pm) if oil.density_law != "constant" else 0 * pm)
+    inside = (pm > 0.05 * p.max()) & (x[1:] < 0)  # the inlet, which sets the flow
+    flow = (rho * (speed * hm - hm**3 * slope / (12 * eta)))[inside]
+    centre = np.interp(0.0, x[1:], rho * speed * hm)
+    assert np.median(flow) == pytest.approx(centre, rel=0.01) and np.ptp(flow) < 0.05 * centre
+
+
+def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip():
+    """Hardness and geometry: gap and area from a dry contact solved here, at F_C over the Hertz strip."""
+    scene = BASE.with_(bodies={"hardness": 4e8})
+    result, surface = lubfric.friction(scene), contact_map(scene)
+    pressure = result.contact_load / (2 * scene.bodies.half_width * scene.bodies.width)
+    dry = lubfric.solve_contact(
+        surface.heights.max() - surface.heights,
+        surface.spacing,
+        scene.bodies.e_prime,
+        mean_pressure=pressure,
+        hardness=scene.bodies.hardness,
+    )
+    assert result.mean_gap == pytest.approx(np.maximum(dry.gap, 0).mean(), rel=5e-3)
+    assert result.real_contact_area_fraction == pytest.approx((dry.pressure > 0).mean(), rel=0.05)
+    assert result.plastic_area_fraction == pytest.approx((dry.pressure >= 4e8 * (1 - 1e-9)).mean(), rel=0.1)
+    elastic = lubfric.friction(BASE)
+    assert result.real_contact_area_fraction > 1.05 * elastic.real_contact_area_fraction
+
+
+@pytest.mark.parametrize("region", ["hertz", "box"])
+def test_the_area_of_the_volume_balance(region):
+    """Mean gap by hand over the columns of the strip, or of the box."""
+    scene = CYLINDER.with_(contact={"region": region}, surface={"oversize": 1, "correlation_length": 6e-6})
+    result = lubfric.friction(scene, fields=True)
+    x, gap = result.balance.contact.x, np.maximum(result.balance.contact.fields.gap, 0).mean(axis=1)
+    dx, b = scene.contact.spacing[0], scene.bodies.half_width
+    weight = np.ones(x.size)
+    if region == "hertz":
+        weight = np.clip((np.minimum(x + dx / 2, b) - np.maximum(x - dx / 2, -b)) / dx, 0, 1)
+    assert result.mean_gap == pytest.approx(weight @ gap / weight.sum(), rel=1e-6)
+    assert result.balance.contact.fields.pressure.shape == scene.contact.shape
+
+
+def test_a_generated_map_has_the_statistics_asked_for():
+    scene = BASE.with_(
+        surface={"sq": 2e-7, "correlation_length": (8e-6, 16e-6), "acf": "exponential", "decay_level": 0.2},
+        contact={"shape": (512, 512), "spacing": (0.5e-6, 1e-6)},
+    )
+    surface = contact_map(scene)
+    assert surface.sq == pytest.approx(2e-7, rel=1e-9) and surface.spacing == (0.5e-6, 1e-6)
+    z = surface.heights - surface.heights.mean()
+    power = np.abs(np.fft.fft2(z)) ** 2
+    acf = np.fft.ifft2(power).real / (z**2).sum()
+    assert [acf[16, 0], acf[0, 16]] == pytest.approx([0.2, 0.2], abs=0.12)
+    other = contact_map(scene.with_(surface={"seed": 3})).heights
+    assert abs(np.corrcoef(z.ravel(), other.ravel())[0, 1]) < 0.15
+
+
+def test_a_measured_map_is_prepared_as_its_keys_say(measured):
+    """The same steps by hand with NumPy: unit, holes, quadratic form; then turned, scaled to sq."""
+    keys = {
+        **PLAIN,
+        "file": str(measured / "a.txt"),
+        "spacing": 2e-6,
+        "unit": "um",
+        "decimal": ",",
+        "missing_value": -99.0,
+    }
+    keys |= {"form": "quadratic", "motion_axis": "y", "sq": 3e-7}
+    scene = BASE.with_(surface=keys, contact={"shape": None, "spacing": None})
+    rows = (measured / "a.txt").read_text().splitlines()
+    z = 1e-6 * np.array([[float(v.replace(",", ".")) for v in row.split(", ")] for row in rows])
+    hole = np.abs(z + 99e-6) < 1e-9
+    x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in z.shape), indexing="ij")
+    terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+    fit = np.linalg.lstsq(terms[~hole], z[~hole], rcond=None)[0]
+    rest = z - terms @ fit
+    rest[hole] = np.nan
+    found = contact_map(scene).heights[: z.shape[1], : z.shape[0]].T
+    known = ~hole
+    factor = np.polyfit(rest[known], found[known], 1)
+    assert np.corrcoef(rest[known], found[known])[0, 1] > 1 - 1e-9
+    assert factor[0] == pytest.approx(3e-7 / rest[known].std(), rel=1e-6)
+
+
+def test_the_counterface_adds_its_square():
+    two = BASE.with_(
+        counterface={"sq": 2e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": 0}, surface={"seed": 0}
+    )
+    squares = [contact_map(two.with_(surface={"seed": s}, counterface={"seed": s})).sq ** 2 for s in range(24)]
+    assert math.sqrt(np.mean(squares)) == pytest.approx(math.sqrt(1 + 4) * 1e-7, rel=0.04)
+    smooth = BASE.with_(counterface={"sq": 0.0, "correlation_length": 8e-6})
+    assert answer(smooth) == pytest.approx(answer(BASE), rel=1e-9)
+    for mode in ("sweep", "transient"):
+        assert answer(two, mode) == pytest.approx(answer(two), rel=0.6 * MOVES)
+
+
+def test_speeds_are_those_of_the_sweep():
+    scene = BASE.with_(motion={"speeds": [0.3, 0.003, 0.03]})
+    assert lubfric.stribeck(scene).speed.tolist() == [0.3, 0.003, 0.03]
+
+
+@pytest.mark.parametrize(
+    "numerics",
+    [
+        {"closure": "separation"},
+        {"workers": 2},
+        {"model": "full"},
+        {"film_level": "ehl"},
+        {"grid": "given"},
+        {"contact_level": "flat"},
+        {"ehl_tolerance": 1e-3},
+        {"contact_tolerance": 1e-6},
+        {"balance_tolerance": 1e-5},
+        {"tolerance": 1e-3},
+        {"heat": "auto"},
+        {"film_deflection": "auto"},
+    ],
+    ids=str,
+)
+def test_how_it_is_solved_does_not_change_the_answer(numerics):
+    """Another method, more cells, tighter tolerances: within the tolerance of the scene."""
+    scene = BASE.with_(numerics=numerics)
+    found = lubfric.friction(scene)
+    assert found.coefficient == pytest.approx(answer(BASE), rel=0.01)
+    assert abs(found.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
+
+
+@pytest.mark.parametrize(
+    "numerics",
+    [{"film_level": "isoviscous"}, {"closure": "separation"}, {"contact_level": "none"}, {"heat": "on"}],
+    ids=str,
+)
+def test_what_a_transient_does_not_do_it_refuses(numerics):
+    plan = lubfric.Transient(1e-4, outputs=1)
+    with pytest.raises(lubfric.InputError, match=f"numerics.{next(iter(numerics))}"):
+        lubfric.transient(BASE.with_(numerics=numerics, transient=plan))
+
+
+# --- the list -------------------------------------------------------------------------------------
+
+HERE = "tests/scene/test_key_matrix.py::"
+SIMILAR, LAW = (
+    HERE + "test_similar_contacts_have_one_coefficient",
+    HERE + "test_shear_and_flow_of_a_film_obey_the_laws_asked_for",
+)
+STATISTICS, PREPARED = (
+    HERE + "test_a_generated_map_has_the_statistics_asked_for",
+    HERE + "test_a_measured_map_is_prepared_as_its_keys_say",
+)
+MOVED, SOLVED = (
+    HERE + "test_each_key_of_a_measured_map_moves_the_number",
+    HERE + "test_how_it_is_solved_does_not_change_the_answer",
+)
+FLAT, AREA = (
+    HERE + "test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip",
+    HERE + "test_the_area_of_the_volume_balance",
+)
+HEAT, TIME = (
+    "tests/heat/test_heat.py::test_traction_rises_peaks_and_falls_at_1_gpa",
+    "tests/unsteady/test_transient_mixed.py::",
+)
+ROUGH = {
+    "file": MOVED,
+    "sq": STATISTICS,
+    **dict.fromkeys(("correlation_length", "acf", "decay_level", "seed"), STATISTICS),
+    "oversize": "tests/rough/test_asperity_patch.py::test_oversize_cuts_the_middle_of_a_longer_map",
+    **dict.fromkeys(("spacing", "unit", "decimal", "missing_value", "form", "motion_axis"), PREPARED),
+    "outliers": "tests/surface/test_pair_and_outliers.py::test_spikes_are_found_and_filled_and_resolved_features_stay",
+    "s_filter": "tests/surface/test_filters.py::test_transmission_of_a_wave_is_that_of_the_standard",
+    "l_filter": "tests/surface/test_filters.py::test_transmission_of_a_wave_is_that_of_the_standard",
+    "extension": "tests/surface/test_pair_and_outliers.py::test_a_short_map_is_continued_by_its_mirror_image",
+}
+ORACLES = {
+    "bodies": {
+        **dict.fromkeys(("radius", "width", "load", "e_prime"), SIMILAR),
+        "boundary_friction_coefficient": HERE + "test_boundary_friction_is_its_share_of_the_load",
+        "hardness": FLAT,
+        "conductivity": "tests/heat/test_heat.py::test_bodies_and_films_that_carry_heat_away_stay_cool",
+        "volumetric_heat": "tests/heat/test_heat.py::test_bodies_and_films_that_carry_heat_away_stay_cool",
+    },
+    "lubricant": {
+        **dict.fromkeys(("viscosity", "pressure_viscosity_coefficient"), SIMILAR),
+        **dict.fromkeys(("viscosity_law", "density_law", "eyring_stress"), LAW),
+        **dict.fromkeys(("limiting_stress_coefficient", "limiting_stress_offset"), LAW),
+        "temperature": HEAT,
+        "temperature_coefficient": "tests/heat/test_heat.py::test_viscosity_over_temperature",
+        "conductivity": "tests/heat/test_heat.py::test_newtonian_film_is_nahmes",
+        "oil": "tests/oil/test_oil.py::test_d341",
+    },
+    "motion": {
+        "entrainment_speed": HERE + "test_only_the_product_of_speed_and_viscosity_counts",
+        "slide_roll_ratio": HERE + "test_couette_force_is_the_ratio_times_that_of_one",
+        "speeds": HERE + "test_speeds_are_those_of_the_sweep",
+    },
+    "surface": ROUGH,
+    "counterface": {
+        key: HERE + "test_the_counterface_adds_its_square" if key in ("sq", "seed") else t for key, t in ROUGH.items()
+    },
+    "contact": {
+        "geometry": FLAT,
+        "region": AREA,
+        "shape": AREA,
+        "spacing": STATISTICS,
+        "model": "tests/rough/test_asperity_patch.py::test_one_asperity_is_hertz",
+        "asperity_separation": "tests/rough/test_asperity_patch.py::test_carry_is_the_inverse_of_close",
+    },
+    "numerics": {
+        **dict.fromkeys(("tolerance", "ehl_tolerance", "contact_tolerance", "balance_tolerance", "workers"), SOLVED),
+        **dict.fromkeys(("closure", "model", "film_level", "contact_level", "grid"), SOLVED),
+        "cavitated_shear": "tests/ehl/test_shear.py::",
+        "film_deflection": "tests/point/test_deflection_level.py::test_boundary_limit_at_heavy_load",
+        "heat": HEAT,
+        "accept": "tests/point/test_judge.py::test_the_ordinary_bearing_without_a_shear_law_is_refused",
+    },
+    "transient": {
+        **dict.fromkeys(("duration", "outputs"), TIME + "test_balances_hold_at_every_output"),
+        **dict.fromkeys(("speed", "sliding"), TIME + "test_a_slow_ramp_follows_the_stribeck_curve"),
+        **dict.fromkeys(
+            ("load", "radius", "viscosity"), HERE + "test_histories_of_a_transient_are_the_values_of_a_steady_scene"
+        ),
+        "initial": TIME + "test_from_rest",
+        "initial_film": TIME + "test_from_rest",
+        "tolerance": TIME + "test_balances_hold_at_every_output",
+    },
+}
+
+
+@pytest.mark.parametrize(
+    "name, section, value",
+    [
+        ("load", "bodies", 4.0),
+        ("radius", "bodies", 1.5e-3),
+        ("viscosity", "lubricant", 0.5),
+        ("speed", "motion", 0.02),
+    ],
+)
+def test_histories_of_a_transient_are_the_values_of_a_steady_scene(name, section, value):
+    """A history that is constant answers as the steady scene of that value (the area A is that of bodies.load)."""
+    plan = lubfric.Transient(1e-4, outputs=1, **{name: value})
+    found = float(lubfric.transient(BASE.with_(transient=plan)).coefficient[-1])
+    key = "entrainment_speed" if name == "speed" else name
+    steady = answer(BASE.with_(**{section: {key: value}}))
+    if name in ("load", "radius"):  # another Hertz strip: the number moves the right way and by about as much
+        assert (found - answer(BASE)) / (steady - answer(BASE)) == pytest.approx(1.0, abs=0.8)
+    else:
+        assert found == pytest.approx(steady, rel=0.01)
+
+
+def test_every_key_has_an_oracle(root: Path):
+    """Fails when a key is added without one; see the top of this file for what to add."""
+    missing = []
+    for section, hint in typing.get_type_hints(lubfric.Scene).items():
+        kinds = [k for k in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(k)]
+        for field in dataclasses.fields(kinds[0]) if kinds else ():
+            if field.name not in ORACLES[section]:
+                missing.append(f"{section}.{field.name}")
+    assert not missing, (
+        f"keys without an oracle: {', '.join(missing)}; add each to ORACLES with a test that shows its value, "
+        "and to a corner (CORNERS) that sweep and transient are asked as well"
+    )
+
+
+def test_the_oracles_named_exist(root: Path):
+    for section, oracles in ORACLES.items():
+        for key, test in oracles.items():
+            file, _, name = test.partition("::")
+            assert f"def {name}" in (root / file).read_text(encoding="utf-8"), f"{section}.{key}: {test}"

@@ -1,0 +1,73 @@
+"""Ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
+
+A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A
+place that no longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never
+ran is not taken for one that was caught.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import importlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A mistake: ``name``, ``what`` it is in a sentence, for each place "module:attribute" its replacement, and the
+    studies that are asked to catch it.
+    """
+
+    name: str
+    what: str
+    places: dict[str, Callable]
+    suite: tuple[str, ...] = ("contact_grid", "ehl_grid", "friction", "load_sharing")
+
+
+@contextlib.contextmanager
+def applied(mutant: Mutant) -> Iterator[list[str]]:
+    """While open, `lubfric` is broken; the list grows by a place whenever its replacement is called."""
+    calls: list[str] = []
+    undo = []
+    try:
+        for place, wrong in mutant.places.items():
+            owner, name = located(place)
+            original = owner.__dict__[name] if isinstance(owner, type) else getattr(owner, name)
+            undo.append((owner, name, original))
+            setattr(owner, name, replacement(original, wrong, place, calls))
+        yield calls
+    finally:
+        for owner, name, original in reversed(undo):
+            setattr(owner, name, original)
+
+
+def located(place: str) -> tuple[object, str]:
+    """The module or class that holds an attribute, and its name."""
+    module, _, path = place.partition(":")
+    owner = importlib.import_module(module)
+    *outer, name = path.split(".")
+    for part in outer:
+        owner = getattr(owner, part)
+    if not hasattr(owner, name):
+        raise AttributeError(f"{place} does not exist any more: the mutant has to follow the code")
+    return owner, name
+
+
+def replacement(original, wrong: Callable, place: str, calls: list[str]):
+    """``wrong(original)`` that counts; a property stays one."""
+    function = original.fget if isinstance(original, property) else original
+    broken = wrong(function)
+
+    @functools.wraps(function)
+    def counted(*args, **kwargs):
+        calls.append(place)
+        return broken(*args, **kwargs)
+
+    return property(counted) if isinstance(original, property) else counted
+
+
+def with_keywords(**wrong) -> Callable:
+    """Call a function with these keywords, whatever was asked."""
+    return lambda original: lambda *args, **options: original(*args, **options | wrong)

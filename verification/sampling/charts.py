@@ -1,0 +1,63 @@
+"""Charts of the study."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..plotting import axes
+
+
+def coverage(results, out: Path) -> None:
+    """Every interval of every case over the truth, those that miss it in red."""
+    canvas, grid = axes(-(-len(results) // 2), 2, 11, 2.6 * -(-len(results) // 2), squeeze=False)
+    for axis, result in zip(grid.flat, results):
+        order = np.argsort(result.column("f"))
+        f, low, high = (result.column(name)[order] / result.truth - 1 for name in ("f", "low", "high"))
+        for hit, colour in ((True, "#0072B2"), (False, "#D55E00")):
+            k = np.flatnonzero(result.covered[order] == hit)
+            axis.vlines(k, 100 * low[k], 100 * high[k], color=colour, lw=0.9)
+        axis.plot(np.arange(f.size), 100 * f, ".", color="black", ms=2)
+        axis.axhline(0, color="black", lw=0.8)
+        axis.set_title(f"{result.case.name}: {100 * result.covered.mean():.1f} % of {f.size} cover")
+        axis.set_ylabel("f/f∞ − 1 (%)")
+        axis.set_xticks([])
+    for axis in grid.flat[len(results) :]:
+        axis.set_axis_off()
+    canvas.savefig(out / "sampling-coverage.png", dpi=110)
+
+
+def bias(found: dict, out: Path) -> None:
+    """Mean and scatter of f of one patch, over its length."""
+    canvas, axis = axes(1, 1, 6.4, 4)
+    for speed, (rows, truth) in found.items():
+        length, mean, scatter, count = rows.T
+        shown = axis.errorbar(
+            1e3 * length,
+            100 * (mean / truth - 1),
+            100 * scatter / truth / np.sqrt(count),
+            marker="o",
+            capsize=3,
+            label=f"bias, {speed:g} m/s",
+        )
+        axis.plot(
+            1e3 * length, 100 * scatter / truth, "--", color=shown[0].get_color(), label=f"scatter, {speed:g} m/s"
+        )
+    axis.axhline(0, color="black", lw=0.8)
+    axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="of f∞ (%)")
+    axis.legend(frameon=False)
+    canvas.savefig(out / "sampling-bias.png", dpi=130)
+
+
+def cost(found: dict, out: Path) -> None:
+    """Time against the error of f that was made, the surface in it."""
+    canvas, axis = axes(1, 1, 6.4, 4)
+    for name, rows in found.items():
+        asked, seconds, error = rows.T
+        axis.loglog(100 * error, seconds, "o-", label=name)
+        for a, s, e in rows:
+            axis.annotate(f"{100 * a:g} %", (100 * e, s), xytext=(4, 4), textcoords="offset points", fontsize=8)
+    axis.set(xlabel="root mean square error of f, surface included (%); labels: asked", ylabel="processor time (s)")
+    axis.legend(frameon=False)
+    canvas.savefig(out / "sampling-cost.png", dpi=130)

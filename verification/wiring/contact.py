@@ -1,0 +1,120 @@
+"""Wiring of the rough contact: hardness, area, coarse grids, what part of the width is touched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.model import prepare
+from lubfric.rough.contract import ContactState
+
+from ..check import AT_LEAST, Check
+
+DRY = {"accept": True, "tolerance": 1e-3, "model": "full"}
+CELL = 2e-6
+STRIP = "pressures of the strip that was found, summed anew"
+
+
+def wiring_contact(level: str) -> Iterator[Check]:
+    """At rest the contact carries everything, so that hardness and area can be seen on it alone.
+
+    The flat curve against one dry contact at its pressure, asperities that all yield against load over hardness, the
+    cylinder against its hardness; then coarse grids, and what part of the width is touched.
+    """
+    yield from flat()
+    yield from asperities()
+    yield from cylinder()
+    yield from coarse()
+    yield from columns()
+
+
+def heights(nx: int, ny: int, seed: int = 4) -> np.ndarray:
+    """Heights [m] of a few waves, Sq 240 nm."""
+    z = np.random.default_rng(seed).standard_normal((nx, ny))
+    k = np.hypot(np.fft.fftfreq(nx)[:, None] * nx, np.fft.fftfreq(ny) * ny)
+    z = np.fft.ifft2(np.fft.fft2(z) * ((k > 0.5) & (k < 9))).real
+    return (z - z.mean()) * (240e-9 / z.std())
+
+
+def flat() -> Iterator[Check]:
+    """The contact curve at the mean Hertz pressure, elastic and yielding, against `lubfric.solve_contact`."""
+    z = heights(64, 64)
+    for words, hardness in (("elastic", None), ("hardness 1 GPa", 1e9)):
+        s = lubfric.load_scene("flat").with_(bodies={"hardness": hardness}, numerics=DRY)
+        found = lubfric.friction(prepare(s, lubfric.Surface(z, (CELL, CELL))), 0.0)
+        b = np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
+        pressure = 5.5 / (2 * b * 6e-3)
+        one = lubfric.solve_contact(z.max() - z, CELL, 231e9, mean_pressure=pressure, hardness=hardness, tolerance=1e-8)
+        gap = float(np.maximum(one.gap, 0).mean())
+        yield Check(f"flat, {words}: mean gap", found.mean_gap, gap, 2e-3, "lubfric.solve_contact", unit="m")
+        area = float(np.mean(one.pressure > 0))
+        yield Check(f"flat, {words}: area", found.real_contact_area_fraction, area, 0.02, "lubfric.solve_contact")
+
+
+def asperities() -> Iterator[Check]:
+    """Summits so soft that all yield carry the hardness on all that they touch."""
+    z, pressure = heights(64, 64), 102e6
+    for geometry, surface in (("flat", (64, 64)), ("cylinder", (64, 64))):
+        s = lubfric.load_scene("paper").with_(
+            bodies={"hardness": 2.5e8},
+            contact={"geometry": geometry, "model": "summits", "shape": surface, "spacing": CELL},
+            numerics=DRY,
+        )
+        found = lubfric.friction(prepare(s, lubfric.Surface(z, (CELL, CELL))), 0.0)
+        elastic = lubfric.friction(
+            prepare(s.with_(bodies={"hardness": None}), lubfric.Surface(z, (CELL, CELL))), 0.0
+        ).real_contact_area_fraction
+        share = found.real_contact_area_fraction
+        if geometry == "flat":
+            yield Check("soft summits, flat: area", share, pressure / 2.5e8, 0.03, "load over hardness")
+        else:
+            yield Check(
+                "soft summits, cylinder: area over the elastic one", share / elastic, 2.0, 0.0, "softer", AT_LEAST
+            )
+
+
+def cylinder() -> Iterator[Check]:
+    """No pressure above the hardness and the whole load on it; the area A as wide as asked."""
+    z = heights(64, 32)
+    for region in ("hertz", "box"):
+        s = lubfric.load_scene("paper").with_(
+            bodies={"hardness": 1.2e9}, contact={"shape": (64, 32), "spacing": 1e-6, "region": region}, numerics=DRY
+        )
+        found = lubfric.friction(prepare(s, lubfric.Surface(z, (1e-6, 1e-6))), 0.0, fields=True)
+        fields = found.balance.contact.fields
+        highest, load = float(fields.pressure.max()), float(fields.pressure.mean() * 64e-6 * 6e-3)
+        yield Check(f"cylinder, {region}: highest pressure", highest, 1.2e9, 1e-9, "the hardness", unit="Pa")
+        yield Check(f"cylinder, {region}: load of the pressures", load, 5.5, 1e-6, "the load", unit="N")
+        edges = np.linspace(-32e-6, 32e-6, 65)
+        half = np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9)) if region == "hertz" else 32e-6
+        weight = np.diff(np.clip(edges, -half, half))
+        gap = float(weight @ np.maximum(fields.gap, 0).mean(axis=1) / weight.sum())
+        yield Check(f"cylinder, {region}: mean gap", found.mean_gap, gap, 2e-3, STRIP, unit="m")
+        area = float(weight @ (fields.pressure > 0).mean(axis=1) / weight.sum())
+        yield Check(f"cylinder, {region}: area", found.real_contact_area_fraction, area, 2e-3, STRIP)
+
+
+def coarse() -> Iterator[Check]:
+    """Coarser grids carry the mean height of the cells they stand for."""
+    s = lubfric.load_scene("paper").with_(contact={"shape": (128, 64), "spacing": 0.7e-6})
+    z = heights(128, 64)
+    whole = prepare(s, lubfric.Surface(z, (0.7e-6, 0.7e-6))).contact
+    half = whole.coarsened()
+    fx, fy = (a // b for a, b in zip(whole.heights.shape, half.heights.shape))
+    mean = sum(whole.heights[i::fx, j::fy] for i in range(fx) for j in range(fy)) / (fx * fy)
+    off = float(np.abs(half.heights - mean).max() / z.std()) + float(fx * fy == 1)
+    yield Check("coarser grid: largest error of a height over Sq", off, 0.0, 1e-9, "means of its cells", "absolute")
+
+
+def columns() -> Iterator[Check]:
+    """The share in contact of stretches of x: all of it, and about the right place."""
+    x, share = np.arange(-5.0, 6.0), np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
+    state = ContactState(1.0, 1.0, x, share, 0.0, 0.0)
+    edges = np.linspace(-6.0, 6.0, 481)
+    found = state.touching(edges) * np.diff(edges)
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    yield Check("columns in contact: sum", float(found.sum()), 1.7, 1e-9, "the sum of the columns")
+    centre = float(share @ x / share.sum())
+    yield Check("columns in contact: centre", float(found @ middle / found.sum()), centre, 1e-9, "their first moment")

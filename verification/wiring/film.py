@@ -1,0 +1,121 @@
+"""Wiring of the smooth film and of its shear, in steady motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+
+from ..check import Check
+
+OTHER = "differential deflection, called by itself"
+OWN = "own integral over the film that was found"
+FIXED = {"model": "full", "film_deflection": "hydrodynamic", "heat": "off", "accept": True, "tolerance": 1e-3}
+LAWS = {
+    "Roelands": {},
+    "Barus": {"viscosity_law": "barus"},
+    "constant viscosity": {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0},
+    "Dowson-Higginson": {"density_law": "dowson-higginson"},
+    "half of alpha": {"pressure_viscosity_coefficient": 12e-9},
+}
+SHEARED = {
+    "Newtonian": ({}, {}),
+    "Eyring": ({"eyring_stress": 1e6}, {}),
+    "limiting stress": ({"limiting_stress_coefficient": 0.02, "limiting_stress_offset": 2e5}, {}),
+    "slide-roll 0.5": ({}, {"slide_roll_ratio": 0.5}),
+}
+
+
+def wiring_film(level: str) -> Iterator[Check]:
+    """Laws of the oil in the film of `friction`, against another discretisation called with plain numbers; its shear
+    force, with each law of shear, against an own integral with the columns in contact taken out."""
+    for name, oil in LAWS.items():
+        yield from film(name, oil)
+    for name, (oil, motion) in SHEARED.items():
+        yield from shear(name, oil, motion)
+
+
+def smooth(oil: dict) -> lubfric.Scene:
+    """The paper's cylinder at 300 N without contact: a Hertz pressure of 960 MPa."""
+    return lubfric.load_scene("paper").with_(
+        bodies={"load": 300.0, "hardness": None},
+        lubricant=oil,
+        surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
+        contact={"shape": (160, 12), "spacing": 1.6e-6},
+        numerics=FIXED,
+    )
+
+
+def film(name: str, oil: dict) -> Iterator[Check]:
+    """Smallest film at 0.3 m/s."""
+    s = smooth(oil)
+    b = s.bodies
+    found = lubfric.friction(s, 0.3)
+    other = lubfric.solve_differential_deflection(
+        load_per_width=300.0 / b.width,
+        radius=b.radius,
+        e_prime=b.e_prime,
+        entrainment_speed=0.3,
+        viscosity=0.36,
+        pressure_viscosity_coefficient=oil.get("pressure_viscosity_coefficient", 25e-9),
+        viscosity_law=oil.get("viscosity_law", "roelands"),
+        density=oil.get("density_law", "constant"),
+        tolerance=3e-3,
+    )
+    yield Check(f"{name}: flow film", found.balance.film.flow_film, other.flow_film, 5e-3, OTHER, unit="m")
+    yield Check(f"{name}: smallest film", found.min_film, other.min_film, 6e-3, OTHER, unit="m")
+
+
+def mixed(oil: dict, motion: dict) -> lubfric.Scene:
+    """A rough cylinder of 350 MPa, between boundary and full film."""
+    return lubfric.load_scene("paper").with_(
+        bodies={"load": 20.0, "radius": 1e-3, "hardness": None},
+        lubricant=oil,
+        motion=motion,
+        surface={"correlation_length": 4e-6},
+        contact={"shape": (32, 32), "spacing": 1.4e-6},
+        numerics=FIXED,
+    )
+
+
+def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
+    """Shear force and coefficient at 0.1 m/s."""
+    s, speed, parts = mixed(oil, motion), 0.1, 40
+    found = lubfric.friction(s, speed, fields=True)
+    line, contact = found.balance.film, found.balance.contact
+    x = np.sort(np.concatenate([np.linspace(a, b, parts, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
+    x = x[x < line.rupture]
+    middle, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
+    p, h = np.interp(middle, line.x, line.pressure), line.film_at(middle)
+    rate = s.motion.slide_roll_ratio * speed / h
+    column = np.round((middle - contact.x[0]) / (contact.x[1] - contact.x[0])).astype(int)
+    inside = (column >= 0) & (column < contact.x.size)
+    pressed = (contact.fields.pressure > 0).mean(axis=1)
+    wet = 1 - np.where(inside, pressed[np.clip(column, 0, contact.x.size - 1)], 0.0)
+    couette = s.bodies.width * float(np.sum(stress(oil, p, rate) * wet * dx))
+    couette += s.bodies.width * 0.36 * s.motion.slide_roll_ratio * speed * upstream(line, s.bodies.radius)
+    yield Check(f"{name}: Couette force", found.couette_force, couette, 4e-3, OWN, unit="N")
+    boundary = 0.09 * contact.fields.pressure.mean() * contact.fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
+    f = (boundary + couette + found.rolling_force) / 20.0
+    yield Check(f"{name}: coefficient", found.coefficient, f, 2e-3, OWN)
+
+
+def stress(oil: dict, p: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Of the paper's oil (Roelands) with the shear laws of ``oil``."""
+    z = 25e-9 * 1.96e8 / (np.log(0.36) + 9.67)
+    tau = 0.36 * np.exp((np.log(0.36) + 9.67) * ((1 + p / 1.96e8) ** z - 1)) * rate
+    if "eyring_stress" in oil:
+        tau = oil["eyring_stress"] * np.arcsinh(tau / oil["eyring_stress"])
+    if "limiting_stress_coefficient" in oil:
+        tau = np.minimum(tau, oil["limiting_stress_offset"] + oil["limiting_stress_coefficient"] * p)
+    return tau
+
+
+def upstream(line, radius: float) -> float:
+    """∫ dx/h before the first node, of a parabola."""
+    a, h = -line.x[0], line.film_thickness[0]
+    x = a * np.geomspace(1.0, 1e4, 4001)
+    gap = h + (x**2 - a**2) / (2 * radius)
+    return float(np.trapezoid(1 / gap, x)) + 2 * radius / x[-1]

@@ -1,0 +1,102 @@
+"""Wiring of the height map: every key of a surface from a file, and of a generated one."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import lubfric
+from lubfric.model import prepare
+from lubfric.scene import Roughness
+
+from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
+
+DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
+OWN = "the file, read and changed by plain NumPy"
+SIZE = (56, 40)
+
+
+def wiring_maps(level: str) -> Iterator[Check]:
+    """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy; of a
+    generated map its height and lengths."""
+    with tempfile.TemporaryDirectory() as folder:
+        yield from measured(Path(folder))
+    yield from generated()
+
+
+def ground() -> np.ndarray:
+    """Heights (56, 40) m, grooved along the first axis."""
+    rng = np.random.default_rng(8)
+    x, y = np.arange(SIZE[0])[:, None] / SIZE[0], np.arange(SIZE[1]) / SIZE[1]
+    z = sum(rng.standard_normal() * np.cos(2 * np.pi * (m * x + n * y) + m) / n for m in (0, 1) for n in range(1, 9))
+    return 1e-7 * (z - 0.2 * z**2)
+
+
+def planed(z: np.ndarray, order: int = 1) -> np.ndarray:
+    """Less its polynomial of least squares, of first or second order."""
+    i, j = (a.ravel() / a.max() for a in np.indices(z.shape))
+    terms = np.stack([i**p * j**q for p in range(order + 1) for q in range(order + 1 - p)], axis=1)
+    return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
+
+
+def mirrored(z: np.ndarray) -> np.ndarray:
+    """And its image along y."""
+    return np.concatenate([z, z[:, ::-1]], axis=1)
+
+
+def measured(folder: Path) -> Iterator[Check]:
+    """The map that the contact gets, case by case: largest height error over Sq, and both cell lengths."""
+    z = ground()
+    np.save(folder / "z.npy", z)
+    np.save(folder / "um.npy", 1e6 * z)
+    tilted = z + 1e-8 * np.arange(SIZE[0])[:, None] + 3e-10 * (np.arange(SIZE[1]) - 9) ** 2
+    np.save(folder / "tilted.npy", tilted)
+    flat, along = planed(z), planed(z).T
+    blocks = flat.reshape(28, 2, 20, 2).mean(axis=(1, 3))
+    cases = {
+        "as it is": ({}, {}, mirrored(flat), (DX, DY)),
+        "unit": ({"file": "um.npy", "unit": "um"}, {}, mirrored(flat), (DX, DY)),
+        "form": ({"file": "tilted.npy", "form": "quadratic"}, {}, mirrored(planed(tilted, 2)), (DX, DY)),
+        "motion_axis": ({"motion_axis": "y"}, {}, mirrored(along), (DY, DX)),
+        "sq": ({"sq": 50e-9}, {}, mirrored(flat * 50e-9 / flat.std()), (DX, DY)),
+        "spacing": ({}, {"spacing": (2 * DX, 2 * DY)}, mirrored(blocks), (2 * DX, 2 * DY)),
+        "shape": ({}, {"shape": (40, 30)}, mirrored(flat[8:48, 5:35]), (DX, DY)),
+    }
+    for name, (surface, contact, expected, cells) in cases.items():
+        keys = {"file": "z.npy", "spacing": (DX, DY)} | surface
+        found = made(Roughness(**keys | {"file": str(folder / keys["file"])}), contact)
+        heights = expected - expected.mean()
+        off = np.inf if found.heights.shape != heights.shape else np.abs(found.heights - heights).max() / heights.std()
+        yield Check(f"map, {name}: largest error over Sq", min(off, 1e9), 0.0, 1e-6, OWN, ABSOLUTE)
+        for axis in range(2):
+            yield Check(f"map, {name}: cell along {'xy'[axis]}", found.spacing[axis], cells[axis], 1e-9, OWN, unit="m")
+
+
+def made(rough: Roughness, contact: dict):
+    """The rough contact that a scene with this surface gets."""
+    s = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
+    return prepare(s).contact
+
+
+def generated() -> Iterator[Check]:
+    """Height, length at the level asked for along each axis, and another map for another seed."""
+    maps = {}
+    for seed in (1, 2):
+        rough = Roughness(sq=80e-9, correlation_length=(3e-6, 6e-6), acf="gaussian", decay_level=0.2, seed=seed)
+        s = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": (512, 512), "spacing": 0.5e-6})
+        maps[seed] = prepare(s).surface.heights
+    z = maps[1] - maps[1].mean()
+    yield Check("generated map: Sq", float(z.std()), 80e-9, 1e-6, "asked for", unit="m")
+    for axis, (name, length) in enumerate((("x", 3e-6), ("y", 6e-6))):
+        cells = round(length / 0.5e-6)
+        value = float(np.mean(z * np.roll(z, cells, axis)) / np.mean(z * z))
+        yield Check(
+            f"generated map: autocorrelation at the length along {name}", value, 0.2, 0.06, "asked for", ABSOLUTE
+        )
+    far = float(np.mean(z * np.roll(z, 24, 0)) / np.mean(z * z))
+    yield Check("generated map: autocorrelation at four lengths", abs(far), 0.0, 0.12, "Gaussian: none left", AT_MOST)
+    apart = float(np.sqrt(np.mean((maps[1] - maps[2]) ** 2)) / 80e-9)
+    yield Check("generated map: difference of two seeds over Sq", apart, 1.2, 0.0, "independent: 1.41", AT_LEAST)

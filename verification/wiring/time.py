@@ -1,0 +1,90 @@
+"""Wiring of the transient: what does not change leaves the steady state alone, what changes ends in the new one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import lubfric
+from lubfric.history import Ramp
+from lubfric.scene import Scene
+
+from ..check import Check
+from .film import FIXED, mixed
+
+STEADY = "lubfric.friction, steady"
+OILS = {
+    "Newtonian": {},
+    "Eyring": {"eyring_stress": 2e5},
+    "limiting stress": {"limiting_stress_coefficient": 0.002, "limiting_stress_offset": 5e4},
+    "Dowson-Higginson": {"density_law": "dowson-higginson"},
+    "Barus": {"viscosity_law": "barus"},
+}
+TIGHT = {"ehl_tolerance": 1e-3}
+
+
+def wiring_time(level: str) -> Iterator[Check]:
+    """A transient in which nothing changes, with each law of the oil, against the steady coefficient; and one in which
+    load, radius, viscosity, speed and sliding ramp at once, which ends in the steady state of the new values."""
+    for name, oil in OILS.items():
+        yield from unchanged(name, oil)
+    yield from ramped()
+
+
+def unchanged(name: str, oil: dict) -> Iterator[Check]:
+    """Mixed lubrication at 0.1 m/s, a slide-roll ratio of 0.5, for a fifth of a passage of the contact."""
+    s = mixed(oil, {"slide_roll_ratio": 0.5}).with_(numerics=TIGHT)
+    steady = lubfric.friction(s.with_(motion={"entrainment_speed": 0.1}))
+    run = lubfric.transient(s.with_(motion={"entrainment_speed": 0.1}), [1e-5])
+    for what, unit, tolerance in (
+        ("coefficient", "1", 5e-3),
+        ("couette_force", "N", 1e-2),
+        ("film_load", "N", 1e-2),
+        ("contact_load", "N", 1e-2),
+        ("mean_gap", "m", 5e-3),
+        ("min_film", "m", 5e-3),
+    ):
+        words = f"{name}, nothing changes: {what.replace('_', ' ')}"
+        yield Check(words, float(getattr(run, what)[-1]), getattr(steady, what), tolerance, STEADY, unit=unit)
+
+
+def full_film(**changed) -> Scene:
+    """A nearly smooth contact at 300 MPa."""
+    bodies = {"load": 30.0, "hardness": None} | changed.get("bodies", {})
+    return lubfric.load_scene("paper").with_(
+        bodies=bodies,
+        lubricant={"eyring_stress": 2e6} | changed.get("lubricant", {}),
+        motion={"slide_roll_ratio": 0.5} | changed.get("motion", {}),
+        surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
+        contact={"shape": (64, 12), "spacing": 1.6e-6},
+        numerics=FIXED | TIGHT,
+    )
+
+
+def ramped() -> Iterator[Check]:
+    """All histories at once; the film forgets within a few passages of the contact."""
+    end = 2e-3
+
+    def ramp(first: float, last: float) -> Ramp:
+        return Ramp(start=first, end=last, begin=0.0, until=1e-4)
+
+    plan = lubfric.Transient(
+        duration=end,
+        outputs=1,
+        speed=ramp(0.2, 0.3),
+        sliding=ramp(0.1, 0.06),
+        load=ramp(30.0, 22.0),
+        radius=ramp(2e-3, 1.5e-3),
+        viscosity=ramp(0.36, 0.25),
+    )
+    run = lubfric.transient(full_film().with_(transient=plan))
+    later = full_film(
+        bodies={"load": 22.0, "radius": 1.5e-3},
+        lubricant={"viscosity": 0.25},
+        motion={"entrainment_speed": 0.3, "slide_roll_ratio": 0.2},
+    )
+    steady = lubfric.friction(later)
+    for what in ("coefficient", "couette_force", "min_film", "central_film"):
+        tolerance = 1e-2 if what.endswith("film") else 2e-2
+        yield Check(
+            f"ramps: {what.replace('_', ' ')}", float(getattr(run, what)[-1]), getattr(steady, what), tolerance, STEADY
+        )

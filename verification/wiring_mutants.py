@@ -1,0 +1,280 @@
+"""Options lost on their way to the number: each function works, but something that was asked for does not arrive."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .mutant import Mutant, with_keywords
+
+FILM, CONTACT, MAPS, TIME = (("wiring_" + name,) for name in ("film", "contact", "maps", "time"))
+
+
+def with_oil(**lost):
+    """A film solver that gets the line contact with another oil."""
+    return lambda original: (
+        lambda line, *args, **options: original(
+            replace(line, lubricant=replace(line.lubricant, **lost)), *args, **options
+        )
+    )
+
+
+def in_time_without(**lost):
+    """A contact in time with another oil."""
+
+    def broken(original):
+        def contact(*args):
+            *others, lubricant, duration, initial = args
+            return original(*others, replace(lubricant, **lost), duration, initial)
+
+        return contact
+
+    return broken
+
+
+def sheared_without(**lost):
+    """A shear law with something left out."""
+    return lambda original: lambda lubricant, *args: original(replace(lubricant, **lost), *args)
+
+
+def itself(original):
+    """A map that is handed back as it came."""
+    return lambda surface, *args, **options: surface
+
+
+def same_cells(original):
+    """Axes exchanged, cell lengths not."""
+    return lambda surface: replace(original(surface), spacing=surface.spacing)
+
+
+def not_mirrored(original):
+    """Called periodic without being made so."""
+    return lambda surface, edge="mirror", *, axes=(True, True): replace(
+        surface, periodic_axes=tuple(a or b for a, b in zip(axes, surface.periodic_axes))
+    )
+
+
+def from_the_corner(original):
+    """Cut from the first point instead of the middle."""
+    return lambda surface, shape, start=None: original(surface, shape, (0, 0))
+
+
+def swapped_cells(original):
+    """Cell lengths of a file the wrong way round."""
+    return lambda path, **options: original(path, **options | {"spacing": options["spacing"][::-1]})
+
+
+def one_length(original):
+    """One correlation length for both axes."""
+    return lambda *args, **options: original(
+        *args, **options | {"correlation_length": np.max(options["correlation_length"])}
+    )
+
+
+def subsampled(original):
+    """Every other height instead of the mean of the cells."""
+
+    def coarse(contact):
+        found = original(contact)
+        if found is None:
+            return None
+        fx, fy = (a // b for a, b in zip(contact.heights.shape, found.heights.shape))
+        return replace(found, heights=contact.heights[::fx, ::fy])
+
+    return coarse
+
+
+def half_a_column(original):
+    """Columns in contact half a column off."""
+    return lambda state, x: original(state, np.asarray(x) + 0.5 * (state.x[1] - state.x[0]))
+
+
+def whole_patch(original):
+    """The area A as long as the patch."""
+    return lambda scene, x, step: np.ones(x.size)
+
+
+def constant_load_per_width(original):
+    """A load history that is not divided by the width."""
+    return lambda load, width: original(load, 1.0)
+
+
+def still(original):
+    """A history that stays at its first value."""
+    return lambda history, time: original(history, 0.0)
+
+
+MUTANTS = (
+    Mutant(
+        "transient_newtonian",
+        "Eyring's law dropped in a transient",
+        {"lubfric.unsteady.film_shear:shear_stress": sheared_without(eyring_stress=None)},
+        TIME,
+    ),
+    Mutant(
+        "transient_no_limit",
+        "limiting stress dropped in a transient",
+        {"lubfric.unsteady.film_shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
+        TIME,
+    ),
+    Mutant(
+        "transient_density",
+        "density law dropped in a transient",
+        {"lubfric.unsteady.setup:ContactHistory": in_time_without(density_law="constant")},
+        TIME,
+    ),
+    Mutant(
+        "transient_viscosity_law",
+        "viscosity law of a transient is Roelands' whatever was asked",
+        {"lubfric.unsteady.setup:ContactHistory": in_time_without(viscosity_law="roelands")},
+        TIME,
+    ),
+    Mutant(
+        "transient_sliding",
+        "sliding speed of a transient twice what it is",
+        {"lubfric.unsteady.setup:Run.sliding_speed": lambda f: lambda *args: 2 * f(*args)},
+        TIME,
+    ),
+    Mutant(
+        "transient_load",
+        "load of a transient taken as load per width",
+        {"lubfric.unsteady.setup:_per_width": constant_load_per_width},
+        TIME,
+    ),
+    Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.history.kinds:Ramp.at": still}, TIME),
+    Mutant(
+        "film_viscosity_law",
+        "viscosity law not passed to the film",
+        {"lubfric.film.numerical:solve_line_contact": with_oil(viscosity_law="barus")},
+        FILM,
+    ),
+    Mutant(
+        "film_density_law",
+        "density law not passed to the film",
+        {"lubfric.film.numerical:solve_line_contact": with_oil(density_law="constant")},
+        FILM,
+    ),
+    Mutant(
+        "film_alpha",
+        "pressure-viscosity coefficient of the film not that of the scene",
+        {"lubfric.film.numerical:solve_line_contact": with_oil(pressure_viscosity_coefficient=25e-9)},
+        FILM,
+    ),
+    Mutant(
+        "steady_newtonian",
+        "Eyring's law dropped in steady shear",
+        {"lubfric.film.shear:shear_stress": sheared_without(eyring_stress=None)},
+        FILM,
+    ),
+    Mutant(
+        "limit_offset",
+        "limiting stress without its offset",
+        {"lubfric.film.shear:shear_stress": sheared_without(limiting_stress_offset=0.0)},
+        FILM,
+    ),
+    Mutant(
+        "slide_roll",
+        "slide-roll ratio always 2",
+        {"lubfric.film.contract:shear_force": with_keywords(slide_roll_ratio=2.0)},
+        FILM,
+    ),
+    Mutant(
+        "half_a_column",
+        "contact fraction half a column off",
+        {"lubfric.rough.contract:ContactState.touching": half_a_column},
+        CONTACT,
+    ),
+    Mutant(
+        "flat_hardness",
+        "hardness not passed to the flat curve",
+        {"lubfric.rough.flat:contact_curve": with_keywords(hardness=None)},
+        CONTACT,
+    ),
+    Mutant(
+        "asperity_hardness",
+        "hardness not passed to the asperities of a flat contact",
+        {"lubfric.rough.flat:asperity_curve": with_keywords(hardness=None)},
+        CONTACT,
+    ),
+    Mutant(
+        "asperity_hardness_cylinder",
+        "hardness not passed to the asperities under a cylinder",
+        {"lubfric.rough.asperities:contact_law": with_keywords(hardness=None)},
+        CONTACT,
+    ),
+    Mutant(
+        "cylinder_hardness",
+        "hardness not passed to the contact under a cylinder",
+        {"lubfric.rough.half_space:solve_contact": with_keywords(hardness=None)},
+        CONTACT,
+    ),
+    Mutant(
+        "region",
+        "area A is the whole patch, whatever was asked",
+        {"lubfric.rough.half_space:area_weight": whole_patch},
+        CONTACT,
+    ),
+    Mutant(
+        "subsampled_grids",
+        "coarse grids take every other height instead of means",
+        {"lubfric.rough.half_space_grid:HalfSpaceGrid.coarsened": subsampled},
+        CONTACT,
+    ),
+    Mutant("motion_axis", "motion_axis = 'y' ignored", {"lubfric.surface.height_map:Surface.transposed": itself}, MAPS),
+    Mutant(
+        "transposed_cells",
+        "axes exchanged, cell lengths not",
+        {"lubfric.surface.height_map:Surface.transposed": same_cells},
+        MAPS,
+    ),
+    Mutant("map_not_scaled", "a map not scaled to sq", {"lubfric.surface.height_map:Surface.scaled": itself}, MAPS),
+    Mutant(
+        "map_spacing",
+        "contact.spacing of a map ignored",
+        {"lubfric.surface.height_map:Surface.resampled": itself},
+        MAPS,
+    ),
+    Mutant(
+        "map_not_mirrored",
+        "a map called periodic that is not",
+        {"lubfric.surface.height_map:Surface.periodic": not_mirrored},
+        MAPS,
+    ),
+    Mutant(
+        "map_corner",
+        "a map cut from its corner instead of its middle",
+        {"lubfric.surface.height_map:Surface.cropped": from_the_corner},
+        MAPS,
+    ),
+    Mutant(
+        "map_unit", "unit of a file ignored", {"lubfric.rough.height_map:read_surface": with_keywords(unit=None)}, MAPS
+    ),
+    Mutant(
+        "map_form",
+        "form of a file ignored",
+        {"lubfric.rough.height_map:read_surface": with_keywords(form="plane")},
+        MAPS,
+    ),
+    Mutant(
+        "map_cells", "cell lengths of a file swapped", {"lubfric.rough.height_map:read_surface": swapped_cells}, MAPS
+    ),
+    Mutant(
+        "seed",
+        "seed of a generated map ignored",
+        {"lubfric.rough.height_map:generate_surface": with_keywords(seed=1)},
+        MAPS,
+    ),
+    Mutant(
+        "decay_level",
+        "level at which a correlation length is read ignored",
+        {"lubfric.rough.height_map:generate_surface": with_keywords(decay_level=0.3679)},
+        MAPS,
+    ),
+    Mutant(
+        "one_length",
+        "one correlation length for both axes",
+        {"lubfric.rough.height_map:generate_surface": one_length},
+        MAPS,
+    ),
+)
