@@ -1,8 +1,8 @@
 """One gap, one pressure: load by speed by roughness, a bearing of 10 mm radius with a shear-limited compressible oil.
 
 The judge looks at the fields alone: load and elastic gap are summed anew, pressure and gap keep their signs, and the
-flow through every section before the first ruptured or touching cell, by second-order upwind differences and a quadrature
-of the laws, is the same.
+flow through every section before the first ruptured or touching cell, by second-order upwind differences and a
+quadrature of the laws, is the same.
 """
 
 from __future__ import annotations
