@@ -22,6 +22,7 @@ LIGHT_SURFACES = {"quick": 1, "default": 6, "full": 20}
 HEAVY_SURFACES = {"quick": 1, "default": 2, "full": 8}
 CELLS = {"quick": 48, "default": 64, "full": 96}
 PROMISED = {0.003: 0.03, 0.01: 0.03, 0.03: 0.15, 0.06: 0.06}  # rms of f by the one-way closure
+MOST_OVER = 1.25
 COLUMNS = (
     "load [N]", "fluid", "acf", "U [m/s]", "spots' share", "film/Sq", "model", "f: mean [%]", "rms [%]",
     "F_C/F_T: mean", "gap ratio", "s", "failed",
@@ -50,6 +51,9 @@ def model_error(level: str) -> Iterator[Item]:
             if d.method == "one-way" and d.speed in PROMISED:
                 name = f"one-way at {d.speed:g} m/s, {d.surfaces} surfaces: rms of f"
                 yield Check(name, d.rms, PROMISED[d.speed], 0.0, "deterministic film", AT_MOST)
+    worst = max(d.rms / summary.told(d) for d in gathered if d.method in summary.TOLD_BY and d.surfaces > 1)
+    words = "largest rms of f over uncertainty.model_form"
+    yield Check(words, worst, MOST_OVER, 0.0, "lubfric.validity.model_form", AT_MOST if level != "quick" else TOLD)
     yield charts.over_speed("light", light, "5.5 N, Newtonian")
     for load in sorted({d.load for d in gathered if d.load > 10}):
         mine = [d for d in gathered if d.load == load]

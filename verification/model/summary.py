@@ -6,14 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lubfric.validity.model_form import load_sharing_error, one_way_error
+
 from .measure import REFERENCE, Point
 
 
 @dataclass(frozen=True)
 class Deviation:
     """Of one method at one load, fluid, autocorrelation and speed, over the surfaces: mean and rms of f/f_ref - 1 and
-    of the contact share, mean ratio of the gaps, median seconds; the reference's share and film ratio (means); how
-    many surfaces, how many failures."""
+    of the contact share, mean ratio of the gaps, median seconds; the reference's share and film ratio (means), the
+    method's own; how many surfaces, how many failures."""
 
     load: float
     fluid: str
@@ -28,6 +30,7 @@ class Deviation:
     seconds: float
     share: float
     film_ratio: float
+    own_film_ratio: float
     surfaces: int
     failures: int
 
@@ -57,9 +60,21 @@ def _deviation(key, pairs) -> Deviation:
         float(np.median([p.seconds for p, _ in pairs])),
         float(np.mean([r.contact_share for _, r in good] or [np.nan])),
         float(np.mean([r.film_ratio for _, r in good] or [np.nan])),
+        float(np.mean([p.film_ratio for p, _ in good] or [np.nan])),
         len(good),
         len(pairs) - len(good),
     )
+
+
+def told(d: Deviation) -> float:
+    """What a result says of its model: at the mean share and film ratio that the method itself found."""
+    return TOLD_BY[d.method](d)
+
+
+TOLD_BY = {
+    'Eq. (8) over "hertz"': lambda d: load_sharing_error(d.own_film_ratio, d.share + d.share_mean),
+    "one-way": lambda d: one_way_error(d.share + d.share_mean),
+}
 
 
 def rows(found: list[Deviation]) -> tuple[tuple, ...]:
@@ -82,3 +97,17 @@ def rows(found: list[Deviation]) -> tuple[tuple, ...]:
         )
         for d in found
     )
+
+
+def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of docs/model-error.md: mean / rms [%] of f a method; a row a load, acf and speed."""
+    methods = [m for m in dict.fromkeys(d.method for d in found) if m != REFERENCE]
+    rows = []
+    for key in dict.fromkeys((d.load, d.acf, d.speed) for d in found):
+        here = {d.method: d for d in found if (d.load, d.acf, d.speed) == key}
+        reference = here[REFERENCE]
+        name = f"{key[0]:g}" + (", exponential" if key[1] == "exponential" else "")
+        cells = [name, f"{key[2]:g}", f"{reference.share:.2f}", str(reference.surfaces)]
+        cells += [f"{100 * here[m].mean:+.1f} / {100 * here[m].rms:.1f}" if m in here else "" for m in methods]
+        rows.append(cells)
+    return ["load (N)", "U (m/s)", "share of spots", "surfaces", *methods], rows
