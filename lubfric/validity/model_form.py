@@ -3,8 +3,8 @@
 ``python -m verification model`` solves the same rough line contact by load sharing and by one gap with one pressure
 (`lubfric.deterministic`): the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90 µm. The
 rms over surfaces of f/f_deterministic - 1 lies below these bounds, or at most a quarter above them (half with an
-exponential autocorrelation; docs/model-error.md). They hold for a patch; much of that error differs from patch to patch, so that a long line has less. What both models
-leave out (heat, unsteady roughness, boundary films) is not in it.
+exponential autocorrelation; docs/model-error.md). They hold for a patch; much of that error differs from patch to
+patch, so that a long line has less. What both models leave out (heat, unsteady roughness, boundary films) is not in it.
 """
 
 from __future__ import annotations
