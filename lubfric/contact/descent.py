@@ -27,10 +27,11 @@ STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
 TRANSFORMED = 0.7  # share of contact from which the preconditioner is the transform, not nine points
 REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
-NARROWINGS, WORTH = (4, 8, 16, 32), 0.7
-FORGOTTEN = 1e-6
+NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
+NEAR, WORTH = 0.7, 0.8  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
+FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
 FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
-HUGE = np.float32(1e20)
+HUGE = np.float32(1e20)  # times any pressure: beyond all others
 CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have to be more
 PATIENCE = 8  # iterations without a tenth off the best residual
 
@@ -149,7 +150,7 @@ class Descent:
 
     def _narrowed(self, free) -> bool:
         """Leave out cells that came nowhere near touch, where they are many."""
-        near = self.gap < self.level + REACH * self.overlap
+        near = self.gap < self.level + NEAR * self.overlap
         near |= free
         near |= np.abs(self.known - self.lower) > FORGOTTEN
         near |= self.change > self.lower

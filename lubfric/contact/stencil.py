@@ -6,12 +6,15 @@ are always a multiple of the identity less an outer product of three and three, 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
 
 
+@lru_cache(maxsize=16)
 def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
     """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no
     waves."""

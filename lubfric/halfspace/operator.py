@@ -128,8 +128,9 @@ class HalfSpace(FrozenArrays):
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
     def shortened(self, count: int) -> HalfSpace:
-        """The same cells on the first ``count`` of a free axis x: an exact part of this operator, in the same gauge.
+        """The same cells on the first ``count`` of a free axis x, made once.
 
+        An exact part of this operator, in the same gauge.
         Raises `InputError` unless x is free and ``count`` at most as long as it is.
         """
         if self.boundary[0] != "free" or not 1 <= count <= self.shape[0]:
@@ -137,6 +138,12 @@ class HalfSpace(FrozenArrays):
                 f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
                 "all cells of a free axis"
             )
+        key = ("shortened", int(count))
+        if key not in self._made:
+            self._made[key] = self._shortened(int(count))
+        return self._made[key]
+
+    def _shortened(self, count: int) -> HalfSpace:
         coefficients = fft.irfft(self.symbol, n=self.padded[0], axis=0)[:count]
         length = _padded_length(count)
         return replace(

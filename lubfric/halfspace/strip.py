@@ -12,6 +12,7 @@ import numpy as np
 from scipy import fft
 
 NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
+WORTH = 2e4  # values that a transform of their own is worth
 ROUND = 8  # rows: strips of nearly the same width share their transforms
 
 
@@ -63,7 +64,8 @@ def strip(kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=
     while begin < reaches.size:
         reach = int(reaches[begin])
         short = np.flatnonzero(reaches[begin:] <= reach // 2)
-        end = begin + int(short[0]) if short.size and reach > 4 else reaches.size
+        few = not short.size or short[0] * count < WORTH or (reaches.size - begin - short[0]) * count < WORTH
+        end = reaches.size if few else begin + int(short[0])
         length = fft.next_fast_len(min(count + (1 + beyond) * reach, 2 * farthest + 1))
         even = np.zeros((length, end - begin))
         lags = min(reach, farthest, (length - 1) // 2)

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import solve_contact
-from ..contact.single_loop import single_loop
 from ..errors import InputError
 from ..halfspace import HalfSpace, half_space
+from ..paper.contact import single_loop
 from ..scene import Scene
 from .contract import ContactState
 from .half_space_grid import HalfSpaceGrid

@@ -8,9 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from lubfric import ConvergenceError, solve_contact
-from lubfric.contact.alternating import alternating
-from lubfric.contact.single_loop import single_loop
 from lubfric.halfspace import half_space
+from lubfric.paper.contact import alternating, single_loop
 
 from ..check import Check
 from ..opponents import CONTACT

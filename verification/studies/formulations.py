@@ -9,9 +9,8 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import solve_contact
-from lubfric.contact.alternating import alternating
-from lubfric.contact.single_loop import single_loop
 from lubfric.halfspace import half_space
+from lubfric.paper.contact import alternating, single_loop
 
 from ..check import AT_MOST, Check, Table
 

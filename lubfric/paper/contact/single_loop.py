@@ -17,11 +17,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import validate
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
+from ... import validate
+from ...contact.residual import contact_residuals
+from ...contact.result import ContactResult
+from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed import Imposed, Outcome, impose
-from .residual import contact_residuals
-from .result import ContactResult
 
 FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import validate
-from ..errors import InputError
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .problem import Problem, make_problem, starting_pressure
-from .residual import contact_residuals, length_scale
-from .result import ContactResult
+from ... import validate
+from ...contact.problem import Problem, make_problem, starting_pressure
+from ...contact.residual import contact_residuals, length_scale
+from ...contact.result import ContactResult
+from ...errors import InputError
+from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import validate
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
-from ..roots import increasing_root
+from ... import validate
+from ...contact.refine import refine
+from ...contact.result import ContactResult
+from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ...roots import increasing_root
 from .imposed import Imposed, Outcome, impose
-from .refine import refine
-from .result import ContactResult
 
 UPDATES = ("root", "repeat")
 
@@ -45,7 +45,7 @@ def alternating(
         (default): the volume balance as a function of epsilon, its zero bracketed; the volume falls with
         epsilon, so there is one.
     max_iterations : of the outer loop; the others, the result and its residuals as in
-        `lubfric.contact.single_loop.single_loop`. ``report.iterations`` counts the outer loop,
+        `lubfric.paper.contact.single_loop`. ``report.iterations`` counts the outer loop,
         ``report.evaluations`` every convolution.
     """
     validate.choice("update", update, UPDATES)

@@ -5,9 +5,8 @@ import pytest
 
 import lubfric
 from lubfric.contact import solve_contact
-from lubfric.contact.alternating import alternating
-from lubfric.contact.single_loop import single_loop
 from lubfric.halfspace import half_space
+from lubfric.paper.contact import alternating, single_loop
 
 E, D, N, RADIUS = 231e9, 1e-6, 96, 2e-3
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}

@@ -1,0 +1,199 @@
+"""Measured maps in scenes: two bodies, short maps, spikes, keys that do not apply; what a scene keeps is its own."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.cli import main
+from lubfric.rough.height_map import contact_map
+from lubfric.roughness import Roughness
+from lubfric.scene import Patch
+
+BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
+MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
+SCENE = """
+[bodies]
+radius = 2e-3
+width = 6e-3
+load = 5.5
+e_prime = 231e9
+boundary_friction_coefficient = 0.09
+[lubricant]
+viscosity = 0.36
+pressure_viscosity_coefficient = 25e-9
+[motion]
+entrainment_speed = 0.001
+"""
+GENERATED = (
+    "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n[contact]\nshape = [96, 64]\nspacing = 0.6e-6\n"
+)
+GRID = 0.6e-6
+
+
+def scene_file(folder, text):
+    path = folder / "scene.toml"
+    path.write_text(SCENE + text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def maps(tmp_path):
+    """Two measured maps; the first long enough, the second shorter than the Hertz strip (9 um)."""
+    for name, shape, seed in (("long.npy", (160, 96), 1), ("short.npy", (200, 200), 2)):
+        rough = lubfric.generate_surface((200, 200), GRID, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=seed)
+        size = shape if name.startswith("long") else (12, 80)
+        np.save(tmp_path / name, rough.cropped(size).heights)
+    return tmp_path
+
+
+def measured(name):
+    path = MEASURED / name
+    if not path.is_file():
+        pytest.skip(f"{name} not found: set LUBFRIC_SURFACES to the folder of measured surfaces")
+    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+    return path
+
+
+def test_two_generated_bodies_are_independent_also_with_one_seed(tmp_path):
+    both = GENERATED + "[counterface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n"
+    two, one = (lubfric.load_scene(scene_file(tmp_path, text)) for text in (both, GENERATED))
+    found, alone = contact_map(two), contact_map(one)
+    other = found.heights - (alone.heights - alone.heights.mean())
+    assert abs(np.corrcoef(other.ravel(), alone.heights.ravel())[0, 1]) < 0.3
+    assert other.std() == pytest.approx(1e-7, rel=1e-6) and found.periodic_axes == (True, True)
+    assert lubfric.friction(two).film_load < 0.8 * lubfric.friction(one).film_load
+
+
+def test_the_order_of_two_measured_bodies_does_not_matter(maps):
+    """The pair turned over is the pair mirrored in y."""
+    one = f"file = 'long.npy'\nspacing = {GRID}\n"
+    texts = [f"[surface]\n{a}[counterface]\n{b}" for a, b in ((one, one + "sq = 3e-8\n"), (one + "sq = 3e-8\n", one))]
+    found = [lubfric.friction(lubfric.load_scene(scene_file(maps, text))).coefficient for text in texts]
+    assert found[0] == pytest.approx(found[1], rel=5e-3)
+
+
+def test_a_map_shorter_than_the_strip_leads_to_what_can_be_done(maps):
+    text = f"[surface]\nfile = 'short.npy'\nspacing = {GRID}\n"
+    scene = lubfric.load_scene(scene_file(maps, text))
+    with pytest.raises(lubfric.InputError, match=r"surface.extension = 'mirror'.*contact.geometry = 'flat'"):
+        lubfric.prepare(scene)
+    longer = scene.with_(surface={"extension": "mirror"})
+    strip = 2 * scene.bodies.half_width
+    assert contact_map(longer).size[0] > 5 * strip and 0 < lubfric.friction(longer).coefficient < 0.1
+    flat = lubfric.friction(scene.with_(contact={"geometry": "flat"}))
+    assert 0 < flat.coefficient < 0.1
+
+
+def test_a_spike_is_pointed_at_and_can_be_masked_or_believed(maps):
+    z = np.load(maps / "long.npy")
+    z[41, 17] += 3e-6
+    np.save(maps / "long.npy", z)
+    scene = lubfric.load_scene(scene_file(maps, f"[surface]\nfile = 'long.npy'\nspacing = {GRID}\n"))
+    with pytest.raises(lubfric.InputError, match=r"\(41, 17\).*outliers = 'mask'"):
+        lubfric.prepare(scene)
+    masked = lubfric.friction(scene.with_(surface={"outliers": "mask"}))
+    believed = lubfric.friction(scene.with_(surface={"outliers": "keep"}))
+    assert masked.film_load > 5 * believed.film_load  # the spike keeps the film away
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (GENERATED.replace("[contact]", "unit = 'm'\n[contact]"), ["surface.unit", "map from a file"]),
+        (GENERATED.replace("[contact]", "spacing = 1e-6\n[contact]"), ["surface.spacing"]),
+        (GENERATED.replace("[contact]", "motion_axis = 'x'\n[contact]"), ["surface.motion_axis"]),
+        ("[surface]\nfile = 'long.npy'\nspacing = 1e-6\nseed = 0\n", ["surface.seed", "generated"]),
+        ("[surface]\nfile = 'long.npy'\nspacing = 1e-6\nacf = 'exponential'\n", ["surface.acf"]),
+        (GENERATED + "[counterface]\nsq = 1e-7\ncorrelation_length = 4e-6\nform = 'plane'\n", ["counterface.form"]),
+        (GENERATED + "[counterface]\nsq = 1e-7\n", ["counterface", "correlation_length"]),
+        (GENERATED + "[counterface]\nfile = 'nowhere.npy'\n", ["counterface.file", "nowhere.npy", "no such file"]),
+        (GENERATED + "[counterface]\nsq = -1.0\ncorrelation_length = 4e-6\n", ["counterface.sq", "-1"]),
+        (GENERATED + "[counterface]\nsqq = 1.0\n", ["counterface", "did you mean 'sq'"]),
+    ],
+)
+def test_keys_that_do_not_apply_are_refused(maps, text, words):
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene(scene_file(maps, text))
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_the_same_by_call():
+    with pytest.raises(lubfric.InputError, match="surface.seed"):
+        Roughness(file="a.npy", seed=3)
+    with pytest.raises(lubfric.InputError, match="surface.s_filter"):
+        Roughness(sq=1e-7, correlation_length=1e-6, s_filter=1e-5)
+    paper = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError, match="counterface.outliers"):
+        paper.with_(counterface={"file": "a.npy", "outliers": "perhaps"})
+    turned = paper.with_(surface={"file": "a.npy"})  # a file in place of a generated map leaves nothing of that
+    assert turned.surface == Roughness(file="a.npy")
+    assert paper.with_(counterface={"sq": 1e-8, "correlation_length": 1e-5}).with_(counterface=None) == paper
+
+
+@pytest.mark.parametrize("name", ["areal-optical.al3d", "areal-missing.sur"])
+def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, name):
+    """The same Sq in each; the map with outliers asks for a word."""
+    path = measured(name)
+    sq = lubfric.read_surface(path).sq
+    wide = SCENE.replace("radius = 2e-3", "radius = 2.0").replace("load = 5.5", "load = 300.0")
+    text = f"[surface]\nfile = '{path}'\n[contact]\ngeometry = 'flat'\n"
+    (tmp_path / "scene.toml").write_text(wide + text)
+    if name.endswith(".sur"):
+        assert main(["info", str(tmp_path / "scene.toml")]) == 2
+        assert "outliers = 'mask'" in capsys.readouterr().err
+        (tmp_path / "scene.toml").write_text(wide + text.replace("[contact]", "outliers = 'keep'\n[contact]"))
+    assert main(["info", str(tmp_path / "scene.toml")]) == 0
+    assert f"Sq {sq * 1e9:.4g} nm" in capsys.readouterr().out
+
+
+def test_counterface_on_the_command_line(maps, capsys):
+    scene_file(maps, GENERATED)
+    assert main(["info", str(maps / "scene.toml"), "--counterface", str(maps / "nothing.npy")]) == 2
+    assert "counterface_file" in capsys.readouterr().err
+    second = lubfric.load_scene(maps / "scene.toml", counterface_file=maps / "long.npy")
+    assert second.counterface.file.endswith("long.npy") and second.surface.sq == 1e-7
+
+
+def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
+    shape, spacing, speeds = [64, 64], [2e-6, 2e-6], [0.01, 0.02]
+    patch = Patch(geometry="flat", shape=shape, spacing=spacing)
+    scene = lubfric.load_scene("flat").with_(contact=patch, surface={"correlation_length": 8e-6})
+    scene = scene.with_(motion={"speeds": speeds})
+    shape[0], spacing[0], speeds[0] = 1, 1.0, 9.0
+    assert scene.contact.shape == (64, 64) and scene.contact.spacing == (2e-6, 2e-6)
+    assert scene.motion.speeds == (0.01, 0.02) and hash(scene) == hash(scene.with_(name=scene.name))
+    asked = np.array([0.05, 0.1])
+    curve = lubfric.stribeck(scene.with_(numerics={"accept": True}), asked)
+    asked[0] = 7.0
+    assert curve.speed.tolist() == [0.05, 0.1]
+
+
+@pytest.mark.parametrize("value", [5e-324, 1e308, -1e308])
+@pytest.mark.parametrize("key", ["motion.entrainment_speed", "motion.slide_roll_ratio", "lubricant.eyring_stress"])
+def test_absurd_magnitudes_are_refused_before_any_work(key, value):
+    section, name = key.split(".")
+    with pytest.raises(lubfric.InputError, match=name):
+        lubfric.load_scene("paper").with_(**{section: {name: value}})
+
+
+def test_pure_rolling_keeps_its_tolerance():
+    """Where the rolling force is the small difference of its parts (2.3 % off before): against ten times tighter."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"load": 870.0, "width": 1e-2, "radius": 1.2e-3, "hardness": None},
+        lubricant={"viscosity": 0.011, "pressure_viscosity_coefficient": 2.2e-8},
+        motion={"entrainment_speed": 0.0027, "slide_roll_ratio": 0.0, "speeds": ()},
+        numerics={"accept": True, "film_deflection": "hydrodynamic"},
+    )
+    step = 6 * scene.bodies.half_width / 64
+    scene = scene.with_(
+        surface={"sq": 5e-8, "correlation_length": 4 * step}, contact={"shape": (64, 32), "spacing": step}
+    )
+    model = lubfric.prepare(scene)
+    found, fine = lubfric.friction(model), lubfric.friction(model, tolerance=3e-3)
+    assert found.coefficient == pytest.approx(fine.coefficient, rel=0.01)
+    parts = found.balance.forces.shear
+    assert parts.rolling_parts > 1.3 * abs(parts.rolling) and parts.quadrature < 0.003 * abs(parts.rolling)
