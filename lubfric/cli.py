@@ -1,4 +1,4 @@
-"""The ``lubfric`` command: run, info, plot, oils."""
+"""The ``lubfric`` command: run, info, plot, init, oils."""
 
 from __future__ import annotations
 
@@ -83,11 +83,22 @@ def _parser() -> argparse.ArgumentParser:
     plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
     plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
     plot.set_defaults(command=_plot)
+    init = commands.add_parser("init", help="write a commented scene to start from")
+    init.add_argument("file", type=Path, nargs="?", default=Path("scene.toml"), help="(default: scene.toml)")
+    init.set_defaults(command=_init)
     oils = commands.add_parser("oils", help="list the named oils, or show one: 'lubfric oils show mineral-100'")
     oils.add_argument("show", nargs="?", choices=["show"], help="show one oil over temperature")
     oils.add_argument("name", nargs="?", help="its name")
     oils.set_defaults(command=_oils)
     return parser
+
+
+def _init(arguments) -> int:
+    from .template import write_template
+
+    write_template(arguments.file)
+    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
+    return 0
 
 
 def _add_maps(command: argparse.ArgumentParser) -> None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 
 from .analytic import film as film_formulas
-from .analytic import hertz
 from .errors import InputError
+from .inputs import input_lines
 from .point.outlook import outlook
 from .rough.height_map import contact_map
 from .scene import Scene
 from .surface import correlation_length, rms_slope
+from .validity.foretold import foretold
+from .validity.gather import gathered
 
 SOLVE_FIELDS = 12  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
 
@@ -20,18 +22,10 @@ def describe_scene(scene: Scene) -> str:
     bodies, lubricant, patch = scene.bodies, scene.lubricant, scene.contact
     surface = contact_map(scene)
     w = bodies.load / bodies.width
-    peak = hertz.line_peak_pressure(w, bodies.radius, bodies.e_prime)
     nx, ny = surface.heights.shape
-    limit = "elastic" if bodies.hardness is None else f"plastic limit {bodies.hardness / 1e9:g} GPa"
     lines = [
         f"scene {scene.name}",
-        f"  Hertz          half-width {bodies.half_width * 1e6:.3f} um, mean pressure "
-        f"{bodies.mean_hertz_pressure / 1e6:.1f} MPa, peak {peak / 1e6:.1f} MPa",
-        f"  bodies         R = {bodies.radius:g} m, B = {bodies.width:g} m, F_T = {bodies.load:g} N, "
-        f"E' = {bodies.e_prime / 1e9:g} GPa, {limit}, f_b = {bodies.boundary_friction_coefficient:g}",
-        f"  lubricant      {lubricant.viscosity:g} Pa s, alpha = "
-        f"{lubricant.pressure_viscosity_coefficient * 1e9:g} /GPa, "
-        f"{lubricant.viscosity_law}, density {lubricant.density_law}",
+        *input_lines(scene),
         f"  surface        {surface.describe()}",
         *_map_lines(scene, surface),
         "  speed U (m/s)      M        L     h (um)  lambda   (Moes film at full load)",
@@ -69,7 +63,15 @@ def describe_scene(scene: Scene) -> str:
         f"  U = {speed:<10.4g} {outlook(scene, surface, speed)}"
         for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})
     ]
+    told = foretold(scene, surface, sorted(set(speeds)))
+    lines += [f"  {entry.text}" for speed, entry in told if speed is None]
+    lines += [f"  {text}" for text in gathered([(speed, (entry,)) for speed, entry in told if speed is not None])]
+    lines += [f"  {note}" for note in _no_doubts(told)]
     return "\n".join(lines)
+
+
+def _no_doubts(told) -> list[str]:
+    return [] if told else ["validity       nothing that could be told before the solve"]
 
 
 def _map_lines(scene: Scene, surface) -> list[str]:

@@ -15,14 +15,15 @@ from .rough.make import rough_contact
 from .sampling.lines import Lines
 from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
+from .show import Shown
 from .surface import Surface
 from .validate import instance
 from .validity.beforehand import beforehand
 from .validity.entry import Validity
 
 
-@dataclass(frozen=True)
-class Model:
+@dataclass(frozen=True, repr=False)
+class Model(Shown):
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
     Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
@@ -38,6 +39,9 @@ class Model:
     known: tuple[Validity, ...] = ()
     lines: Lines | None = None
     given: bool = False
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.scene.name, "map": self.surface.describe()}
 
 
 def prepare(

@@ -13,7 +13,7 @@ DIVERGED = "diverged"
 
 ADVICE = {
     CONVERGED: "",
-    ITERATION_LIMIT: "raise max_iterations, or loosen the tolerance",
+    ITERATION_LIMIT: "loosen the tolerance (of a scene: numerics.tolerance), or raise max_iterations where it is given",
     STAGNATED: "the residual stopped falling: loosen the tolerance or refine the grid",
     DIVERGED: "the iteration left the physical range: check the input, or start closer",
 }
@@ -37,6 +37,7 @@ class Report:
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
     evaluations : number of expensive kernels (convolutions, linear solves, inner solves)
+    advice : what to do about it where the status alone does not tell; in ``message``
     notes : choices the solver made that a reader of the result should know
     """
 
@@ -49,6 +50,7 @@ class Report:
     history: tuple[float, ...] = ()
     evaluations: int = 0
     notes: tuple[str, ...] = ()
+    advice: str = ""
 
     @property
     def converged(self) -> bool:
@@ -62,7 +64,8 @@ class Report:
             f"{self.solver}: {self.status} after {self.iterations} iterations, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
-        return f"{text}; {ADVICE[self.status]}" if ADVICE[self.status] else text
+        advice = "" if self.converged else self.advice or ADVICE[self.status]
+        return f"{text}; {advice}" if advice else text
 
     def raise_if_failed(self, result=None) -> None:
         """Raise `ConvergenceError` carrying this report (and ``result``) unless it converged."""

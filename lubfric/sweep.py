@@ -28,6 +28,7 @@ from .validity.entry import Validity
 from .validity.gather import gathered
 
 AUTO = "auto"
+FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
 NOT_NUMBERS = (
     "report",
     "balance",
@@ -241,7 +242,10 @@ def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
     error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
     status = result.report.status if error <= tolerance else ITERATION_LIMIT
     residuals = {"interpolation": error, "points": result.report.residual}
-    return replace(result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals)
+    advice = FAILED_SPEEDS if result.errors else "solve more speeds of your own, or loosen numerics.tolerance"
+    return replace(
+        result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals, advice=advice
+    )
 
 
 def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
@@ -259,7 +263,9 @@ def _collect(speeds, points, errors) -> StribeckResult:
     tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
     status = ITERATION_LIMIT if errors else CONVERGED
     notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
-    report = Report("stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes)
+    report = Report(
+        "stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes, advice=FAILED_SPEEDS
+    )
     return StribeckResult(
         **columns,
         points=tuple(points),

@@ -8,6 +8,7 @@ from .interpolate import Interpolant, Samples, knee_of
 
 FIRST = 5  # speeds at first, evenly spread in their logarithm, from the fastest down
 CLOSE = 1.06  # ratio of the slowest film without contact to lift-off that pins the knee down
+ENOUGH = 4  # speeds within a tenth of the knee: more would not tell it better
 APART = 1.015  # least ratio of neighbouring speeds
 SHARE = 0.8  # of the tolerance that the estimate of the error may reach
 GRID = 400
@@ -32,13 +33,18 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     taken = np.append(speeds, np.asarray(tried, dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
-    if knee is not None and speeds[samples.contacts] > CLOSE * knee:
+    if knee is not None and speeds[samples.contacts] > CLOSE * knee and _about(knee, taken) < ENOUGH:
         above = 0.5 * (1 + CLOSE) * knee
         if _free(np.array([above]), taken)[0]:
             return float(above), largest
     if largest <= SHARE * tolerance:
         return None, largest
     return float(at[error.argmax()]), largest
+
+
+def _about(knee: float, taken: np.ndarray) -> int:
+    """Number of speeds within a tenth of the knee."""
+    return int(np.count_nonzero(np.abs(np.log(taken / knee)) < 0.1))
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:

@@ -89,6 +89,8 @@ class Problem:
 
     def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of the imposed pressure at ``X`` (n,), with its derivative by X."""
+        if self.imposed is None:
+            return np.zeros_like(X), np.zeros_like(X)
         return line_deflection(X, self.imposed.x / self.length_unit, self.imposed.pressure / self.pressure_unit)
 
     def alone(self) -> Problem:

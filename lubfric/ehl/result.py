@@ -9,12 +9,13 @@ import numpy as np
 
 from ..line_contact import LineContact
 from ..report import Report
+from ..show import Shown
 from .imposed import LinePressure, line_deflection
 from .start import State
 
 
-@dataclass(frozen=True)
-class EHLResult:
+@dataclass(frozen=True, repr=False)
+class EHLResult(Shown):
     """Steady line-contact film, SI units. Arrays are (n,), x ascending.
 
     x [m]: nodes, the line of centres at 0, from the inlet to a stretch of cavitated outlet;
@@ -81,6 +82,16 @@ class EHLResult:
     def cells(self) -> int:
         """Of the finest grid, before rupture."""
         return self.state.pressure.size
+
+    def _facts(self) -> dict[str, str]:
+        return {
+            "": f"{self.x.size} nodes",
+            "M": f"{self.load_number:.3g}",
+            "L": f"{self.material_number:.3g}",
+            "min film": f"{self.min_film:.4g} m",
+            "central film": f"{self.central_film:.4g} m",
+            "status": self.report.status,
+        }
 
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.

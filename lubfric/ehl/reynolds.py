@@ -104,9 +104,9 @@ def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, n
     shift = np.zeros(n + 3)
     by_H = _face_rows(grid, terms, J)
     shift[:n] = by_H * (grid.face_film @ terms.defect)
-    by_H = _closing_rows(grid, problem, terms, J)
-    shift[n] = by_H[0] * terms.defect[0]
-    shift[n + 2] = by_H[1] * terms.defect[-1]
+    at_inlet, at_rupture = _closing_rows(grid, problem, terms, J)
+    shift[n] = at_inlet * terms.defect[0]
+    shift[n + 2] = at_rupture * terms.defect[-1]
     return J, shift
 
 

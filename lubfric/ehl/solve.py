@@ -131,7 +131,10 @@ def solve_line_contact(
     problem = make_problem(contact, inlet_length, imposed)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
-    levels, first, notes, seats = [], [], (), find_seats(problem)
+    seats = find_seats(problem)
+    levels: list[Solution] = []
+    first: list[Solution] = []
+    notes: tuple[str, ...] = ()
     if start is not None:
         alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
         problem = replace(problem, seat=(alike or seats)[0])
@@ -233,9 +236,11 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
     if doublings:
         return _descent(problem, n, max_steps, doublings)
     if problem.imposed is not None:
-        state, solutions = _first_state(problem.alone(), n, max_steps)
-        return from_alone(problem, state), solutions
-    state, solutions, share = None, [], min(1.0, EASY / max(problem.L, EASY))
+        alone, led_there = _first_state(problem.alone(), n, max_steps)
+        return from_alone(problem, alone), led_there
+    state: State | None = None
+    solutions: list[Solution] = []
+    share = min(1.0, EASY / max(problem.L, EASY))
     while True:
         stage = problem.softened(share)
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
@@ -249,13 +254,15 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 
 def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
     """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
-    state, solutions = None, []
-    for k in range(doublings, 0, -1):
+
+    def stage_of(k: int) -> Problem:
         faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
         stage = replace(problem, contact=faster)
-        stage = replace(stage, seat=find_seats(stage)[0])
-        if state is None:
-            state, solutions = _first_state(stage, n, max_steps)
+        return replace(stage, seat=find_seats(stage)[0])
+
+    state, solutions = _first_state(stage_of(doublings), n, max_steps)
+    for k in range(doublings, 0, -1):
+        stage = stage_of(k)
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)

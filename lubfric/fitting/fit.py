@@ -104,5 +104,7 @@ def _result(predict: Predictor, scale, unit, search) -> FitResult:
     covariance = variance * (axes.T / known**2) @ axes
     status = CONVERGED if search.status > 0 else ITERATION_LIMIT
     move = 0.0 if status == CONVERGED else 1.0
-    report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, {"sum of squares": squares})
+    advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
+    squared = {"sum of squares": squares}
+    report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, squared, advice=advice)
     return FitResult(predict.scene, predict.measured, predict.parameters, unit, covariance, f, slopes, scale, report)

@@ -17,7 +17,8 @@ from .adapt import Solved, solved
 from .balance import Balance
 
 PER_SENSITIVITY, AT_MOST = 2.2, 1.2
-CERTAIN = 3.0  # times the limit: a neighbour's error beyond which this point's is not looked at
+CERTAIN = 3.0  # times the limit: beyond it by the loose solve, the film's own pressure is not tried
+LOOSE = {"film_deflection": "hydrodynamic", "tolerance": 0.1, "model": "auto", "grid": "auto", "heat": "off"}
 SENSIBLE = 0.3  # above it the estimate is no number to quote
 
 
@@ -37,13 +38,13 @@ def solved_as_deflected(
     model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False
 ) -> tuple[Model, Solved]:
     """``model`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance needs
-    it, and its solution (`solved`). A neighbour ``start`` far beyond what its own pressure allows goes to the whole
-    load at once."""
+    it, and its solution (`solved`). A loose solve by the film's own pressure that is far beyond its share goes to
+    the whole load at once; the choice does not depend on ``start``."""
     if model.scene.numerics.film_deflection != "auto":
         return model, solved(model, speed, start, given_grid=given_grid)
     limit, error, option = budget.DEFLECTION * model.scene.numerics.tolerance, 0.0, "hydrodynamic"
-    if start is not None and start.film is not None and start.film.e_prime < model.scene.bodies.e_prime:
-        error = own_pressure_error(model.scene, start)
+    if speed != 0:
+        error = own_pressure_error(model.scene, solved(_loose(model), speed).balance)
     if error <= CERTAIN * limit:
         chosen = deflected_by(model, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
@@ -54,6 +55,11 @@ def solved_as_deflected(
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
     return chosen, replace(found, decision=replace(found.decision, deflection=told))
+
+
+def _loose(model: Model) -> Model:
+    """``model`` by its film's own pressure, to a tolerance that costs little and tells whether it will do."""
+    return replace(model, scene=model.scene.with_(numerics=LOOSE))
 
 
 def deflected_by(model: Model, option: str) -> Model:

@@ -37,7 +37,10 @@ class Response:
 
     def relative(self, name: str, gap_error: float) -> float:
         """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film."""
-        return abs(self.rates[name] * self.split * gap_error) if self.rates else 0.0
+        rate = self.rates[name] * self.split if self.rates else 0.0
+        return (
+            abs(rate * gap_error) if rate else 0.0
+        )  # a quantity that does not move is known, however far the gap is off
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:

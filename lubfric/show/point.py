@@ -14,7 +14,7 @@ class PointShown(Shown):
     def _facts(self) -> dict[str, str]:
         facts = {
             "U": f"{self.speed:.4g} m/s",
-            "f": f"{self.coefficient:.5g}",
+            "f": f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}",
             "F_C": f"{self.contact_load:.4g} N",
             "F_H": f"{self.film_load:.4g} N",
             "lambda": f"{self.film_to_roughness_ratio:.3g}",
@@ -79,3 +79,8 @@ class PointShown(Shown):
                 f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True"
             )
         return getattr(self.balance.contact.fields, name)
+
+
+def _interval(interval: tuple[float, float]) -> str:
+    low, high = interval
+    return f" ({low:.4g} to {high:.4g} at 95 %)" if np.isfinite(low) and np.isfinite(high) else ""

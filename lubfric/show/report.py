@@ -90,7 +90,8 @@ def _sure(curve) -> str:
     if errors:
         lines.append(f"The contact grid leaves an estimated error of at most {100 * max(errors):.2g} % of f.")
     told = {n: p.speed for p in curve.points if p is not None and p.decision for n in p.decision.notes}
-    return _list([*lines, *(f"at {speed:.4g} m/s: {note}" for note, speed in told.items())], "", "")
+    rows = [(f"{p.speed:.4g} m/s", p.uncertainty.text) for p in curve.points if p is not None]
+    return _table(rows) + _list([*lines, *(f"at {speed:.4g} m/s: {note}" for note, speed in told.items())], "", "")
 
 
 def _decisions(curve) -> str:

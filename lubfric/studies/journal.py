@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
 from ..result import FrictionResult
-from ..store import Records, decode, encode, read_checked, write_checked
+from ..store import Records, decode, encode, read_checked, write_checked, write_whole
 from ..store.codec import from_plain, to_plain
 from ..validity.entry import Validity
 
@@ -57,6 +57,20 @@ class Journal:
     def end(self, chain: str) -> None:
         """The chain is complete: its state is not needed any more."""
         self._path(STATES, chain).unlink(missing_ok=True)
+
+    def begin(self, name: str) -> bool:
+        """Mark a piece of work as begun; whether it was begun before and not finished."""
+        path = self._mark(name)
+        before = path.is_file()
+        write_whole(path, b"", sync=False)
+        return before
+
+    def finish(self, name: str) -> None:
+        """Take the mark of `begin` away."""
+        self._mark(name).unlink(missing_ok=True)
+
+    def _mark(self, name: str) -> Path:
+        return self.folder / STATES / f"{name[:32]}.begun"
 
     def close(self) -> None:
         """Close the file of the records."""

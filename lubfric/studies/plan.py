@@ -82,6 +82,8 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     if scene_of(scene) is not scene:
         raise InputError("a study varies a scene; allowed: what lubfric.load_scene returned, not a model of it")
     axes = axes_of(scene, {} if vary is None else vary)
+    if isinstance(speeds, str):
+        raise InputError(f"speeds = {speeds!r} of a study; allowed: speeds in m/s (lubfric.stribeck takes 'auto')")
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)

@@ -111,7 +111,10 @@ def _chains(batch: Batch):
 def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
     journal = None if piece.folder is None else Journal(piece.folder)
-    rows, leader = {}, None
+    rows, leader, name = {}, None, piece.batch.curves[0].chains[0].name
+    if journal is not None and journal.begin(name):  # by a worker that is gone: what it finished is taken over
+        rows = _rows(piece.folder)
+        piece = _piece(piece.batch, piece.folder, rows)
     try:
         for curve in piece.batch.curves:
             chains = [chain for chain in curve.chains if piece.left(chain)]
@@ -127,6 +130,8 @@ def run_piece(piece: Piece) -> dict[str, dict]:
             for chain in chains:
                 for index, outcome in run_chain(model, chain, journal, piece.done.get(chain.name, 0)):
                     rows[chain.keys[index]] = row_of(record_of(outcome))
+        if journal is not None:
+            journal.finish(name)
     finally:
         if journal is not None:
             journal.close()

@@ -71,7 +71,10 @@ def columns_of(result: StudyResult) -> dict[str, np.ndarray]:
 def _attributes(name: str, result: StudyResult) -> dict[str, str]:
     if name.startswith("uncertainty_"):
         part = name.removeprefix("uncertainty_")
-        return {"units": "1", "long_name": f"uncertainty of the friction coefficient: {part}"}
+        return {
+            "units": "m" if part == "length" else "1",
+            "long_name": f"uncertainty of the friction coefficient: {part}",
+        }
     return described(name, QUANTITIES)
 
 

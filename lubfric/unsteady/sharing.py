@@ -80,7 +80,7 @@ def share_step(sharing: Sharing, time: float, memory: Memory, z: np.ndarray, pas
     touch, softness, seen = past.load, past.softness, None
     total = sharing.total(time)
     closure, mean = past.closure, past.closure.mean_gap
-    solution = None
+    solution: StepSolution
     for _ in range(MOST_TRIALS):
         spring = None
         if touch > 0.0:

@@ -78,7 +78,7 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
     error = discretisation(setting, film)
-    if point.contact_load == 0.0:
+    if point.balance is None or point.contact_load == 0.0:
         return replace(film, payload=_untouched(sharing, film.terms.H)), error
     contact = Contact(point.contact_load, point.balance.contact, 0.3 * point.mean_gap)
     found = share_step(sharing, 0.0, steady(setting.grid), film.z, contact)

@@ -9,7 +9,7 @@ from lubfric.curve.choose import first_speeds
 from lubfric.curve.interpolate import knee_of
 
 SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 
 

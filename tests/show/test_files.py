@@ -28,6 +28,8 @@ correlation_length = 4e-6
 [contact]
 shape = [48, 40]
 spacing = [1.1e-6, 0.9e-6]
+[numerics]
+sampling = "patch"
 """
 
 
@@ -68,7 +70,7 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     f = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01]).coefficient
     for words in (*(f"{value:.4g}" for value in f), "a < b & c", "0.36 Pa s", "2.31e+11 Pa", lubfric.__version__):
         assert words in text, words
-    assert "width of the map over its correlation length" in text  # what does not hold
+    assert "(95 %)" in text and "How sure the numbers are" in text
 
 
 def test_the_file_for_paraview_is_read_back_by_another_reader(run):
@@ -119,7 +121,7 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
 
 
 def test_the_command_takes_speeds_of_its_own_choice(tmp_path, capsys):
-    (tmp_path / "s.toml").write_text(SCENE.replace("[0.01, 0.3]", "[0.001, 0.5]") + "[numerics]\ntolerance = 0.1\n")
+    (tmp_path / "s.toml").write_text(SCENE.replace("[0.01, 0.3]", "[0.001, 0.5]") + "tolerance = 0.1\n")
     out = tmp_path / "o"
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), "--speeds", "auto"]) == 0
     rows = (out / "stribeck.csv").read_text().splitlines()[1:]

@@ -12,7 +12,7 @@ from lubfric.history import Harmonic, Ramp, Table
 from lubfric.scene_file import builtin_scenes
 
 SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 MODEL = lubfric.prepare(SCENE)
 HISTORY = lubfric.Transient(0.01, outputs=20, speed=Harmonic(mean=0.05, amplitude=0.04, frequency=100.0))
@@ -48,6 +48,8 @@ def test_every_result_is_one_line_and_one_table(point, curve, history):
         "21 times": history,
         "48 x 48 points": MODEL.surface,
         "48 x 48 cells": point.balance.contact.fields,
+        "nodes, M": lubfric.friction(MODEL, 0.05, model="full").balance.film,
+        "paper, map": MODEL,
     }
     for words, result in results.items():
         assert words in repr(result) and "\n" not in repr(result) and len(repr(result)) < 250, repr(result)

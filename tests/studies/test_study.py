@@ -94,7 +94,8 @@ def counted(model, speed, **options):
     return found
 chain.friction = counted
 scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6},
+    numerics={"sampling": "patch"})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
 print("done", flush=True)
 """
@@ -327,6 +328,7 @@ def test_several_maps(tmp_path):
         ([1], None, "a dict"),
         ({}, [0.1, 0.1], "twice"),
         ({}, ["a"], "speeds"),
+        ({}, "auto", "lubfric.stribeck takes 'auto'"),
     ],
 )
 def test_what_cannot_be_varied_is_said_before_any_work(vary, speeds, words, tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +28,7 @@ class StepSolution:
     status: str
     residuals: dict[str, float]
     history: tuple[float, ...]
-    payload: object = None
+    payload: Any = None
 
     @property
     def film(self) -> np.ndarray:
@@ -60,7 +61,8 @@ def solve_step(
 
 def _in_stages(grid, problem, now, memory, z, tolerance, max_steps) -> StepSolution:
     first = float(grid.weights @ z[:-1])
-    done, stage, history = 0.0, 0.25, ()
+    done, stage = 0.0, 0.25
+    history: tuple[float, ...] = ()
     while True:
         goal = min(1.0, done + stage)
         load = first * (now.load / first) ** goal

@@ -153,13 +153,12 @@ def make_setting(
     load = contact.load.range(contact.duration)
     radius = contact.radius.range(contact.duration)
     share = LIGHTEST if shared else 1.0
-    edges = [
-        math.sqrt(8.0 * w * r / (math.pi * contact.e_prime)) / problem.length_unit
-        for w, r in ((share * load[0], radius[0]), (load[1], radius[1]))
-    ]
-    x = symmetric_nodes(
-        finer * RESOLUTION * math.sqrt(3e-3 / tolerance), tuple(edges), films, reach / problem.length_unit
-    )
+
+    def edge(w: float, r: float) -> float:
+        return math.sqrt(8.0 * w * r / (math.pi * contact.e_prime)) / problem.length_unit
+
+    edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
+    x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
     return Setting(contact, problem, make_fixed_grid(x))
 
 

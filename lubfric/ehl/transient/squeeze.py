@@ -122,7 +122,7 @@ def evaluate(
         flux,
         stored,
         r,
-        tuple(ends),
+        (ends[0], ends[1]),
         carried,
         shared,
         carried + shared[0] - now.load,
@@ -159,7 +159,7 @@ def jacobian(grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | 
         J[end, end] += 1.0
         if pressure.value > 0.0:
             J[n + 1] += load.by_flow * flow + (load.by_rate * memory.rate + load.by_film) * film
-    if t.spring[1]:
+    if spring is not None and t.spring[1]:
         J[n + 1, :-1] += t.spring[1] * (spring.weights @ grid.kernel)
         J[n + 1, -1] += t.spring[1] * spring.weights.sum()
     return J

@@ -1,0 +1,102 @@
+"""Studies on real clusters: Dask with two worker processes, MPI under mpiexec; workers killed."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+
+ROOT = Path(__file__).parents[2]
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
+)
+VARY, SPEEDS = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}, tuple(np.geomspace(0.003, 0.3, 8))
+
+
+def same(one, other):
+    np.testing.assert_array_equal(one.status, other.status)
+    for name in one.columns.keys() - {"seconds"}:
+        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+@pytest.fixture(scope="module")
+def serial():
+    return lubfric.study(SCENE, VARY, SPEEDS)
+
+
+def cluster():
+    distributed = pytest.importorskip("distributed")
+    return distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_dask_gives_the_same_bits(serial, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with cluster() as workers, distributed.Client(workers) as client:
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=tmp_path), serial)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_killed_dask_workers_lose_nothing(serial, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    with cluster() as workers, distributed.Client(workers) as client:
+        killed = []
+
+        def kill():
+            for _ in range(3):
+                while len(list((tmp_path / "points").glob("*"))) < 1:
+                    time.sleep(0.05)
+                time.sleep(0.4)
+                pids = list(client.run(os.getpid).values())
+                os.kill(pids[0], signal.SIGKILL)
+                killed.append(pids[0])
+
+        client.wait_for_workers(2)
+        killer = threading.Thread(target=kill, daemon=True)
+        killer.start()
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=tmp_path), serial)
+    lines = [line for path in (tmp_path / "points").iterdir() for line in path.read_bytes().splitlines()]
+    keys = [line.split(b'"')[3] for line in lines if line.count(b'"') > 3]
+    assert (
+        killed and len(set(keys)) == serial.status.size
+    )  # at most the point that was being solved is lost with a worker
+    assert len(keys) == serial.status.size  # and none is solved twice
+
+
+SCRIPT = f"""
+import sys
+sys.path.insert(0, {str(ROOT)!r})
+import numpy as np
+import lubfric
+from mpi4py.futures import MPIPoolExecutor
+
+if __name__ == "__main__":
+    scene = lubfric.load_scene("paper").with_(
+        contact={{"shape": (48, 48), "spacing": 1.1e-6}}, surface={{"correlation_length": 4e-6}},
+        numerics={{"sampling": "patch"}})
+    vary = {{"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}}
+    with MPIPoolExecutor() as executor:
+        lubfric.study(scene, vary, tuple(np.geomspace(0.003, 0.3, 8)), executor=executor, store=sys.argv[1])
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("mpiexec") is None, reason="needs an MPI")
+def test_mpi_gives_the_same_bits(serial, tmp_path):
+    pytest.importorskip("mpi4py")
+    (tmp_path / "script.py").write_text(SCRIPT)
+    command = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures"]
+    environment = os.environ | {"OMP_NUM_THREADS": "1"}
+    subprocess.run([*command, str(tmp_path / "script.py"), str(tmp_path / "store")], env=environment, check=True)
+    same(lubfric.open_study(tmp_path / "store"), serial)
+    assert len(list((tmp_path / "store" / "points").iterdir())) >= 2
