@@ -135,6 +135,15 @@ def loosest(pool, name, target, file):
     return LADDER[low]
 
 
+def markdown(rows) -> str:
+    """The rows as a table."""
+    lines = ["| case | before: CPU s, convolutions | after: CPU s, convolutions | ratio |", "|---|---|---|---|"]
+    for row in rows:
+        (a, b), ((_, c), (_, d)) = row["seconds"], row["work"]
+        lines.append(f"| {row['case']} | {a:.3g}, {c:g} | {b:.3g}, {d:g} | {a / b:.1f} |")
+    return "\n".join(lines) + "\n"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("before")
@@ -144,6 +153,7 @@ def main() -> None:
     parser.add_argument("--target", type=float, default=1e-5)
     parser.add_argument("--work", type=Path, default=Path("out/before_after"), help="folder for reference pressures")
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--markdown", type=Path, help="table for docs/performance.md")
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     fresh, rows = multiprocessing.get_context("spawn"), []
@@ -166,7 +176,18 @@ def main() -> None:
             for s, kept, t in zip(medians, found, tolerances)
         )
         print(f"{name:36s} {text}  ratio {medians[0] / medians[1]:5.2f}", flush=True)
-        rows.append({"case": name, "seconds": medians, "tolerances": tolerances, "errors": [k[-1][0] for k in found]})
+        work = [(kept[-1][2], round(kept[-1][3], 1)) for kept in found]
+        rows.append(
+            {
+                "work": work,
+                "case": name,
+                "seconds": medians,
+                "tolerances": tolerances,
+                "errors": [k[-1][0] for k in found],
+            }
+        )
+    if options.markdown:
+        options.markdown.write_text(markdown(rows))
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1))
 

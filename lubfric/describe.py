@@ -7,20 +7,24 @@ import math
 from .analytic import film as film_formulas
 from .errors import InputError
 from .inputs import input_lines
+from .plausible import told_doubts
 from .point.outlook import outlook
 from .rough.height_map import contact_map
+from .sampling.make import lines_of, takes_line
+from .sampling.outlook import in_words
 from .scene import Scene
 from .surface import correlation_length, rms_slope
 from .validity.foretold import foretold
 from .validity.gather import gathered
 
-SOLVE_FIELDS = 12  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 10)
+SOLVE_FIELDS = 14  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 12.5)
 
 
 def describe_scene(scene: Scene) -> str:
     """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
     bodies, lubricant, patch = scene.bodies, scene.lubricant, scene.contact
-    surface = contact_map(scene)
+    with told_doubts(scene):
+        surface = contact_map(scene)
     w = bodies.load / bodies.width
     nx, ny = surface.heights.shape
     lines = [
@@ -51,6 +55,8 @@ def describe_scene(scene: Scene) -> str:
         plan = "one gap and one pressure, on grids of the map halved and doubled"
     elif patch.geometry == "flat":
         plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
+    elif takes_line(scene):
+        plan = "semi-periodic contact on a line of the roughness (below) under the film at every speed"
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
     lines += [
@@ -67,7 +73,18 @@ def describe_scene(scene: Scene) -> str:
     lines += [f"  {entry.text}" for speed, entry in told if speed is None]
     lines += [f"  {text}" for text in gathered([(speed, (entry,)) for speed, entry in told if speed is not None])]
     lines += [f"  {note}" for note in _no_doubts(told)]
-    return "\n".join(lines)
+    return "\n".join([*lines, *_sampling_lines(scene, surface.sq)])
+
+
+def _sampling_lines(scene: Scene, sq: float) -> list[str]:
+    """Length of the line and its cost at the speeds of the scene."""
+    if not takes_line(scene):
+        return []
+    found, speeds = lines_of(scene), scene.motion.speeds or (scene.motion.entrainment_speed,)
+    return [
+        f"  U = {speed:<10.4g} {in_words(scene, found, sq, speed)}"
+        for speed in sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)]})
+    ]
 
 
 def _no_doubts(told) -> list[str]:

@@ -9,6 +9,7 @@ from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
+from .plausible import told_doubts
 from .rough.contract import RoughContact
 from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
@@ -72,11 +73,12 @@ def prepare(
         _check_likeness(scene, like.scene, surface, contact)
         return _another(scene, like)
     given = surface is not None or contact is not None
-    if not given and takes_line(scene):
-        return _on_a_line(scene, levels)
-    surface = contact_map(scene, surface)
-    contact = rough_contact(scene, surface) if contact is None else contact
-    return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+    with told_doubts(scene):
+        if not given and takes_line(scene):
+            return _on_a_line(scene, levels)
+        surface = contact_map(scene, surface)
+        contact = rough_contact(scene, surface) if contact is None else contact
+        return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
 
 
 def _another(scene: Scene, like: Model) -> Model:

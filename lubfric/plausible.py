@@ -9,7 +9,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from .errors import InputError
+from .errors import ConvergenceError, InputError
 
 MICRO, NANO, GIGA = 1e-6, 1e-9, 1e9
 
@@ -124,3 +124,17 @@ def told_slips(section: str, values: dict):
             if meant and meant not in text and any(f"{key}{sign}" in text for sign in (" = ", "[", " has ", " x ")):
                 raise InputError(f"{text}; {meant}") from None
         raise
+
+
+@contextmanager
+def told_doubts(scene):
+    """An `InputError` or `ConvergenceError` of a scene leaves with its unusual values, the likely cause, at the end."""
+    try:
+        yield
+    except (InputError, ConvergenceError) as error:
+        told = "; ".join(doubt.text for doubt in doubts(scene))
+        if not told or told in str(error):
+            raise
+        if isinstance(error, InputError):
+            raise InputError(f"{error}; {told}") from None
+        raise ConvergenceError(f"{error}; {told}", error.report, error.result) from error

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 
 
@@ -101,9 +102,20 @@ def plot_contact(path: Path, model, point) -> None:
     if point.balance.film is not None and heights.shape[0] == x.size:
         _section(right, x, heights[:, row], point.balance, row)
         right.set_title(f"section at y = {row * model.surface.spacing[1] * 1e6:.1f} µm")
+        _place_on_the_line(left, model, point, row)
     else:
         right.set_axis_off()
     figure.savefig(path, dpi=150)
+
+
+def _place_on_the_line(axes, model, point, row) -> None:
+    """Of a long line the part around the section, about twice as long as wide, and where it lies."""
+    step, (across, along) = model.surface.spacing[1], model.surface.size
+    if model.lines is None or along < WHOLE * across:
+        return
+    first = min(max(row * step - across, 0.0), along - 2 * across)
+    axes.set_ylim(first * 1e6, (first + 2 * across) * 1e6)
+    axes.set_ylabel(f"y (µm) on a line of {1e3 * point.uncertainty.length:.3g} mm; dotted: section")
 
 
 def _pressure_map(figure, axes, model, contact, row) -> None:

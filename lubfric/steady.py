@@ -11,6 +11,7 @@ from .deterministic.point import deterministic_point
 from .errors import InputError
 from .model import Model, at_tolerance
 from .one_way.answer import one_way_point, one_way_result
+from .plausible import told_doubts
 from .result import FrictionResult
 from .sampling.answer import answered
 from .scene import FASTEST, Scene
@@ -59,7 +60,8 @@ def friction(
         shared = one_way_point(ready.scene, ready.surface, speed, start.one_way if start else ())
         result = one_way_result(ready, speed, shared, begun)
     else:
-        result = answered(ready, speed, start, fields, begun)
+        with told_doubts(ready.scene):
+            result = answered(ready, speed, start, fields, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "

@@ -22,6 +22,7 @@ from .residual import dot
 from .stencil import Stencil
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
+LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
 LEARNING = 0.3  # power of the relative length of a step in the next pace
 STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
@@ -37,39 +38,39 @@ PATIENCE = 8  # iterations without a tenth off the best residual
 
 
 class Descent:
-    """Fields on ``cells`` in single precision: pressures in units of the mean one in contact, gaps of ``scale`` [m].
+    """Fields on ``cells`` in single precision: pressures in units of the mean one in contact, gaps in those of its
+    scale.
 
-    ``pressure`` [Pa] and ``gap`` [m] (over the whole patch, the gap belonging to the pressure and measured from the
-    approach) are where it begins. ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is
-    prescribed; ``slack``: relative error of the load in a trial. ``pace``: of an earlier descent, or `FIRST_PACE`.
+    ``state``: where it begins. ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is
+    prescribed. ``pace``: of an earlier descent, or `FIRST_PACE`.
     ``careful``: every step exact for the cells that are free, what the limits cut off convolved at once: two or three
     convolutions an iteration, and sure where the pressure is far from small changes of the set (nearly rigid bodies).
     """
 
-    def __init__(self, problem, cells, pressure, gap, load, scale: float, slack: float, pace: float, careful=False):
-        base = cells.take(pressure)
+    def __init__(self, problem, cells, state, load: float | None, pace: float, careful: bool):
+        base, scale = cells.take(state.pressure), state.scale
         total, operator = float(base.sum()), problem.operator
         if not math.isfinite(scale):  # no pressure yet
-            scale = max(-float(gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
+            scale = max(-float(state.gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
         ripple = operator.e_prime * scale / min(operator.spacing)
         self.unit = total / np.count_nonzero(base) if total > 0 else ripple
         self.cells, self.pace, self.given = cells, pace, load is not None
         self.load, self.target = (load / self.unit, (load - total) / self.unit) if self.given else (None, 0.0)
-        self.slack = slack * total / self.unit
+        self.slack = LOAD_ERROR * min(1.0, state.residual) * total / self.unit
         self.hardness = problem.hardness
         base /= self.unit
         self.lower = np.negative(base, dtype=np.float32)
         self.upper = None
         if math.isfinite(problem.hardness):
             self.upper = (problem.hardness / self.unit - base).astype(np.float32)
-        self.gap = cells.take(gap, np.float32, 1 / scale)
+        self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.compliance = self.unit / scale
         self.change, self.known = np.zeros_like(self.gap), np.zeros_like(self.gap)
         self.direction, self.residue, self.power = None, None, 1.0
         self.level, self.iterations, self.convolutions, self.history = 0.0, 0, 0, []
         factor = operator.e_prime / 4 / self.compliance
         self.careful, self.stiffness, self.stencil = careful, None, None
-        if careful or np.count_nonzero(base) > TRANSFORMED * pressure.size:
+        if careful or np.count_nonzero(base) > TRANSFORMED * state.pressure.size:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)

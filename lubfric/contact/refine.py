@@ -20,7 +20,6 @@ from .projection import rescaled
 
 MARGIN = 0.8  # of the tolerance, aimed at by the search
 FALL = 1e-5  # of the residual within a round: as far as single precision goes
-LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
 RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
 WASTED = 4  # rounds without halving the residual
 
@@ -55,24 +54,15 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
             return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
         goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
         if state.residual > goal and iterations < problem.max_iterations:
-            descent = Descent(
-                problem,
-                Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap)),
-                state.pressure,
-                state.gap,
-                load,
-                state.scale,
-                LOAD_ERROR * min(1.0, state.residual),
-                pace,
-                careful=wasted > 0 or _rigid(problem),
-            )
+            cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
+            descent = Descent(problem, cells, state, load, pace, careful=wasted > 0 or _rigid(problem))
             pressure, state = state.pressure, None
             descent.run(goal, problem.max_iterations - iterations)
             pressure = _admissible(descent.found(pressure), pressure, load, problem.hardness)
             iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
             history += descent.history[:-1]
             convolutions += descent.convolutions
-            del descent
+            del descent, cells
         else:
             pressure, state = state.pressure, None
         state, exact = look(problem, operator, pressure, level), True
@@ -112,7 +102,7 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     if not state.residual:
         return Found(state, "", 0, 1.0, (), pace)
     cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-    descent = Descent(problem, cells, pressure, state.gap, load, state.scale, LOAD_ERROR, pace, _rigid(problem))
+    descent = Descent(problem, cells, state, load, pace, careful=_rigid(problem))
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
     state = State(found, None, None, state.approach, state.scale, {"search": descent.history[-1]})

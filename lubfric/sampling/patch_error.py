@@ -41,8 +41,8 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
     of a mirrored map counts. Nothing more is made of the surface: it is all there is.
     """
     balance = point.balance
-    length = model.surface.size[1] / (2 if _mirrored(model) else 1)
-    correlation, why = _correlation_length(model), ""
+    length = model.surface.size[1] / (2 if mirrored(model) else 1)
+    correlation, why = correlation_along_y(model), ""
     response, gap_error, there = None, NOTHING, LineRecord(length, balance.contact_load)
     if balance.film is None:
         gap_error = BlockError(0.0, LEAST_BLOCKS)
@@ -57,7 +57,7 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
             )
         else:
             response = response_of(model, speed, point.contact, balance)
-            rows = point.contact.heights.shape[1] // (2 if _mirrored(model) else 1)
+            rows = point.contact.heights.shape[1] // (2 if mirrored(model) else 1)
             there = record(
                 point.contact, balance.contact, balance.contact_load, response.slopes, correlation, rows=slice(0, rows)
             )
@@ -80,7 +80,7 @@ def _told(model, point: Solved, response, gap_error, there, why):
     elif balance.film is None:
         sampling, known = 0.0, dry_errors(together)
     else:
-        sampling = missed_share(model, balance.film, found, _correlation_length(model))
+        sampling = missed_share(model, balance.film, found, correlation_along_y(model))
         known = film_alone_errors(film_error(point), found)
         gap_error, why = BlockError(0.0, ORDER), ""
         if not math.isfinite(sampling):
@@ -122,7 +122,7 @@ def _from_slope(point: Solved) -> Response:
     return Response(Slopes(0.0, 0.0, 0.0), split, rates | dict.fromkeys(films, share))
 
 
-def _mirrored(model) -> bool:
+def mirrored(model) -> bool:
     heights = model.surface.heights
     return (
         heights.shape[1] > 1
@@ -131,8 +131,10 @@ def _mirrored(model) -> bool:
     )
 
 
-def _correlation_length(model) -> float:
-    """Along y [m], at 1/e: that of the scene, or of the map itself."""
+def correlation_along_y(model) -> float:
+    """Correlation length [m] at 1/e: that of the scene, or of the map itself."""
+    if model.lines is not None:
+        return model.lines.lengths[1]
     scene = model.scene
     if not measured(scene) and not model.given:
         return max(lengths_of(rough)[1] for rough, _ in rough_bodies(scene))

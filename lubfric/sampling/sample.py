@@ -19,7 +19,7 @@ from .missed import missed_share
 from .response import Response, respond, slopes_of
 from .uncertainty import FEW
 
-PAIR = 48.0  # correlation lengths along y of a piece on the scene's own cells
+PAIR = 42.0  # correlation lengths along y of a piece on the scene's own cells
 MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 LEAST_MORE = 0.25  # of the length so far

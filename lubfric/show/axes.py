@@ -64,6 +64,9 @@ def history_axes(history, ax=None):
     sense = np.where(history.sliding_speed < 0, -1.0, 1.0)
     scale, unit = time_scale(float(history.time[-1]))
     time, contact = history.time * scale, history.boundary_force * sense / history.load
+    low, high = history.uncertainty.interval.T
+    if np.isfinite(low).any():
+        axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
     axes.plot(time, history.coefficient, color=BLUE, label="friction coefficient")
     axes.plot(time, contact, "--", color=RED, lw=1, label="from the contact spots")
     film = (history.couette_force + history.rolling_force) * sense / history.load

@@ -9,11 +9,14 @@ import numpy as np
 from .. import validate
 from ..march.course import Plan, Progress, report_of
 from ..report import Report
+from ..sampling.uncertainty import UncertaintyCurve, percent, student
 from ..show import Shown
 from ..show.axes import history_axes, loop_axes
 from .progress import Outputs
 from .row import UNITS
 from .setup import Run
+
+MANY = 30  # blocks less one: of a line
 
 
 @dataclass(frozen=True, repr=False)
@@ -26,7 +29,8 @@ class TransientResult(Shown):
     lower one, over F_T; friction_force and its parts [N] along +x. mean_film, mean_gap: both sides of Eq.
     (8). wet_from, wet_to [m]: ends of the pressurised film. net_inflow, stored, cavity_growth [m²/s]: the
     lubricant's balance over the last step, per unit width. time_error: local error of the last step, of
-    the tolerance.
+    the tolerance. sampling_error: relative standard error of f because the line of rough surface is finite
+    (`lubfric.sampling.moment_error`); it is the same surface at all times, so it rises and falls with f as one.
     """
 
     columns: dict[str, np.ndarray]
@@ -34,6 +38,15 @@ class TransientResult(Shown):
     pressure: np.ndarray
     film_thickness: np.ndarray
     report: Report
+
+    @property
+    def uncertainty(self) -> UncertaintyCurve:
+        """Standard error and 95 % interval of f at every time, from the finite surface alone."""
+        unknown = np.full(self.time.size, np.nan)
+        half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
+        both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
+        told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
+        return UncertaintyCurve(unknown, self.sampling_error, both, unknown, unknown, unknown, unknown, told)
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
@@ -65,6 +78,8 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
     p, n = setting.problem, setting.grid.n + 1
     table = np.array(outputs.rows).reshape(len(outputs.rows), len(UNITS))
     columns = dict(zip(UNITS, table.T))
+    surface = float(np.max(columns["sampling_error"], initial=0.0))
+    told = "not known" if np.isnan(surface) else f"standard error of f at most {percent(surface)}"
     fields = np.array(outputs.fields).reshape(len(outputs.fields), 2 * n)
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
@@ -77,5 +92,5 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
         setting.grid.x * p.length_unit,
         fields[:, :n] * p.pressure_unit,
         fields[:, n:] * p.film_unit,
-        report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells", worst),
+        report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
     )

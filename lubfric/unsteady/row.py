@@ -10,6 +10,7 @@ from ..ehl.result import smallest
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import WET
 from ..march.course import Progress
+from ..sampling.moment_error import moment_error
 from .film_shear import film_shear
 from .sharing import Sharing
 
@@ -41,6 +42,7 @@ UNITS = {
     "stored": "m2/s",
     "mass_residual": "-",
     "cavity_growth": "m2/s",
+    "sampling_error": "-",
     "time_error": "-",
     "steps": "-",
 }
@@ -89,6 +91,15 @@ def moment(
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
+        "sampling_error": moment_error(
+            sharing.patch,
+            closure,
+            (contact.load, film_load),
+            contact.softness,
+            sharing.width,
+            sharing.correlation_length,
+            (boundary, couette + rolling),
+        ),
         "time_error": now.error,
         "steps": now.steps,
     }

@@ -16,6 +16,7 @@ from ..history.plan import Transient
 from ..march.bdf import March, Memory
 from ..march.course import Plan, Progress, plan_of
 from ..model import Model, prepare
+from ..sampling.patch_error import correlation_along_y
 from ..scene import Scene
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
@@ -86,7 +87,9 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
     tolerance = base.numerics.film_tolerance
     for finer in FINER:
         setting = _setting(model, plan, load, finer)
-        sharing = make_sharing(setting, model.contact, base.bodies.width, _volume_tolerance(base))
+        sharing = make_sharing(
+            setting, model.contact, base.bodies.width, _volume_tolerance(base), correlation_along_y(model)
+        )
         start, grid_error = first_state(model, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break

@@ -33,7 +33,8 @@ class Contact:
 @dataclass(frozen=True)
 class Sharing:
     """What a step needs: the film's setting, the patch, the matrix that carries H to the film [m] at the
-    patch's points, and the row of it that gives the mean film over A. ``unit``: N per unit of film load."""
+    patch's points, and the row of it that gives the mean film over A. ``unit``: N per unit of film load;
+    correlation_length [m]: of the heights along y (NaN: not known)."""
 
     setting: Setting
     patch: RoughContact
@@ -42,6 +43,7 @@ class Sharing:
     unit: float
     width: float
     tolerance: float
+    correlation_length: float = math.nan
 
     def film_on_patch(self, H: np.ndarray) -> np.ndarray:
         """Smooth film [m] at the points of the patch."""
@@ -52,7 +54,9 @@ class Sharing:
         return self.setting.contact.load.before(time) * self.width
 
 
-def make_sharing(setting: Setting, patch, width: float, tolerance: float) -> Sharing:
+def make_sharing(
+    setting: Setting, patch, width: float, tolerance: float, correlation_length: float = math.nan
+) -> Sharing:
     """The operators that join the film's grid and the patch."""
     p = setting.problem
     x = patch.x / p.length_unit
@@ -67,6 +71,7 @@ def make_sharing(setting: Setting, patch, width: float, tolerance: float) -> Sha
         p.contact.e_prime * p.film_unit * width,
         width,
         tolerance,
+        correlation_length,
     )
 
 

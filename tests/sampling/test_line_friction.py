@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric import Transient
 from lubfric.cli import main
+from lubfric.describe import describe_scene
 from lubfric.output import read_csv
 from lubfric.point.adapt import solved
 from lubfric.rough.height_map import contact_map
+from lubfric.sampling.outlook import foretold
 from lubfric.sampling.sample import response_of
 
 PAPER = lubfric.load_scene("paper")
@@ -109,3 +112,23 @@ def test_the_command_tells_the_interval(tmp_path, capsys):
     columns = read_csv(tmp_path / "stribeck.csv")
     assert np.all(columns["interval_low"] <= columns["coefficient"])
     assert np.all(columns["coefficient"] <= columns["interval_high"]) and np.all(columns["sampling_error"] <= 0.05)
+
+
+def test_a_run_in_time_tells_the_error_of_its_surface():
+    scene = PAPER.with_(transient=Transient(1e-3, outputs=2), motion={"entrainment_speed": 0.02})
+    scene = scene.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.2})
+    steady, held = lubfric.friction(scene), lubfric.transient(scene)
+    np.testing.assert_allclose(held.coefficient, steady.coefficient, rtol=0.02)
+    np.testing.assert_allclose(held.sampling_error, steady.uncertainty.sampling, rtol=0.4)
+    assert np.all(held.uncertainty.interval[:, 0] < held.coefficient)
+    assert "standard error" in " ".join(held.report.notes)
+
+
+def test_info_foretells_the_length_within_a_factor_of_four():
+    model = lubfric.prepare(PAPER)
+    for speed in (0.003, 0.01, 0.03):
+        error, length = foretold(PAPER, model.lines, PAPER.surface.sq, speed)
+        found = lubfric.friction(model, speed).uncertainty
+        assert 0.25 < length / found.length < 4
+        assert speed > 0.02 or 0.3 < error / found.sampling < 3
+    assert "line of about" in describe_scene(PAPER)

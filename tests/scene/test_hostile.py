@@ -7,6 +7,7 @@ import lubfric
 from verification.hostile import scenes
 from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, SLOW, Case, judge
 from verification.hostile.command import COUNTS, GROUPS, cases, outcomes, table
+from verification.hostile.soak import soak
 
 
 def test_the_scene_that_is_damaged_is_a_good_one(tmp_path):
@@ -58,3 +59,10 @@ def test_the_judge_sees_what_is_slow(tmp_path, monkeypatch):
 
 def validated(name):
     raise lubfric.InputError(f"{name} = -1 N is out of range")
+
+
+def test_a_sample_of_the_soak():
+    """Random scenes, one in five closed again by the independent judge."""
+    run = soak(12, 7, 0.2)
+    assert run.answered >= 8 and run.judged >= 1 and (run.raw, run.wrong) == (0, 0), run
+    assert run.worst < 1

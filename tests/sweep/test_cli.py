@@ -198,6 +198,7 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
 
 def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     heavy = SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
+    heavy += 'film_deflection = "hydrodynamic"\n'  # the film too thick, and its friction with it
     (tmp_path / "heavy.toml").write_text(heavy)
     command = ["run", str(tmp_path / "heavy.toml"), "--speeds", "0.001", "--fields", "0.001", "--out"]
     assert main([*command, str(tmp_path / "o")]) == 1

@@ -111,10 +111,19 @@ def model_error() -> Table:
     return Table(*table(deviations([p for setting in settings("default") for p in points(setting)])))
 
 
+def mutants() -> Table:
+    """What catches each mutant (minutes)."""
+    from .. import mutations
+    from ..run import run
+
+    return Table(list(mutations.COLUMNS), mutations.rows(run(mutations.trials(), "default", workers=2)))
+
+
 TABLES: dict[str, Callable[[], Table]] = {
     "stribeck": stribeck,
     "film-load-of-patches": film_load_of_patches,
     "hertz-line": hertz_line,
     "times": times,
     "model-error": model_error,
+    "mutants": mutants,
 }

@@ -1,0 +1,53 @@
+"""How long a line will be and what it will cost, foretold from closed forms: nothing is solved."""
+
+from __future__ import annotations
+
+import math
+
+from ..line_contact import LineContact
+from ..scene import Scene
+from .length import MOST, PILOT, SAFETY
+from .lines import Lines
+
+CELL_SECONDS = 2.5e-6  # processor time of a cell of a line in balance, about
+GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
+RISE = 0.4  # of the film of the whole load, by which it is wider, about
+FLOOR = 0.25  # of f_b: friction where the film carries most, about
+CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
+
+
+def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float, float]:
+    """Standard error of f after the pilot, relative, and length [m] that ``numerics.sampling_tolerance`` takes:
+    orders of magnitude.
+
+    The mean gap over a strip of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
+    independent
+    heights; f follows by the share of the load that the rigid film of the whole load, as thick as the gap, would carry.
+    """
+    bodies, (lx, ly) = scene.bodies, lines.lengths
+    pilot = min(PILOT * ly, lines.available)
+    if speed == 0:
+        return 0.0, pilot
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
+    film = line.moes_film
+    if film > CLEAR * sq:
+        return 0.0, pilot
+    gap = GAP * sq + RISE * film
+    share = min(film / gap, 1.0)
+    scatter = sq * math.sqrt(math.pi * lx * ly / (pilot * (2 * bodies.half_width + math.sqrt(math.pi) * lx)))
+    error = scatter / gap * share / (1 - share + FLOOR)
+    asked = scene.numerics.sampling_tolerance
+    length = pilot * max(1.0, SAFETY * (error / asked) ** 2) if error > asked else pilot
+    return error, min(length, lines.available, MOST * ly)
+
+
+def in_words(scene: Scene, lines: Lines, sq: float, speed: float) -> str:
+    """One line for `lubfric info`."""
+    error, length = foretold(scene, lines, sq, speed)
+    cells = length / lines.cells.coarse[1] * lines.cells.count
+    dx, dy = lines.cells.coarse
+    return (
+        f"line of about {1e3 * length:.2g} mm for {100 * scene.numerics.sampling_tolerance:g} % (the first "
+        f"{PILOT:g} correlation lengths: {100 * error:.1g} %), cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um, about "
+        f"{max(cells * CELL_SECONDS, 0.01):.1g} s"
+    )
