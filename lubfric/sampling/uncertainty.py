@@ -139,5 +139,5 @@ def student(freedom: float) -> float:
 
 
 def percent(value: float) -> str:
-    """Two digits and a percent sign."""
-    return f"{100 * value:.2g} %"
+    """Two digits and a percent sign; "< 0.001 %" for what nobody can see."""
+    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"
