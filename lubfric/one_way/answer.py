@@ -28,7 +28,8 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
     """One-way load sharing at ``speed`` [m/s], not 0: on two grids, and on finer ones up to the map's own while the
     estimate of `lubfric.deterministic.refine.estimate` is above ``numerics.tolerance``. ``start``: of a neighbour."""
     check_scene(scene)
-    lay, found = layer(scene, surface, speed), []
+    lay = layer(scene, surface, speed)
+    found: list[OneWay] = []
     shapes = [shape for shape in grids(scene, surface) if shape[1] <= surface.shape[1]]
     for level, shape in enumerate(shapes):
         near = start[level] if level < len(start) else found[-1] if found else None
