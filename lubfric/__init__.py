@@ -4,8 +4,60 @@ The public names load on first use, so that ``import lubfric`` stays light.
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from .version import __version__ as __version__
+
+if TYPE_CHECKING:
+    from . import oil as oil
+    from .asperity import AsperityResult as AsperityResult
+    from .asperity import asperity_contact as asperity_contact
+    from .asperity import separation_for_load as separation_for_load
+    from .contact import ContactResult as ContactResult
+    from .contact import solve_contact as solve_contact
+    from .curves import TractionResult as TractionResult
+    from .curves.traction import traction as traction
+    from .ehl import EHLResult as EHLResult
+    from .ehl import solve_ehl as solve_ehl
+    from .errors import ConvergenceError as ConvergenceError
+    from .errors import InputError as InputError
+    from .errors import LubfricError as LubfricError
+    from .errors import OutputError as OutputError
+    from .errors import ValidityError as ValidityError
+    from .fitting import FitResult as FitResult
+    from .fitting import Measured as Measured
+    from .fitting import read_measured as read_measured
+    from .fitting.fit import fit as fit
+    from .history.plan import Transient as Transient
+    from .lubricant import Lubricant as Lubricant
+    from .model import Model as Model
+    from .model import prepare as prepare
+    from .paper.differential import solve_differential_deflection as solve_differential_deflection
+    from .report import Report as Report
+    from .result import FrictionResult as FrictionResult
+    from .scene import Bodies as Bodies
+    from .scene import Motion as Motion
+    from .scene import Numerics as Numerics
+    from .scene import Patch as Patch
+    from .scene import Roughness as Roughness
+    from .scene import Scene as Scene
+    from .scene_file import load_scene as load_scene
+    from .steady import friction as friction
+    from .studies import Between as Between
+    from .studies import StudyPlan as StudyPlan
+    from .studies import StudyResult as StudyResult
+    from .studies import open_study as open_study
+    from .studies import plan_study as plan_study
+    from .studies import sample as sample
+    from .studies import study as study
+    from .surface import Surface as Surface
+    from .surface import generate_surface as generate_surface
+    from .surface import read_surface as read_surface
+    from .sweep import StribeckResult as StribeckResult
+    from .sweep import stribeck as stribeck
+    from .unsteady.result import TransientResult as TransientResult
+    from .unsteady.run import transient as transient
+    from .validity import Validity as Validity
 
 _HOME = {
     "ConvergenceError": "errors",
@@ -61,7 +113,7 @@ _PACKAGES = ("oil",)
 __all__ = sorted([*_HOME, *_PACKAGES])
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name in _PACKAGES:
         return import_module(f"lubfric.{name}")
     if name not in _HOME:
@@ -71,5 +123,5 @@ def __getattr__(name):
     return value
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted(set(globals()) | set(__all__))

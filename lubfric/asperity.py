@@ -133,11 +133,12 @@ def separation_for_load(
         result = _loaded(find, flat, float(top - approach), spacing, e_prime, hardness, definition)
         return result.mean_pressure / target - 1, result
 
-    before, best, count = 0.0, None, 0
+    before, count = 0.0, 0
+    best = excess(0.0)[1]
     for approach in span * np.geomspace(*SCAN_RANGE, _scan_count()):
         value, result = excess(approach)
         count += 1
-        best = result if best is None or result.load > best.load else best
+        best = result if result.load > best.load else best
         if value >= 0:
             root = increasing_root(
                 excess,
@@ -230,14 +231,12 @@ def _summit_finder(heights, spacing, periodic):
     inside = np.ones(heights.shape, bool)
     for axis in range(2):
         if not periodic[axis]:
-            rim = [slice(None)] * 2
+            rim: list = [slice(None)] * 2
             rim[axis] = [0, -1]
             inside[tuple(rim)] = False
-    for i in (-1, 0, 1):
-        for j in (-1, 0, 1):
-            if (i, j) > (0, 0):  # of equal neighbours the later one is the summit
-                inside &= heights >= np.roll(heights, (-i, -j), (0, 1))
-                inside &= heights > np.roll(heights, (i, j), (0, 1))
+    for step in ((0, 1), (1, -1), (1, 0), (1, 1)):  # of equal neighbours the later one is the summit
+        inside &= heights >= np.roll(heights, (-step[0], -step[1]), (0, 1))
+        inside &= heights > np.roll(heights, step, (0, 1))
     index = np.argwhere(inside)
     i, j = index.T
     nx, ny = heights.shape
@@ -259,7 +258,8 @@ def _patch_finder(heights, spacing, periodic):
 
     def find(flat):
         overlap = heights - flat
-        label, count = _join_across_edges(*ndimage.label(overlap > 0, np.ones((3, 3))), periodic)
+        regions, count = ndimage.label(overlap > 0, np.ones((3, 3)))
+        label, count = _join_across_edges(regions, count, periodic)
         if count == 0:
             return np.zeros((0, 2), int), np.zeros(0), np.zeros(0)
         cells = np.flatnonzero(label)

@@ -47,7 +47,7 @@ def _bodies(scene: Scene):
 
 def _lubricant(scene: Scene):
     lubricant = scene.lubricant
-    if lubricant.oil is not None:
+    if lubricant.oil is not None and lubricant.temperature is not None:
         yield estimate_in_words(lubricant.oil, lubricant.temperature)
     else:
         at = (
@@ -68,7 +68,7 @@ def _lubricant(scene: Scene):
         if lubricant.limiting_stress_coefficient is not None:
             limit = f"{lubricant.limiting_stress_offset / 1e6:.4g} MPa + {lubricant.limiting_stress_coefficient:g} p"
         yield f"shear: Eyring stress {eyring}, limiting stress {limit}"
-    if lubricant.heats:
+    if lubricant.heats and lubricant.temperature_coefficient is not None:
         yield (
             f"viscosity falls by {100 * lubricant.temperature_coefficient:.3g} % a K, "
             f"film conductivity {lubricant.conductivity:.3g} W/(m K); heat: {scene.numerics.heat}"

@@ -19,6 +19,7 @@ from .validate import choice, nonnegative, number, positive
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
+NO_LIQUID = 1e10  # Pa: no oil flows there
 VISCOSITY_LAWS = ("roelands", "barus", "constant")
 DENSITY_LAWS = ("constant", "dowson-higginson")
 

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from . import __version__
 from .errors import InputError
 from .model import Model
 from .result import FrictionResult
@@ -20,6 +19,7 @@ from .scene import scene_as_dict
 from .surface import rms_slope
 from .sweep import QUANTITIES, StribeckResult
 from .validate import shown
+from .version import __version__
 
 UNITS = {
     "speed": "m/s",

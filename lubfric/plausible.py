@@ -69,8 +69,8 @@ def slip(name: str, value) -> str | None:
     usual = USUAL.get(name)
     numbers = value if isinstance(value, (list, tuple)) else (value,)
     numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
-    strange = [v for v in numbers if usual and not usual.holds(v)]
-    if not strange or (strange[0] == 0 and name in NOUGHT):
+    strange = [v for v in numbers if usual is not None and not usual.holds(v)]
+    if usual is None or not strange or (strange[0] == 0 and name in NOUGHT):
         return None
     v = strange[0]
     for unit, factor in usual.others:

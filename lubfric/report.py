@@ -48,7 +48,7 @@ class Report:
     tolerance: float
     residuals: dict[str, float] = field(default_factory=dict)
     history: tuple[float, ...] = ()
-    evaluations: int = 0
+    evaluations: float = 0
     notes: tuple[str, ...] = ()
     advice: str = ""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field, replace
+from typing import Any
 
 from . import validate
 from .analytic import hertz
@@ -77,7 +78,8 @@ class Bodies:
     @property
     def effusivity(self) -> tuple[float, float]:
         """sqrt(k rho c) of both bodies [J/(m^2 K s^0.5)]."""
-        return tuple(math.sqrt(k * c) for k, c in zip(self.conductivity, self.volumetric_heat))
+        first, second = (math.sqrt(k * c) for k, c in zip(self.conductivity, self.volumetric_heat))
+        return first, second
 
     @property
     def half_width(self) -> float:
@@ -294,9 +296,10 @@ class Scene:
         return scene_as_toml(self)
 
 
-def _changed(section: str, old, values):
+def _changed(section: str, old: Any, values: Any) -> Any:
     """``old`` with the fields in the dict ``values``, or ``values`` itself where it is of the section's type."""
-    kind = {"name": str, "transient": Transient, "counterface": Roughness}.get(section, type(old))
+    kinds: dict[str, type] = {"name": str, "transient": Transient, "counterface": Roughness}
+    kind: Any = kinds.get(section, type(old))
     if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):
         return values
     if section == "counterface" and old is None and isinstance(values, dict):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 from .errors import InputError
 from .history.kinds import History
@@ -53,9 +54,10 @@ def _text(value) -> str:
 
 
 def _history(value: History) -> str:
+    shown: Any = value  # a dataclass, whatever kind it is
     for kind, known in KINDS.items():
         if type(value) is known:
-            parts = {f.name: getattr(value, f.name) for f in fields(known)}
+            parts = {f.name: getattr(value, f.name) for f in fields(shown)}
             inner = ", ".join(f"{name} = {_text(part)}" for name, part in parts.items() if part is not None)
             return f'{{ kind = "{kind}", {inner} }}'
     raise InputError(

@@ -182,19 +182,23 @@ def stribeck(
     if isinstance(speeds, (Real, np.number)):
         speeds = [speeds]
     speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
-    model = at_tolerance(scene, tolerance, model)
+    ready = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
-    points, errors = [None] * speeds.size, {}
+    points: list[FrictionResult | None] = [None] * speeds.size
+    errors: dict[int, Exception] = {}
 
     def keep(index, outcome):
-        (errors if isinstance(outcome, Exception) else points)[index] = outcome
+        if isinstance(outcome, Exception):
+            errors[index] = outcome
+        else:
+            points[index] = outcome
         if on_point:
             on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
     try:
-        solve_chains(model, sweep_chains(model, speeds, kept, executor is not None), executor, store, keep)
+        solve_chains(ready, sweep_chains(ready, speeds, kept, executor is not None), executor, store, keep)
     except BaseException as fault:
-        fault.result = _collect(speeds, points, errors)
+        fault.result = _collect(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
         raise
     return _judged(_collect(speeds, points, errors), raise_on_failure)
 

@@ -196,5 +196,5 @@ def spacing(name: str, value: Any) -> tuple[float, float]:
     if several and len(value) != 2:
         raise InputError(f"{name} = {shown(value)} must be one length or a pair (dx, dy) in m")
     pair = tuple(value) if several else (value, value)
-    # type: ignore[return-value]
-    return tuple(positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
+    dx, dy = (positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
+    return dx, dy

@@ -104,6 +104,38 @@ def test_import_lubfric_is_light(package):
     assert python(f"import sys, lubfric; print({package!r} in sys.modules)").strip() == "False"
 
 
+def test_what_a_type_checker_sees_is_what_loads():
+    """The names that load lazily and those under TYPE_CHECKING, one for one, from the same modules or packages."""
+    import lubfric
+
+    tree = ast.parse((ROOT / "lubfric" / "__init__.py").read_text(encoding="utf-8"))
+    (block,) = (node for node in tree.body if isinstance(node, ast.If))
+    seen = {alias.asname: node.module for node in block.body for alias in node.names}
+    packages = {name for name, module in seen.items() if module is None}
+    assert packages == set(lubfric._PACKAGES)
+    assert set(seen) - packages == set(lubfric._HOME)
+    assert all(seen[name].startswith(home) for name, home in lubfric._HOME.items())
+
+
+def test_no_circle_of_imports():
+    """Between modules of lubfric, whenever they import."""
+    files = {".".join(f.relative_to(ROOT).with_suffix("").parts): f for f in (ROOT / "lubfric").rglob("*.py")}
+    files = {name.removesuffix(".__init__"): f for name, f in files.items() if name != "lubfric.__init__"}
+    arrows = {name: {i for i in imported(f) if i in files and i != name} for name, f in files.items()}
+    for name, others in arrows.items():  # a module of a package, not the package, where both are named
+        arrows[name] = {o for o in others if not any(other.startswith(f"{o}.") for other in others)}
+    assert circles(arrows) == []
+
+
+def circles(arrows: dict[str, set[str]]) -> list[str]:
+    """What is left when everything that imports only what is gone already has been taken away."""
+    left = dict(arrows)
+    while ground := [name for name, others in left.items() if not others & set(left)]:
+        for name in ground:
+            del left[name]
+    return sorted(left)
+
+
 def test_listing_the_studies_needs_none_of_the_tools():
     code = (
         "import sys\nfor name in ('skfem', 'meshio', 'pyamg', 'lubfric'): sys.modules[name] = None\n"

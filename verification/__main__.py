@@ -15,6 +15,7 @@ from .studies import STUDIES
 SUBCOMMANDS: dict[str, str] = {
     "figures": "verification.figures",
     "levels": "verification.levels",
+    "model": "verification.model",
     "mutations": "verification.mutations",
     "sampling": "verification.sampling",
     "charts": "verification.charts",

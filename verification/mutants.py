@@ -88,8 +88,15 @@ def mean_wave_only(original):
 
 
 def stale(original):
-    """A warm start handed back as the solution."""
-    return lambda *args, **options: options.get("start") or original(*args, **options)
+    """The contact before this one handed back where it is the warm start."""
+    before = {}
+
+    def solve(gap0, *args, **options):
+        if options.get("start") is None or gap0.shape not in before:
+            before[gap0.shape] = original(gap0, *args, **options)
+        return before[gap0.shape]
+
+    return solve
 
 
 def corner_axis(original):

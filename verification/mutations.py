@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import contextlib
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from .check import AT_LEAST, AT_MOST, Check
@@ -18,7 +18,7 @@ from .frame import main as run
 from .mutant import applied
 from .mutants import MUTANTS
 from .report import Report
-from .run import quiet, run_one
+from .run import Outcome, quiet, run_one
 from .studies import STUDIES, Study
 from .wording import allowed, number
 
@@ -28,14 +28,15 @@ ON_PURPOSE = "lubfric.errors."
 
 def main(argv: list[str]) -> int:
     """The command."""
+    levels = ("default",)
+    return run(Command("mutations", __doc__, trials(), "out/mutations", levels, 2, _options, _prepared, table), argv)
+
+
+def trials() -> tuple[Study, ...]:
+    """The library as it is, and each mutant."""
     titles = {NONE: "the library as it is"} | {m.name: m.what for m in MUTANTS}
-    trials = tuple(
-        Study(name, "verification.mutations:trial", title, ("default",), {"name": name})
-        for name, title in titles.items()
-    )
-    return run(
-        Command("mutations", __doc__, trials, "out/mutations", ("default",), 2, _options, _prepared, table), argv
-    )
+    target = "verification.mutations:trial"
+    return tuple(Study(name, target, title, ("default",), {"name": name}) for name, title in titles.items())
 
 
 def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] = ()) -> Iterator[Check]:
@@ -82,15 +83,24 @@ def words(check: Check) -> tuple[str, str, str]:
     return check.name, f"{number(check.measured)} {check.unit.replace('1', '')}".strip(), allowed(check)
 
 
+COLUMNS = ("mutant", "what is wrong", "caught by", "failing checks")
+
+
+def rows(outcomes: Iterable[Outcome]) -> list[list[str]]:
+    """Mutant, what is wrong, the first check that caught it and its numbers, how many checks failed."""
+    found = []
+    for outcome in outcomes:
+        for c in outcome.checks:
+            verdict = "" if c.passed else f" (NOT CAUGHT{f': {c.refused}' if c.refused else ''})"
+            share = f"{c.at.get('failed', '')} of {c.at.get('looked_at', '')}"
+            found.append([f"`{outcome.study.name}`{verdict}", outcome.study.title, c.note, share])
+    return found
+
+
 def table(report: Report, options: Namespace) -> str:
-    """Markdown: mutant, verdict, the first check that caught it and its numbers."""
-    lines = ["| mutant | what is wrong | caught by | failing checks |", "|---|---|---|---|"]
-    trials = [(o.study, c) for o in report.outcomes for c in o.checks]
-    for study, c in trials:
-        verdict = "" if c.passed else f" (NOT CAUGHT{f': {c.refused}' if c.refused else ''})"
-        share = f"{c.at.get('failed', '')} of {c.at.get('looked_at', '')}"
-        lines.append(f"| {study.name}{verdict} | {study.title} | {c.note} | {share} |")
-    mutants = [c for study, c in trials if study.name != NONE]
+    """The same as Markdown, and the count."""
+    lines = [f"| {' | '.join(row)} |" for row in (COLUMNS, ["---"] * len(COLUMNS), *rows(report.outcomes))]
+    mutants = [c for o in report.outcomes for c in o.checks if o.study.name != NONE]
     return "\n".join([*lines, "", f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"])
 
 

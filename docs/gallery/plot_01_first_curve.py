@@ -2,8 +2,8 @@
 A first Stribeck curve
 ======================
 
-The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the asperities
-carry the load at low speed, the film carries it at high speed, and in between they share it.
+The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the
+asperities carry the load at low speed, the film carries it at high speed, and in between they share it.
 """
 
 import matplotlib.pyplot as plt
@@ -12,7 +12,7 @@ import numpy as np
 import lubfric
 
 scene = lubfric.load_scene("paper")
-curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 13))
+curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 9))
 
 # %%
 # The two forces add up to the load of 5.5 N at every speed.

@@ -2,8 +2,8 @@
 Your own height map
 ===================
 
-Read a map, look at it, set it under a cylinder. The map of this example is made here, so that the script runs anywhere:
-ridges with some noise, as a grinding wheel leaves them.
+Read a map, look at it, set it under a cylinder. The map of this example is made here, so that the script runs
+anywhere: ridges with some noise, as a grinding wheel leaves them.
 """
 
 import tempfile

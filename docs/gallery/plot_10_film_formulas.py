@@ -2,8 +2,8 @@
 Film formulas beside the numerical film
 =======================================
 
-Formulas for the film thickness are quick, and a few per cent off. Here Moes' formula for the film where the pressure
-has its maximum is set beside the numerical film, from light to heavy loads.
+Formulas for the film thickness are quick, and a few per cent off. Here Moes' formula for the film where the
+pressure has its maximum is set beside the numerical film, from light to heavy loads.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 The dry rough contact alone
 ===========================
 
-The contact solver stands alone: two rough half-spaces pressed together, with the hardness as the limit of the pressure.
-The real contact area grows almost in proportion to the pressure.
+The contact solver stands alone: two rough half-spaces pressed together, with the hardness as the limit of the
+pressure. The real contact area grows almost in proportion to the pressure.
 """
 
 import matplotlib.pyplot as plt

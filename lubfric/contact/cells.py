@@ -17,7 +17,7 @@ class Cells:
 
     def __init__(self, operator, index, rows: slice, whole: tuple[int, int]):
         self.operator, self.index, self.rows, self.whole, self.shape = operator, index, rows, whole, operator.shape
-        self._field = None if index is None else np.zeros(self.shape, np.float32)
+        self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
     @staticmethod
     def flagged(operator, flags) -> Cells:

@@ -13,6 +13,7 @@ again) is convolved together with the next trial.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -55,7 +56,8 @@ class Descent:
         ripple = operator.e_prime * scale / min(operator.spacing)
         self.unit = total / np.count_nonzero(base) if total > 0 else ripple
         self.cells, self.pace, self.given = cells, pace, load is not None
-        self.load, self.target = (load / self.unit, (load - total) / self.unit) if self.given else (None, 0.0)
+        self.load = math.nan if load is None else load / self.unit
+        self.target = 0.0 if load is None else (load - total) / self.unit
         self.slack = LOAD_ERROR * min(1.0, state.residual) * total / self.unit
         self.hardness = problem.hardness
         base /= self.unit
@@ -66,10 +68,15 @@ class Descent:
         self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.compliance = self.unit / scale
         self.change, self.known = np.zeros_like(self.gap), np.zeros_like(self.gap)
-        self.direction, self.residue, self.power = None, None, 1.0
-        self.level, self.iterations, self.convolutions, self.history = 0.0, 0, 0, []
+        self.direction: Any = None
+        self.residue: Any = None
+        self.power = 1.0
+        self.level, self.iterations, self.convolutions = 0.0, 0, 0
+        self.history: list[float] = []
         factor = operator.e_prime / 4 / self.compliance
-        self.careful, self.stiffness, self.stencil = careful, None, None
+        self.careful = careful
+        self.stiffness: Any = None
+        self.stencil: Stencil | None = None
         if careful or np.count_nonzero(base) > TRANSFORMED * state.pressure.size:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:

@@ -47,7 +47,8 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
     """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
     operator, fast = problem.operator, problem.operator.single
     state, exact = look(problem, fast, pressure, level), False
-    best, wasted, iterations, convolutions, history = math.inf, 0, 0, 1.0, []
+    best, wasted, iterations, convolutions = math.inf, 0, 0, 1.0
+    history: list[float] = []
     while True:
         status = _status(problem, state.residual, exact, iterations, wasted)
         if status:
@@ -56,7 +57,8 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
         if state.residual > goal and iterations < problem.max_iterations:
             cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
             descent = Descent(problem, cells, state, load, pace, careful=wasted > 0 or _rigid(problem))
-            pressure, state = state.pressure, None
+            pressure = state.pressure
+            del state
             descent.run(goal, problem.max_iterations - iterations)
             pressure = _admissible(descent.found(pressure), pressure, load, problem.hardness)
             iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
@@ -64,7 +66,8 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
             convolutions += descent.convolutions
             del descent, cells
         else:
-            pressure, state = state.pressure, None
+            pressure = state.pressure
+            del state
         state, exact = look(problem, operator, pressure, level), True
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
@@ -105,5 +108,7 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     descent = Descent(problem, cells, state, load, pace, careful=_rigid(problem))
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
-    state = State(found, None, None, state.approach, state.scale, {"search": descent.history[-1]})
+    state = State(
+        found, np.empty((0, 0)), np.empty((0, 0)), state.approach, state.scale, {"search": descent.history[-1]}
+    )
     return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)

@@ -7,6 +7,7 @@ are always a multiple of the identity less an outer product of three and three, 
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,8 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
     x, y = turns[0][:, None], turns[1]
     k = np.hypot(x / spacing[0], y / spacing[1])
     along_x, along_y = np.cos(x) * (shape[0] > 1), np.cos(y) * (shape[1] > 1)
-    return tuple(float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
+    own, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
+    return own, x_part, y_part, both
 
 
 class Stencil:
@@ -45,7 +47,8 @@ class Stencil:
         shape = self.shape
         thin, size = 1 in shape, shape[0] * shape[1]
         cells = np.arange(size) if thin and cells is None else cells
-        self.corner = None if cells is None else cells + 2 * (cells // shape[1])  # flat index of the lower left point
+        # flat index of the lower left point
+        self.corner: Any = None if cells is None else cells + 2 * (cells // shape[1])
         self.sparse = thin or cells is not None and cells.size < SPARSE * size
 
     def __call__(self, values: np.ndarray) -> np.ndarray:

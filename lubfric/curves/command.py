@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import __version__
 from ..console import say
 from ..errors import ConvergenceError
 from ..model import prepare
@@ -20,6 +19,7 @@ from ..run_sweep import parse_speeds
 from ..scene import Scene, scene_as_dict
 from ..store import fingerprint
 from ..sweep import QUANTITIES
+from ..version import __version__
 from .draw import plot_traction
 from .traction import TractionResult, traction
 

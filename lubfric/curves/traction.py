@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -85,12 +85,12 @@ def traction(
         try:
             found = friction(prepare(asked, like=ready), speed, start=start)
         except LubfricError as error:
-            errors[int(i)] = outcome = error
+            errors[int(i)] = error
         else:
-            start = found if found.balance.film is not None else None
-            points[i] = outcome = replace(found, balance=None)
+            start = found if found.starts else None
+            points[i] = found.without_fields()
         if on_point:
-            on_point(done, ratios.size, float(ratios[i]), outcome)
+            on_point(done, ratios.size, float(ratios[i]), points[i] or errors[int(i)])
     result = _collected(ratios, speed, points, errors)
     if errors and raise_on_failure:
         _raise(result)

@@ -36,7 +36,8 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
     thin = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
     mobility = density * film**3 * fluidity / (12 * problem.lubricant.viscosity * step)
-    exponent, limited = 0.0, 0.0
+    exponent: float | np.ndarray = 0.0
+    limited: float | np.ndarray = 0.0
     if thin is not None:
         mobility = mobility * thin.factor
         exponent, limited = thin.exponent, thin.limit_exponent

@@ -42,7 +42,6 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
     """
     history, krylov = [], 0
     at = look(problem, state, past)
-    best = None
     for count in range(most + 1):
         at = look(problem, resorted(problem, at), past)
         found = residuals(problem, at)
@@ -59,7 +58,7 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
         if not np.all(np.isfinite(step.gap)):
             return best
         at = _advanced(problem, at, step, past)
-    return best
+    raise AssertionError("the last step returns")
 
 
 def _stalled(history) -> bool:

@@ -18,7 +18,7 @@ def deterministic_bytes(results: list[DeterministicResult]) -> bytes:
     for i, result in enumerate(results):
         arrays |= {f"{name}_{i}": getattr(result, name) for name in FIELDS}
     buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)
+    np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return buffer.getvalue()
 
 

@@ -47,7 +47,8 @@ def solve_refined(
     from it or from the next coarser grid, and where both fail from the dry contact. ``precision``: of `solve_point`.
     Raises `ConvergenceError`.
     """
-    results, error, coarser = [], None, None
+    results: list = []
+    error, coarser = None, None
     for level, shape in enumerate(grids):
         problem = lay(shape)
         neighbour = start.results[level] if start is not None and level < len(start.results) else None
@@ -63,7 +64,7 @@ def solve_refined(
 
 def _starts(problem: Problem, neighbour, coarse) -> list[Callable[[], State]]:
     """A neighbour in speed and the coarser grid, where there are any: the coarser grid first where the film carries."""
-    starts = []
+    starts: list[Callable[[], State]] = []
     if neighbour is not None:
         starts.append(partial(state_on, problem, neighbour))
     if coarse is not None:

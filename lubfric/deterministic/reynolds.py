@@ -111,8 +111,10 @@ class _Stencil:
         rows, cols, data = [], [], []
         for name in self.NAMES:
             inside = (where[name] >= 0) & (where[name] < n) & (self.data[name] != 0)
-            rows.append(own[inside]), cols.append(where[name][inside]), data.append(self.data[name][inside])
-        cols, data = np.concatenate(cols), np.concatenate(data)
+            rows.append(own[inside])
+            cols.append(where[name][inside])
+            data.append(self.data[name][inside])
+        column, entries = np.concatenate(cols), np.concatenate(data)
         if columns is not None:
-            data = data * columns.ravel()[cols]
-        return csr_matrix((data, (np.concatenate(rows), cols)), shape=(n, n))
+            entries = entries * columns.ravel()[column]
+        return csr_matrix((entries, (np.concatenate(rows), column)), shape=(n, n))

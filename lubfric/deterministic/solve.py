@@ -16,10 +16,8 @@ from .state import State
 
 TOLERANCE = 1e-5
 FROM_NEIGHBOUR, DIRECT, MARCHED = 25, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
-THIN_STRESS = {
-    "limiting_stress_coefficient": 0.09,
-    "limiting_stress_offset": 2e6,
-}  # of the fluid that starts a Newtonian
+THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
+# a Newtonian
 
 
 def solve_point(
@@ -34,13 +32,11 @@ def solve_point(
     result.
     """
     work = Work()
-    best = None
-    for name, found in _attempts(problem, starts, tolerance, work):
-        if best is None or not found.residual >= best[1].residual:
-            best = name, found
-        if found.residual <= tolerance:
-            break
-    name, found = best
+    attempts = _attempts(problem, starts, tolerance, work)
+    name, found = next(attempts)
+    while not found.residual <= tolerance and (attempt := next(attempts, None)) is not None:
+        if not attempt[1].residual >= found.residual:
+            name, found = attempt
     report = _report(found, tolerance, work, name)
     result = assemble(problem, found.look, report)
     if raise_on_failure:
@@ -82,7 +78,9 @@ def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple
     yield "from the dry contact", work.direct(problem, cold, tolerance)
     lubricant = problem.lubricant
     if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
-        thin = problem.with_lubricant(replace(lubricant, **THIN_STRESS))
+        thin = problem.with_lubricant(
+            replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
+        )
         helped = work.direct(thin, cold, tolerance)
         if helped.residual > tolerance:
             helped = work.in_time(thin, cold, tolerance)

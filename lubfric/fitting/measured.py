@@ -72,13 +72,14 @@ def read_measured(
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")
-    over, heading = (SPEED, speed) if speed is not None else (SLIP, slide_roll_ratio)
+    over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
     table = _table(Path(path))
     columns = [_column(table, heading, over, path), _column(table, coefficient, "coefficient", path)]
     if deviation is not None:
         columns.append(_column(table, deviation, "coefficient", path))
     order = np.argsort(columns[0], kind="stable")
-    return Measured(*(column[order] for column in columns), over=over, source=Path(path).name)
+    x, f, *spread = (column[order] for column in columns)
+    return Measured(x, f, spread[0] if spread else None, over, Path(path).name)
 
 
 def _table(path: Path) -> dict[str, list[str]]:

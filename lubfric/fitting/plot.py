@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..plot import BLUE, GREY, RED
-from .measured import SPEED
-from .result import FitResult, x_label
+from .measured import SPEED, Measured
 
 
-def plot_fit(result: FitResult, ax=None):
+def plot_fit(result, ax=None):
     """See `FitResult.plot`."""
     axes = _axes(ax)
     x, (low, high) = np.abs(result.measured.x), result.band
@@ -24,7 +23,7 @@ def plot_fit(result: FitResult, ax=None):
     return axes
 
 
-def plot_residuals(result: FitResult, ax=None):
+def plot_residuals(result, ax=None):
     """See `FitResult.plot_residuals`."""
     axes = _axes(ax)
     miss = 100 * (result.measured.coefficient / result.predicted - 1)
@@ -36,6 +35,11 @@ def plot_residuals(result: FitResult, ax=None):
     return axes
 
 
+def x_label(measured: Measured) -> str:
+    """Of the axis of a measured curve."""
+    return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"
+
+
 def _axes(ax):
     if ax is not None:
         return ax
@@ -44,7 +48,7 @@ def _axes(ax):
     return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
 
 
-def _finish(axes, result: FitResult, label: str) -> None:
+def _finish(axes, result, label: str) -> None:
     if result.measured.over == SPEED:
         axes.set_xscale("log")
     axes.set(xlabel=x_label(result.measured), ylabel=label)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..report import Report
 from ..scene import Scene
-from .measured import SPEED, Measured
+from .measured import Measured
 from .parameters import Parameters
 
 LEVEL = 0.95
@@ -132,8 +132,3 @@ class FitResult:
         from scipy.stats import t
 
         return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))
-
-
-def x_label(measured: Measured) -> str:
-    """Of the axis of a measured curve."""
-    return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"

@@ -191,7 +191,8 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
         validate.choice(f"boundary[{axis}]", kind, KINDS)
     if workers is not None:
         workers = validate.integer("workers", workers, minimum=1)
-    padded = tuple(n if kind == "periodic" else _padded_length(n) for n, kind in zip(shape, boundary))
+    nx, ny = (n if kind == "periodic" else _padded_length(n) for n, kind in zip(shape, boundary))
+    padded = nx, ny
     symbol = _symbol(shape, spacing, e_prime, boundary, padded)
     return HalfSpace(shape, spacing, e_prime, boundary, padded, symbol, workers)
 
@@ -205,10 +206,11 @@ def _grid_shape(shape) -> tuple[int, int]:
     pair = tuple(shape)
     if len(pair) != 2:
         raise InputError(f"shape = {pair} has {len(pair)} axes; allowed: (nx, ny)")
-    return tuple(
+    nx, ny = (
         validate.integer(f"shape[{axis}]", int(n) if isinstance(n, np.integer) else n, minimum=1)
         for axis, n in enumerate(pair)
     )
+    return nx, ny
 
 
 def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:

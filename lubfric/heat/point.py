@@ -10,8 +10,7 @@ import numpy as np
 
 from .. import budget
 from ..line_contact import LineContact
-from ..lubricant import Lubricant, shear_stress
-from ..validity.film import NO_LIQUID
+from ..lubricant import NO_LIQUID, Lubricant, shear_stress
 from .conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
 from .flash import FAST
 from .inlet import InletHeat, inlet_heat
@@ -47,7 +46,7 @@ class Heat:
     @property
     def film_factor(self) -> float:
         """On the film, by the inlet: 1 where it is left out."""
-        return self.inlet.factor if self.used else 1.0
+        return self.inlet.factor if self.used and self.inlet is not None else 1.0
 
     @property
     def flash(self) -> float:
@@ -99,7 +98,7 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     """The lubricant that the film is solved with: as viscous as it is in the heated inlet, so that Moes' film is
     thinner by the factor of `inlet_at`."""
     found, used = inlet_at(scene, speed)
-    if not used:
+    if found is None or not used:
         return scene.lubricant
     bodies, lubricant = scene.bodies, scene.lubricant
     whole = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, lubricant)

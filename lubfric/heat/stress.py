@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import InputError
 from ..lubricant import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio
 
 ROELANDS_ZERO = 138.0  # K
@@ -25,9 +26,16 @@ LEAST = 1e-14  # of the isothermal stress: below where a heated one is sought
 STEPS = 64  # halvings of the logarithm of the stress: to 1e-12 and less
 
 
+def _thermal(lubricant: Lubricant) -> tuple[float, float]:
+    """Temperature [K] and temperature coefficient [1/K] of a lubricant that has them (`Lubricant.heats`)."""
+    if lubricant.temperature is None or lubricant.temperature_coefficient is None:
+        raise InputError("lubricant has no temperature [K] or temperature_coefficient [1/K]; allowed: both, or an oil")
+    return lubricant.temperature, lubricant.temperature_coefficient
+
+
 def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarray, np.ndarray]:
     """ln(eta [Pa s]) and -d ln(eta)/dT [1/K] at each pressure [Pa] and temperature [K]."""
-    t0, beta = lubricant.temperature, lubricant.temperature_coefficient
+    t0, beta = _thermal(lubricant)
     cold = np.log(lubricant.viscosity) + log_viscosity_ratio(lubricant, pressure)[0]
     if lubricant.viscosity_law != "roelands":
         return cold - beta * (temperature - t0), np.broadcast_to(beta, np.shape(cold - temperature)).astype(float)
@@ -39,13 +47,13 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
 
 def eyring_stress_at(lubricant: Lubricant, temperature):
     """tau_E [Pa] at ``temperature`` [K]."""
-    return lubricant.eyring_stress * np.asarray(temperature) / lubricant.temperature
+    return lubricant.eyring_stress * np.asarray(temperature) / _thermal(lubricant)[0]
 
 
 def limiting_stress_at(lubricant: Lubricant, pressure, temperature):
     """Largest stress [Pa] at each pressure [Pa] and temperature [K]."""
     cold = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
-    return cold * np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / lubricant.temperature))
+    return cold * np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / _thermal(lubricant)[0]))
 
 
 def heated_stress(

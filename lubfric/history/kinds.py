@@ -136,7 +136,7 @@ class Table(History):
             time -= laps * t[-1]
             if laps and side == "left" and time <= 1e-12 * t[-1]:
                 time = t[-1]
-        i = int(np.searchsorted(t, time, side))
+        i = int(np.searchsorted(np.asarray(t), time, "left" if side == "left" else "right"))
         if i == 0 or i == len(t):
             return v[min(i, len(t) - 1)]
         return v[i - 1] + (v[i] - v[i - 1]) * (time - t[i - 1]) / (t[i] - t[i - 1])

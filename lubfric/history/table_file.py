@@ -35,6 +35,7 @@ def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | Non
     rows = _rows(path)
     headings = [HEADING.fullmatch(text) for text in rows[0][1]]
     known = ["" if h is None else h["name"] for h in headings]
+    given = [None if h is None else h["unit"] for h in headings]
     columns, factors = [], []
     for name, unit in zip(names, units):
         places = [i for i, heading in enumerate(known) if heading == name]
@@ -45,7 +46,7 @@ def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | Non
                 f"allowed: one; it has: {', '.join(known)}"
             )
         columns.append(places[0])
-        factors.append(_factor(path, name, headings[places[0]]["unit"], unit))
+        factors.append(_factor(path, name, given[places[0]], unit))
     return [
         [factor * _number(path, line, row, place) for line, row in rows[1:]] for place, factor in zip(columns, factors)
     ]

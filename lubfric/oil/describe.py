@@ -5,7 +5,7 @@ from __future__ import annotations
 from .make import named_oil, oil_names
 from .named import OILS
 from .oil import Oil
-from .temperature import CELSIUS
+from .temperature import CELSIUS, Walther
 
 SHOWN = (20, 40, 60, 70, 80, 100, 120)  # °C
 
@@ -21,11 +21,12 @@ def list_oils() -> str:
 def show_oil(name: str) -> str:
     """A table of the properties of a named oil over temperature, with their sources."""
     oil, entry = named_oil(name), OILS[name.lower()]
+    table = oil.viscosity_law
+    law = f"ASTM D341 (constant 0.7): m = {table.m:.4f}, n = {table.n:.4f}" if isinstance(table, Walther) else "a table"
     lines = [
         f"{name}: {entry.name}",
         f"  {entry.source}",
-        f"  ASTM D341 (constant 0.7): m = {oil.viscosity_law.m:.4f}, n = {oil.viscosity_law.n:.4f}; "
-        f"viscosity index {oil.index:.1f} (ASTM D2270); density {oil.density_15:g} kg/m³ at 15 °C",
+        f"  {law}; viscosity index {oil.index:.1f} (ASTM D2270); density {oil.density_15:g} kg/m³ at 15 °C",
         "",
         "   °C   mm²/s    mPa s   kg/m³   alpha 1/GPa (measured oils from, to)   1/K",
     ]

@@ -18,6 +18,7 @@ from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..scene import Scene
 from ..surface import Surface
 from ..validity.bodies import of_motion
+from ..validity.model_form import one_way_error
 from .point import OneWay, solve_one_way
 
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
@@ -27,7 +28,8 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
     """One-way load sharing at ``speed`` [m/s], not 0: on two grids, and on finer ones up to the map's own while the
     estimate of `lubfric.deterministic.refine.estimate` is above ``numerics.tolerance``. ``start``: of a neighbour."""
     check_scene(scene)
-    lay, found = layer(scene, surface, speed), []
+    lay = layer(scene, surface, speed)
+    found: list[OneWay] = []
     shapes = [shape for shape in grids(scene, surface) if shape[1] <= surface.shape[1]]
     for level, shape in enumerate(shapes):
         near = start[level] if level < len(start) else found[-1] if found else None
@@ -83,6 +85,9 @@ def one_way_result(model: Model, speed: float, found: tuple[OneWay, ...], begun:
         decision=decision,
         validity=passed,
         one_way=found,
-        uncertainty=not_sampled(None, scene, model.surface.size[1], NOT_KNOWN),
+        uncertainty=replace(
+            not_sampled(error, scene, model.surface.size[1], NOT_KNOWN),
+            model_form=one_way_error(one.contact_load / (one.contact_load + one.film_load)),
+        ),
         errors=field_errors_of({}, NOT_KNOWN),
     )

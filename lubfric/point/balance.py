@@ -49,6 +49,11 @@ class Balance:
             return NEARLY_SEPARATED
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
+    @property
+    def lubricated(self) -> Lubricated | None:
+        """Itself, where it has a film."""
+        return None
+
     def moved(self, step: float) -> Self:
         """The loads divided as if ``split`` were larger by ``step``; film and contact as they were."""
         film_load, contact_load = divided(self.film_load + self.contact_load, self.split + step)
@@ -61,6 +66,11 @@ class Lubricated(Balance):
 
     film: Film
     level: FilmLevel
+
+    @property
+    def lubricated(self) -> Lubricated:
+        """Itself."""
+        return self
 
 
 def divided(load: float, split: float) -> tuple[float, float]:

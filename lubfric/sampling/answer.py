@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from ..model import Model
 from ..point.deflection import solved_as_deflected
 from ..result import FrictionResult, result_of
+from ..scene import Scene
+from ..validity.model_form import load_sharing_error
 from .estimate import of_line
 from .line_friction import line_friction
 from .patch_error import of_patch
@@ -23,5 +26,13 @@ def answered(model: Model, speed: float, start: FrictionResult | None, fields: b
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(model, speed, balance, given_grid=fields)
         result, (uncertainty, errors) = result_of(chosen, speed, point, begun), of_patch(chosen, speed, point)
+    uncertainty = replace(uncertainty, model_form=_model_form(model.scene, result))
     report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
+
+
+def _model_form(scene: Scene, result: FrictionResult) -> float:
+    """Known for a cylinder and the half-space contact, which were studied."""
+    if scene.contact.geometry != "cylinder" or scene.contact.model != "half-space":
+        return math.nan
+    return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)

@@ -29,7 +29,7 @@ class Cells:
 
     def halved(self) -> Cells:
         """Cells half as long each way, or as near as the scene's own allow."""
-        factors = tuple(max(1, f // 2) for f in self.factors)
+        factors = max(1, self.factors[0] // 2), max(1, self.factors[1] // 2)
         return Cells(factors, self.spacing, self.count * self.factors[0] // factors[0])
 
     def columns(self, length: float) -> int:

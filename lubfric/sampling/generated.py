@@ -67,7 +67,7 @@ def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surfa
         decay_level=rough.decay_level,
         seed=seed_of(rough.seed, *stream, *(() if name == "surface" else (1,))),
     )
-    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq)
+    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
@@ -77,8 +77,8 @@ def generated_lines(scene: Scene) -> GeneratedLines:
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
     spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
-    lengths = tuple(min(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
-    blocks = tuple(max(lengths_of(rough)[axis] for rough in bodies if rough.sq) for axis in range(2))
+    along_x, along_y = zip(*(lengths_of(rough) for rough in bodies if rough.sq))
+    lengths, blocks = (min(along_x), min(along_y)), (max(along_x), max(along_y))
     if patch.region == "box":
         return GeneratedLines(scene, cells_of_a_box(spacing, lengths, half_width, patch.shape[0]), blocks)
     sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))

@@ -143,7 +143,8 @@ def remaining(changes) -> float:
 def _by_row(contact, state: ContactState, gap_slope: float, rows: int) -> _Rows:
     """Means over ``rows`` cells along y."""
     gap, load = strip_gap(contact, state), line_load(contact, state)
-    touching = contact.weight @ (state.pressure > 0) / contact.weight.sum()
+    pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
+    touching = contact.weight @ (pressure > 0) / contact.weight.sum()
     return _Rows(
         gap_influence(gap, load, gap_slope).reshape(-1, rows).mean(axis=1),
         touching.reshape(-1, rows).mean(axis=1),

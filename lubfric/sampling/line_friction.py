@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from ..model import Model
 from ..point.adapt import Solved, solved
-from ..point.balance import Balance, balanced, divided, separated
+from ..point.balance import Balance, Lubricated, balanced, divided, separated
 from ..point.deflection import solved_as_deflected
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
@@ -16,7 +16,7 @@ from .influence import BlockError, add_errors
 from .line_record import Pooled
 from .pieces import line_contact
 from .response import Response, touched_length
-from .sample import Sample
+from .sample import Anchor, Sample, lines_of_model
 
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
 LINE_VOLUME = 0.03  # volume residual of a further line, at most; the rest is corrected to first order
@@ -78,7 +78,8 @@ def line_friction(model: Model, speed: float, start: LineStart | None = None) ->
     of the same model at a neighbouring speed."""
     before = start.grid if start else ()
     model, first = solved_as_deflected(model, speed, start.first if start else None, given_grid=True)
-    sample, used = Sample(model, speed, first).with_line(model.contact, first, before), ()
+    sample = Sample(model, speed, first).with_line(model.contact, first, before)
+    used: tuple[Used, ...] = ()
     while (length := sample.wanted()) > 0:
         length, contact, state = _next_line(sample, length, len(used), start)
         if sample.anchor is None:
@@ -103,7 +104,7 @@ def _next_line(sample: Sample, length: float, index: int, start: LineStart | Non
 
 
 def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
-    return line_contact(model.scene, model.lines.line(index + 1, length))
+    return line_contact(model.scene, lines_of_model(model).line(index + 1, length))
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
@@ -112,8 +113,8 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response
     gives, to first order.
     """
-    anchor, scene = sample.anchor, sample.model.scene
-    there = anchor.point.balance
+    anchor, scene = sample.known, sample.model.scene
+    there = _lubricated(anchor)
     here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
     point = at(sample.model, sample.speed, contact, there)
     point = replace(point, settings=replace(point.settings, volume_tolerance=LINE_VOLUME))
@@ -132,8 +133,8 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
 def _found(sample: Sample) -> LineFound:
     together, anchor, first = sample.together, sample.anchor, sample.first
     if first.balance.film is None:
-        return LineFound(first, first.balance, together, anchor.response)
-    ended = sample.reached > sample.model.scene.numerics.sampling_tolerance and sample.model.lines.nested
+        return LineFound(first, first.balance, together, sample.known.response)
+    ended = sample.reached > sample.model.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
         return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
     error = add_errors(together.gap, mean_error(anchor.grid))
@@ -148,10 +149,17 @@ def _found(sample: Sample) -> LineFound:
     )
 
 
+def _lubricated(anchor: Anchor) -> Lubricated:
+    balance = anchor.point.balance.lubricated
+    if balance is None:
+        raise ValueError("a line without film has nothing to divide")
+    return balance
+
+
 def _divided(sample: Sample, together: Pooled) -> Solved:
     """The anchor's point with the load divided as all lines and the grid ask."""
-    anchor, scene = sample.anchor, sample.model.scene
-    balance = anchor.point.balance
+    anchor, scene = sample.known, sample.model.scene
+    balance = _lubricated(anchor)
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
     point = at(sample.model, sample.speed, anchor.contact, balance)

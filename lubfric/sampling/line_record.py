@@ -63,7 +63,8 @@ def record(
     differs from place to place shows it there.
     """
     by_place, step = line_load(contact, state)[rows], contact.spacing[1]
-    touching = state.pressure[:, rows] > 0
+    pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
+    touching = pressure[:, rows] > 0
     touched = touching.sum(axis=0) * contact.spacing[0]
 
     def error(values, slope):

@@ -57,7 +57,9 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
             )
         else:
             response = response_of(model, speed, point.contact, balance)
-            rows = point.contact.heights.shape[1] // (2 if mirrored(model) else 1)
+            grid = point.contact.grid
+            assert grid is not None  # of half-spaces: it has fields
+            rows = grid.cells[1] // (2 if mirrored(model) else 1)
             there = record(
                 point.contact, balance.contact, balance.contact_load, response.slopes, correlation, rows=slice(0, rows)
             )

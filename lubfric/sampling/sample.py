@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from .. import budget
 from ..model import Model
@@ -15,6 +16,7 @@ from .grid_pair import FEWEST, GridStep, grid_step, mean_error
 from .influence import add_errors
 from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
+from .lines import Lines
 from .missed import missed_share
 from .response import Response, respond, slopes_of
 from .uncertainty import FEW
@@ -47,6 +49,18 @@ class Sample:
     anchor: Anchor | None = None
 
     @property
+    def lines(self) -> Lines:
+        """Of the model."""
+        return lines_of_model(self.model)
+
+    @property
+    def known(self) -> Anchor:
+        """The anchor, where a line touches."""
+        if self.anchor is None:
+            raise ValueError("no line touches yet")
+        return self.anchor
+
+    @property
     def together(self) -> Pooled:
         """All lines."""
         return pooled(self.records)
@@ -66,7 +80,7 @@ class Sample:
         """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and
         the length of all."""
         model, first = self.model, self.first
-        found = missed_share(model, first.balance.film, first.balance.forces, model.lines.lengths[1])
+        found = missed_share(model, first.balance.film, first.balance.forces, self.lines.lengths[1])
         found = found if math.isfinite(found) else math.inf  # too short to tell
         return found * length_of(model.contact) / sum(r.length for r in self.records)
 
@@ -78,12 +92,12 @@ class Sample:
 
     def wanted(self) -> float:
         """Length [m] of the next line; 0 where no more is needed or to be had."""
-        lines, asked, so_far = self.model.lines, self.model.scene.numerics.sampling_tolerance, self.together.length
+        lines, asked, so_far = self.lines, self.model.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
         reached = self.reached
         if room < LEAST_MORE * so_far or (reached <= asked and not self.few):
             return 0.0
-        contact = self.model.contact
+        contact: Any = self.model.contact  # of half-spaces, on the cells of the line
         held = MOST_CELLS / contact.heights.shape[0] * contact.spacing[1]
         more = next_length(so_far, max(reached, asked), asked, min(LONGEST * lines.lengths[1], held, room))
         return so_far + more if lines.nested else more
@@ -91,7 +105,7 @@ class Sample:
     def with_line(self, contact, point: Solved, before: tuple[GridStep, ...] = ()) -> Sample:
         """The same with one more line; a longer one of a measured map takes the place of the shorter. ``before``:
         what was found of the grid at a neighbouring speed."""
-        lines, balance, length = self.model.lines, point.balance, length_of(contact)
+        lines, balance, length = self.lines, point.balance, length_of(contact)
         kept = () if lines.nested else self.records
         if balance.contact_load == 0:
             return replace(self, records=(*kept, LineRecord(length)))
@@ -107,6 +121,13 @@ class Sample:
         return replace(self, records=(*kept, found), anchor=anchor)
 
 
+def lines_of_model(model: Model) -> Lines:
+    """More of the line that ``model`` is of."""
+    if model.lines is None:
+        raise ValueError("a model of one patch has no further lines")
+    return model.lines
+
+
 def _anchor(model, speed: float, contact, point: Solved, before) -> Anchor:
     response = response_of(model, speed, contact, point.balance)
     return Anchor(contact, point, response, _grid(model, speed, point, response, before))
@@ -114,22 +135,22 @@ def _anchor(model, speed: float, contact, point: Solved, before) -> Anchor:
 
 def response_of(model, speed: float, contact, balance: Balance) -> Response:
     """`Response` of a balance on ``contact``."""
-    scene, film = model.scene, balance.film
-    if film is None:
+    scene, wet = model.scene, balance.lubricated
+    if wet is None:
         thickness = under = contact.x**2 / (2 * scene.bodies.radius)
     else:
-        point = at(model, speed, contact, balance)
-        thickness, under = point.imposed_on(contact, film)
+        point = at(model, speed, contact, wet)
+        thickness, under = point.imposed_on(contact, wet.film)
 
     def close(load):
         return contact.close(thickness, load, balance.contact, under)
 
     slopes = slopes_of(balance.contact, balance.contact_load, scene.bodies.width, close)
-    if film is None:
+    if wet is None:
         return Response(slopes)
 
     def at_split(split):
-        return quantities(point, redivided(point, balance, divided(scene.bodies.load, split)[1]))
+        return quantities(point, redivided(point, wet, divided(scene.bodies.load, split)[1]))
 
     return respond(scene.bodies.width, balance, slopes, at_split)
 
@@ -137,10 +158,10 @@ def response_of(model, speed: float, contact, balance: Balance) -> Response:
 def _grid(model, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
     """Pieces on finer cells, until what they scatter by is a small part of the sampling tolerance; those of a
     neighbouring speed where the contact carries as much."""
-    lines, numerics, balance = model.lines, model.scene.numerics, found.balance
-    load = balance.contact_load
-    if lines.cells.factors == (1, 1) or balance.film is None:
+    lines, numerics, balance = lines_of_model(model), model.scene.numerics, found.balance.lubricated
+    if lines.cells.factors == (1, 1) or balance is None:
         return ()
+    load = balance.contact_load
     if before and abs(load / before[0].contact_load - 1) < SAME_LOAD:
         return before
     per_gap = response.relative("coefficient", 1.0)
@@ -148,7 +169,8 @@ def _grid(model, speed: float, found: Solved, response: Response, before) -> tup
         budget.CONTACT_GRID * numerics.tolerance / per_gap,
         PAIR_SHARE * numerics.sampling_tolerance / per_gap,
     )
-    steps, point = [], at(model, speed, found.contact, balance)
+    steps: list[GridStep] = []
+    point = at(model, speed, found.contact, balance)
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
         if len(steps) == FEWEST and not math.isfinite(steps[0].error.error):
             break

@@ -20,7 +20,8 @@ class Uncertainty:
     both, by Student's t of ``freedom`` degrees; line_scatter: relative standard deviation of f between lines as wide as
     that of the scene, another place on the surface each; participation: number of equally loaded spots that would
     carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed
-    (1: enough).
+    (1: enough). model_form: estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the
+    interval; NaN where it is not known.
     """
 
     numerical: float = math.nan
@@ -32,6 +33,7 @@ class Uncertainty:
     freedom: float = 0.0
     tolerance: float = math.nan
     area_needed: float = 1.0
+    model_form: float = math.nan
     notes: tuple[str, ...] = ()
 
     @property
@@ -55,7 +57,7 @@ class Uncertainty:
         )
 
 
-NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed")
+NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed", "model_form")
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,7 @@ class UncertaintyCurve:
     participation: np.ndarray
     length: np.ndarray
     area_needed: np.ndarray
+    model_form: np.ndarray
     text: tuple[str, ...]
 
 
@@ -136,5 +139,5 @@ def student(freedom: float) -> float:
 
 
 def percent(value: float) -> str:
-    """Two digits and a percent sign."""
-    return f"{100 * value:.2g} %"
+    """Two digits and a percent sign; "< 0.001 %" for what nobody can see."""
+    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"

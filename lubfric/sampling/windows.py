@@ -146,7 +146,8 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 def spread(count: int) -> list[int]:
     """0 .. count - 1 from the middle, each next as far from those before as can be."""
-    left, order = set(range(count)), []
+    left = set(range(count))
+    order: list[int] = []
     while left:
         middle = 0.5 * (count - 1)
         best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))

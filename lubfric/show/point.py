@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..errors import InputError
+from ..report import Report
 from .shown import Shown
 
 
 class PointShown(Shown):
-    """What `lubfric.FrictionResult` shows."""
+    """What `lubfric.FrictionResult`, whose fields these are, shows."""
+
+    speed: float
+    coefficient: float
+    contact_load: float
+    film_load: float
+    film_to_roughness_ratio: float
+    report: Report
+    validity: tuple[Any, ...]
+    balance: Any
+    deterministic: Any
+    uncertainty: Any
 
     def _facts(self) -> dict[str, str]:
         facts = {

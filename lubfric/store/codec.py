@@ -21,10 +21,11 @@ SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
 
 def encode(value) -> bytes:
     """``value``, a tree of dataclasses of this package, numbers, texts and arrays, as one ``.npz`` file in bytes."""
-    arrays = {}
+    arrays: dict[str, np.ndarray] = {}
     tree = to_plain(value, arrays)
     buffer = io.BytesIO()
-    np.savez(buffer, tree=np.array(json.dumps(tree, allow_nan=False)), **arrays)
+    arrays["tree"] = np.array(json.dumps(tree, allow_nan=False))
+    np.savez(buffer, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return buffer.getvalue()
 
 

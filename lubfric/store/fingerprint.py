@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import __version__
+from ..version import __version__
 from .whole import saying
 
 LABELS = {"Scene": ("name",), "Surface": ("source", "notes"), "Motion": ("speeds",)}  # no number depends on these
@@ -48,7 +48,8 @@ def _feed(found, value) -> None:
     elif isinstance(value, dict):
         found.update(f"dict {len(value)} ".encode())
         for key in sorted(value):
-            _feed(found, key), _feed(found, value[key])
+            _feed(found, key)
+            _feed(found, value[key])
     elif isinstance(value, (list, tuple)):
         found.update(f"list {len(value)} ".encode())
         for item in value:

@@ -14,7 +14,7 @@ try:
 except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
     import msvcrt
 
-    fcntl = None
+    fcntl = None  # type: ignore[assignment]
 
 NAME = ".lock"
 _HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
@@ -56,7 +56,8 @@ class FolderLock:
     def drop(self) -> None:
         """Close the file: this process holds the lock no more."""
         _HELD.discard(self)
-        self._file.close()
+        if self._file is not None:
+            self._file.close()
         self._file = None
 
     def _take(self, file) -> None:

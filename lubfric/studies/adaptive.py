@@ -56,7 +56,7 @@ def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Itera
             break
         speeds.append(float(speed))
         chain = search.chain(speeds)
-        if chain.keys[-1] in known:
+        if journal is not None and chain.keys[-1] in known:
             outcome, last = _known(chain, journal, known), None
         else:
             outcome = last = _continued(model, chain, journal, last)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,7 @@ def load_study(path) -> StudyPlan:
         raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
     beside = path.parent / name
     scene = load_scene(beside if beside.is_file() else name)
-    vary = _flat(table.get("vary", {}), "vary", path.parent)
+    vary: dict[Any, list] = {**_flat(table.get("vary", {}), "vary", path.parent)}
     together = table.get("together", [])
     for group in together if isinstance(together, list) else [together]:
         lists = _flat(group, "together", path.parent)
@@ -62,7 +63,7 @@ def _flat(table, where: str, folder: Path) -> dict[str, list]:
     ``folder``."""
     if not isinstance(table, dict):
         raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
-    found = {}
+    found: dict[str, Any] = {}
     for key, value in table.items():
         if isinstance(value, dict):
             found |= {f"{key}.{inner}": v for inner, v in value.items()}

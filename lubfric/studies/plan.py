@@ -101,7 +101,8 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
 
 def _batches(scenes: dict, speeds: tuple[float, ...]):
     """Curves of the same map together, in pieces that fix who is solved beside whom."""
-    groups, maps = {}, {}
+    groups: dict = {}
+    maps: dict = {}
     for index, scene in scenes.items():
         groups.setdefault(_shared(scene), []).append((index, scene))
     for group in groups.values():

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import __version__, validate
+from .. import validate
 from ..errors import InputError
 from ..scene import scene_as_dict
 from ..store import Records
+from ..version import __version__
 from .journal import POINTS
 from .quantities import QUANTITIES
 from .row import CONVERGED, SPEED, STATUS, row_of

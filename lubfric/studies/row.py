@@ -15,7 +15,7 @@ def row_of(record: dict) -> dict:
 
 
 def _numbers(record: dict) -> dict[str, float]:
-    found = {}
+    found: dict[str, float] = {}
     for name, value in record.items():
         if name == "uncertainty" and isinstance(value, dict):
             found |= {f"uncertainty_{part}": number for part, number in _numbers(value).items()}

@@ -111,7 +111,8 @@ def _chains(batch: Batch):
 def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
     journal = None if piece.folder is None else Journal(piece.folder)
-    rows, leader, name = {}, None, piece.batch.curves[0].chains[0].name
+    rows: dict[str, dict] = {}
+    leader, name = None, piece.batch.curves[0].chains[0].name
     if journal is not None and journal.begin(name):  # by a worker that is gone: what it finished is taken over
         rows = _rows(piece.folder)
         piece = _piece(piece.batch, piece.folder, rows)

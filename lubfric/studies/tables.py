@@ -11,11 +11,10 @@ import numpy as np
 from ..errors import InputError
 from ..store import whole_file, write_whole
 from .quantities import KEYS, QUANTITIES, described
-from .result import StudyResult
 from .row import SPEED
 
 
-def to_xarray(result: StudyResult):
+def to_xarray(result):
     """See `StudyResult.to_xarray`."""
     xarray = _tool("xarray")
     data = {name: (result.dims, values, _attributes(name, result)) for name, values in result.columns.items()}
@@ -25,12 +24,12 @@ def to_xarray(result: StudyResult):
     return xarray.Dataset(data, coords, attributes)
 
 
-def to_frame(result: StudyResult):
+def to_frame(result):
     """See `StudyResult.to_frame`."""
     return _tool("pandas").DataFrame(columns_of(result))
 
 
-def to_parquet(result: StudyResult, path) -> None:
+def to_parquet(result, path) -> None:
     """See `StudyResult.to_parquet`."""
     frame = to_frame(result)
     _tool("pyarrow")
@@ -39,7 +38,7 @@ def to_parquet(result: StudyResult, path) -> None:
     write_whole(path, buffer.getvalue())
 
 
-def to_netcdf(result: StudyResult, path) -> None:
+def to_netcdf(result, path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole."""
     data = to_xarray(result)
     _tool("netCDF4")
@@ -47,7 +46,7 @@ def to_netcdf(result: StudyResult, path) -> None:
         data.to_netcdf(part, engine="netcdf4")
 
 
-def to_csv(result: StudyResult, path) -> None:
+def to_csv(result, path) -> None:
     """See `StudyResult.to_csv`."""
     columns = columns_of(result)
     text = io.StringIO()
@@ -57,7 +56,7 @@ def to_csv(result: StudyResult, path) -> None:
     write_whole(path, text.getvalue().encode())
 
 
-def columns_of(result: StudyResult) -> dict[str, np.ndarray]:
+def columns_of(result) -> dict[str, np.ndarray]:
     """One value a point in every column: the varied keys, the speed, the numbers, the status."""
     shape, columns = result.status.shape, {}
     for key, (dim, values) in result.coords.items():
@@ -68,7 +67,7 @@ def columns_of(result: StudyResult) -> dict[str, np.ndarray]:
     return columns | numbers | {"status": result.status.astype(str).ravel()}
 
 
-def _attributes(name: str, result: StudyResult) -> dict[str, str]:
+def _attributes(name: str, result) -> dict[str, str]:
     if name.startswith("uncertainty_"):
         part = name.removeprefix("uncertainty_")
         return {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -48,7 +49,7 @@ class Axis:
 
     def apply(self, scene: Scene, index: int) -> Scene:
         """``scene`` with the values of position ``index``."""
-        sections = {}
+        sections: dict[str, Any] = {}
         for key, value in zip(self.keys, self.values[index]):
             section, _, field = key.partition(".")
             sections[section] = sections.get(section, {}) | {field: value} if field else value
@@ -59,7 +60,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), each value put into the scene once to see that it fits."""
     if not isinstance(vary, dict):
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
-    axes, seen, cases = [], set(), 0
+    seen: set[str] = set()
+    axes, cases = [], 0
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:

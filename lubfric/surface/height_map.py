@@ -190,12 +190,12 @@ class Surface(FrozenArrays, Shown):
                     f"the map; allowed: within 0..{self.shape[axis]}"
                 )
         cut = tuple(slice(s, s + n) for s, n in zip(start, shape))
-        periodic = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
+        along_x, along_y = (bool(p and n == m) for p, n, m in zip(self.periodic_axes, self.shape, shape))
         return replace(
             self,
             heights=self.heights[cut],
             mask=None if self.mask is None else self.mask[cut],
-            periodic_axes=periodic,
+            periodic_axes=(along_x, along_y),
             notes=(*self.notes, f"cropped to {shape} from {start}"),
         )
 

@@ -19,7 +19,8 @@ def pair(name, value) -> tuple[int, int]:
     """Two whole numbers >= 1."""
     if np.ndim(value) != 1 or len(value) != 2:
         raise InputError(f"{name} = {value!r} must be a pair (nx, ny) of whole numbers >= 1")
-    return tuple(validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
+    nx, ny = (validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
+    return nx, ny
 
 
 def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
@@ -97,10 +98,9 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
             rows.append(row[other])
             columns.append(number[there][from_missing][other])
             entries.append(np.full(np.count_nonzero(other), -weight))
-    rows, columns, entries = (np.concatenate(c) for c in (rows, columns, entries))
     index = np.arange(count)
-    where = np.concatenate([index, rows]), np.concatenate([index, columns])
-    matrix = coo_matrix((np.concatenate([diagonal, entries]), where), shape=(count, count))
+    where = np.concatenate([index, *rows]), np.concatenate([index, *columns])
+    matrix = coo_matrix((np.concatenate([diagonal, *entries]), where), shape=(count, count))
     filled = heights.copy()
     filled[missing] = spsolve(matrix.tocsc(), right)
     return filled

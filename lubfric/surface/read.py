@@ -105,13 +105,14 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
     if missing_value is not None:
         missing_value = validate.number("missing_value", missing_value, "(unit of the file)")
-    notes = ()
+    notes: tuple[str, ...] = ()
+    own: tuple[float, float] | None
     if path.stat().st_size > MOST_BYTES:
         raise InputError(f"path = {str(path)!r} has {path.stat().st_size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}")
     if suffix == ".xyz":
         _refuse(suffix, spacing=spacing)
-        heights, own, notes = read_points(path, decimal, unit)
-        return _masked(heights, scale, missing_value, (own[0] * scale, own[1] * scale), notes)
+        heights, (dx, dy), notes = read_points(path, decimal, unit)
+        return _masked(heights, scale, missing_value, (dx * scale, dy * scale), notes)
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
         heights, own = _read_npy(path), None

@@ -35,9 +35,10 @@ def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
         if not re.match(r"#\s*spacing\s*[=:]", line):
             continue
         found = re.fullmatch(r"#\s*spacing\s*[=:]\s*(\S+)(?:[\s,;]+(\S+))?(?:\s+m)?\s*", line)
+        words = [] if found is None else [word for word in found.groups() if word not in (None, "m")]
         try:
-            pair = [float(w) for w in found.groups() if w not in (None, "m")]
-        except (AttributeError, ValueError):  # no match, no numbers
+            pair = [float(word) for word in words or ("none",)]
+        except ValueError:  # no match, no numbers
             raise InputError(
                 f"spacing in {path.name}: {validate.shown(line)}; allowed: '# spacing = dx dy' in m"
             ) from None

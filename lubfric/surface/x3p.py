@@ -52,7 +52,7 @@ def _read(archive, path) -> Surface:
         raise _bad("SizeZ", shape[2], "1 (one layer)")
     if shape[0] * shape[1] > MOST_POINTS:
         raise _bad("SizeX x SizeY", f"{shape[0]} x {shape[1]}", f"at most {MOST_POINTS} points")
-    spacing = tuple(_increment(root, axis) for axis in ("CX", "CY"))
+    spacing = _increment(root, "CX"), _increment(root, "CY")
     raw = _linked(
         archive,
         root,

@@ -11,6 +11,7 @@ import hashlib
 import io
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -92,7 +93,8 @@ class Checkpoint:
         """Replace the state."""
         hashes = {f"sha256_{name}": found.hexdigest() for name, found in self._hashes.items()}
         content = io.BytesIO()
-        np.savez(content, fingerprint=self.fingerprint, **hashes, **state)
+        arrays: dict[str, Any] = {"fingerprint": self.fingerprint, **hashes, **state}
+        np.savez(content, **arrays)
         write_checked(self.folder / STATE, content.getvalue())
 
     def clear(self) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from ..lubricant import NO_LIQUID
 from .entry import Validity
 
 ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
 BARUS_LIMIT = 3e8  # Pa
-NO_LIQUID = 1e10  # Pa: no oil flows there
 THICK = 0.1  # of the radius
 
 

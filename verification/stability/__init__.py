@@ -14,7 +14,12 @@ from ..frame import Command
 from ..frame import main as run
 from ..studies import Study
 
-MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing"}
+MAPS = {
+    "film": "Smooth film",
+    "contact": "Dry contact",
+    "sharing": "Load sharing",
+    "whole": "One gap, one pressure",
+}
 LEVELS = ("full", "quick")
 
 

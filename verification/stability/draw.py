@@ -103,6 +103,6 @@ def panel(ax, cells: list[Check]) -> None:
             getattr(ax, f"set_{axis}scale")("symlog", linthresh=1e-10 if name.startswith("sharing") else 1e-12)
     if name.startswith("sharing: speed"):
         ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
-    labels = AXES.get(name, ("", ""))
+    labels = ("load, N/m", "entrainment speed, m/s") if name.startswith("whole") else AXES.get(name, ("", ""))
     ax.set(xlabel=labels[0], ylabel=labels[1])
     ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)

@@ -102,9 +102,28 @@ def _seconds(job) -> float:
     return min(found)
 
 
+def model_error() -> Table:
+    """Every model of load sharing beside one gap with one pressure (`verification.model`, its default level)."""
+    from ..model import settings
+    from ..model.measure import points
+    from ..model.summary import deviations, table
+
+    return Table(*table(deviations([p for setting in settings("default") for p in points(setting)])))
+
+
+def mutants() -> Table:
+    """What catches each mutant (minutes)."""
+    from .. import mutations
+    from ..run import run
+
+    return Table(list(mutations.COLUMNS), mutations.rows(run(mutations.trials(), "default", workers=2)))
+
+
 TABLES: dict[str, Callable[[], Table]] = {
     "stribeck": stribeck,
     "film-load-of-patches": film_load_of_patches,
     "hertz-line": hertz_line,
     "times": times,
+    "model-error": model_error,
+    "mutants": mutants,
 }

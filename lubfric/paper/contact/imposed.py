@@ -7,6 +7,7 @@ What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -122,8 +123,8 @@ class Outcome:
     status: str = ITERATION_LIMIT
     iterations: int = 0
     convolutions: float = 0
-    history: list = None
-    notes: list = None
+    history: Sequence[float] = ()
+    notes: Sequence[str] = ()
 
 
 def impose(

@@ -15,6 +15,8 @@ what stands in the way of convergence:
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ... import validate
@@ -122,14 +124,9 @@ class _Watch:
 
     def __init__(self, contact: Imposed, stop: str, separation_tolerance: float):
         self.contact, self.stop, self.separation_tolerance = contact, stop, separation_tolerance
-        self.history, self.notes, self.done, self.waiting, self.best, self.old = (
-            [],
-            [],
-            False,
-            0,
-            np.inf,
-            None,
-        )
+        self.history: list[float] = []
+        self.notes: list[str] = []
+        self.done, self.waiting, self.best, self.old = False, 0, np.inf, None
 
     def see(self, iteration, step) -> float:
         problem, p = self.contact.problem, step.pressure
@@ -199,7 +196,9 @@ class _Consistent:
         self.displacement = contact.problem.operator.apply(pressure)
         self.offset = contact.offset(self.displacement)
         self.bulk = bulk(contact, pressure)
-        self.direction, self.residue, self.convolutions = None, None, 2
+        self.direction: Any = None
+        self.residue: Any = None
+        self.convolutions = 2
 
     def advance(self) -> bool:
         problem, p, hardness = self.contact.problem, self.pressure, self.contact.problem.hardness
@@ -213,7 +212,7 @@ class _Consistent:
         curvature = np.vdot(d, problem.operator.apply(d)) - self.bulk * d.sum() ** 2
         if curvature <= 0 and self.bulk > 0:  # contact has left the area the bulk was taken from
             curvature, self.bulk = curvature + self.bulk * d.sum() ** 2, 0.0
-        step = -np.vdot(r, d) / curvature
+        step: Any = -(np.vdot(r, d) / curvature)
         if not step > 0:
             if self.direction is None:
                 return False

@@ -1,0 +1,43 @@
+"""
+A contact that stops and starts
+===============================
+
+The speed falls to zero and rises again within 20 ms. Friction on the way down and on the way up is not the
+same: the film that is left between the surfaces has to be squeezed out first.
+"""
+
+import matplotlib.pyplot as plt
+
+import lubfric
+
+scene = lubfric.load_scene(
+    {
+        "name": "stop and start",
+        "bodies": {
+            "radius": 2e-3,
+            "width": 6e-3,
+            "load": 5.5,
+            "e_prime": 231e9,
+            "boundary_friction_coefficient": 0.09,
+        },
+        "lubricant": {"viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9},
+        "motion": {
+            "slide_roll_ratio": 2.0,
+            "entrainment_speed": {
+                "kind": "table",
+                "times": [0.0, 0.005, 0.010, 0.015, 0.020],
+                "values": [0.1, 0.0, 0.0, 0.1, 0.1],
+            },
+        },
+        "surface": {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": 1},
+        "contact": {"shape": [100, 100], "spacing": 0.9e-6},
+        "transient": {"duration": 0.020, "outputs": 60},
+    }
+)
+history = lubfric.transient(scene)
+
+figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.2), layout="constrained")
+upper.plot(1e3 * history.time, history.entrainment_speed, color="#555555")
+upper.set(ylabel="entrainment speed (m/s)")
+lower.plot(1e3 * history.time, history.coefficient, color="#1f5a94")
+lower.set(xlabel="time (ms)", ylabel="friction coefficient (-)", ylim=(0, None))

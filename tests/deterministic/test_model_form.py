@@ -1,0 +1,38 @@
+"""The estimate of the model's error: its bounds, and that every steady result carries it."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.validity.model_form import LEAST, MOST, load_sharing_error, one_way_error
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 90e-6 / 48}, numerics={"sampling": "patch"}
+)
+
+
+def test_it_is_largest_about_lift_off():
+    shares = np.linspace(0.01, 1, 50)
+    errors = [load_sharing_error(2.0, s) for s in shares]
+    assert max(errors) == MOST and np.all(np.diff(errors) <= 0) and errors[-2] < LEAST + 0.02
+    assert load_sharing_error(math.nan, 1.0) == 0.0 and load_sharing_error(math.inf, 0.0) == 0.0
+    films = [load_sharing_error(ratio, 0.0) for ratio in (1.0, 3.0, 5.0, 12.0, 50.0)]
+    assert films[0] == MOST and np.all(np.diff(films) <= 0) and films[-1] < 0.002
+    assert one_way_error(0.2) > one_way_error(0.7) > one_way_error(0.0) > 0
+
+
+@pytest.mark.parametrize("closure", ["load", "one-way"])
+def test_a_result_carries_it(closure):
+    point = lubfric.friction(SCENE.with_(numerics={"closure": closure}), 0.01)
+    share = point.contact_load / SCENE.bodies.load
+    expected = one_way_error(share) if closure == "one-way" else load_sharing_error(math.nan, share)
+    assert point.uncertainty.model_form == pytest.approx(expected)
+
+
+def test_the_deterministic_film_lies_within_a_few_of_it():
+    shared = lubfric.friction(SCENE, 0.003)
+    whole = lubfric.friction(SCENE.with_(numerics={"model": "deterministic", "grid": "given"}), 0.003)
+    assert math.isnan(whole.uncertainty.model_form)
+    assert abs(shared.coefficient / whole.coefficient - 1) < 3 * shared.uncertainty.model_form

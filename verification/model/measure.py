@@ -1,0 +1,134 @@
+"""The same operating point by every model of load sharing and by one gap with one pressure."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import lubfric
+from lubfric.model import Model
+from lubfric.scene import Scene
+
+WIDTH = 90e-6  # of the patch, both ways
+REFERENCE = "deterministic"
+METHODS = {
+    REFERENCE: {"model": "deterministic", "grid": "given"},
+    'Eq. (8) over "hertz"': {},
+    'Eq. (8) over "box"': {},
+    "hertz, scaled": {"film_deflection": "scaled"},
+    "hertz, total": {"film_deflection": "total"},
+    "one-way": {"closure": "one-way", "grid": "given"},
+}
+BOX = 'Eq. (8) over "box"'
+OWN = {'Eq. (8) over "hertz"', BOX}  # the film is deflected by its own pressure
+TOTAL_LEAST = 20.0  # N: below it the three deflections are the same within a point
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is solved: one surface, one load [N], one law of the fluid, speeds [m/s] from the fastest down."""
+
+    seed: int
+    acf: str
+    load: float
+    fluid: str
+    speeds: tuple[float, ...]
+    cells: int
+
+
+@dataclass(frozen=True)
+class Point:
+    """One operating point by one method; a failure has NaN and its words."""
+
+    setting: Setting
+    speed: float
+    method: str
+    coefficient: float
+    contact_share: float
+    mean_gap: float
+    film_ratio: float
+    seconds: float
+    failure: str = ""
+
+
+FLUIDS = {
+    "Newtonian": {},
+    "limiting stress": {
+        "density_law": "dowson-higginson",
+        "limiting_stress_coefficient": 0.09,
+        "limiting_stress_offset": 2e6,
+    },
+}
+
+
+def scene_of(setting: Setting, method: str) -> Scene:
+    """The paper's cylinder with the surface, load and fluid of ``setting``."""
+    base = lubfric.load_scene("paper").with_(
+        bodies={"load": setting.load},
+        lubricant=FLUIDS[setting.fluid],
+        surface={"seed": setting.seed, "acf": setting.acf},
+        contact={
+            "shape": (setting.cells, setting.cells),
+            "spacing": WIDTH / setting.cells,
+            "region": "box" if method == BOX else "hertz",
+        },
+    )
+    numerics = dict(METHODS[method]) | {"accept": True}
+    if method in OWN:
+        numerics["film_deflection"] = "hydrodynamic"
+    return base.with_(numerics=numerics)
+
+
+def surface_of(setting: Setting):
+    """100 nm, 8 µm, made on 256 cells and taken to those of the setting, so that grids see one surface."""
+    fine = lubfric.generate_surface(
+        (256, 256), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf=setting.acf, seed=setting.seed
+    )
+    return fine.resampled(shape=(setting.cells, setting.cells))
+
+
+def points(setting: Setting, methods=tuple(METHODS)) -> list[Point]:
+    """Every speed of ``setting`` by every one of ``methods``, each speed started from the one before."""
+    found, surface = [], surface_of(setting)
+    for method in methods:
+        if method == "hertz, total" and setting.load < TOTAL_LEAST:
+            continue
+        model = lubfric.prepare(scene_of(setting, method), surface)
+        found += _sweep(setting, method, model)
+    return found
+
+
+def _sweep(setting: Setting, method: str, model: Model) -> list[Point]:
+    found, start = [], None
+    for speed in setting.speeds:
+        begun = time.process_time()
+        try:
+            result = lubfric.friction(model, speed, start=start)
+        except lubfric.LubfricError as error:
+            start = None
+            seconds, nan = time.process_time() - begun, float("nan")
+            found.append(Point(setting, speed, method, nan, nan, nan, nan, seconds, f"{type(error).__name__}: {error}"))
+            continue
+        start = result if result.starts else None
+        found.append(
+            Point(
+                setting,
+                speed,
+                method,
+                result.coefficient,
+                result.contact_load / setting.load,
+                result.mean_gap,
+                result.film_to_roughness_ratio,
+                time.process_time() - begun,
+            )
+        )
+    return found
+
+
+def side_by_side(setting: Setting, speed: float):
+    """The deterministic fields, and the load-sharing result with its own, at one speed."""
+    surface = surface_of(setting)
+    whole = lubfric.friction(lubfric.prepare(scene_of(setting, REFERENCE), surface), speed)
+    shared_scene = scene_of(setting, 'Eq. (8) over "hertz"').with_(numerics={"grid": "given"})
+    model = lubfric.prepare(shared_scene, surface)
+    return whole.deterministic.result, lubfric.friction(model, speed, fields=True), model

@@ -1,0 +1,113 @@
+"""Errors of every model against one gap with one pressure, gathered over surfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lubfric.validity.model_form import load_sharing_error, one_way_error
+
+from .measure import REFERENCE, Point
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """Of one method at one load, fluid, autocorrelation and speed, over the surfaces: mean and rms of f/f_ref - 1 and
+    of the contact share, mean ratio of the gaps, median seconds; the reference's share and film ratio (means), the
+    method's own; how many surfaces, how many failures."""
+
+    load: float
+    fluid: str
+    acf: str
+    speed: float
+    method: str
+    mean: float
+    rms: float
+    share_mean: float
+    share_rms: float
+    gap: float
+    seconds: float
+    share: float
+    film_ratio: float
+    own_film_ratio: float
+    surfaces: int
+    failures: int
+
+
+def deviations(found: list[Point]) -> list[Deviation]:
+    """One entry for each method, load, fluid, autocorrelation and speed."""
+    reference = {(p.setting, p.speed): p for p in found if p.method == REFERENCE}
+    groups: dict[tuple, list[tuple[Point, Point]]] = {}
+    for p in found:
+        s = p.setting
+        groups.setdefault((s.load, s.fluid, s.acf, p.speed, p.method), []).append((p, reference[s, p.speed]))
+    return [_deviation(key, pairs) for key, pairs in groups.items()]
+
+
+def _deviation(key, pairs) -> Deviation:
+    good = [(p, r) for p, r in pairs if np.isfinite(p.coefficient) and np.isfinite(r.coefficient)]
+    e = np.array([p.coefficient / r.coefficient - 1 for p, r in good] or [np.nan])
+    share = np.array([p.contact_share - r.contact_share for p, r in good] or [np.nan])
+    gap = np.array([p.mean_gap / r.mean_gap for p, r in good] or [np.nan])
+    return Deviation(
+        *key,
+        float(e.mean()),
+        float(np.sqrt(np.mean(e**2))),
+        float(share.mean()),
+        float(np.sqrt(np.mean(share**2))),
+        float(gap.mean()),
+        float(np.median([p.seconds for p, _ in pairs])),
+        float(np.mean([r.contact_share for _, r in good] or [np.nan])),
+        float(np.mean([r.film_ratio for _, r in good] or [np.nan])),
+        float(np.mean([p.film_ratio for p, _ in good] or [np.nan])),
+        len(good),
+        len(pairs) - len(good),
+    )
+
+
+def told(d: Deviation) -> float:
+    """What a result says of its model: at the mean share and film ratio that the method itself found."""
+    return TOLD_BY[d.method](d)
+
+
+TOLD_BY = {
+    'Eq. (8) over "hertz"': lambda d: load_sharing_error(d.own_film_ratio, d.share + d.share_mean),
+    "one-way": lambda d: one_way_error(d.share + d.share_mean),
+}
+
+
+def rows(found: list[Deviation]) -> tuple[tuple, ...]:
+    """Of the table: load, speed, share of the spots, then mean and rms [%] of every method."""
+    return tuple(
+        (
+            f"{d.load:g}",
+            d.fluid,
+            d.acf,
+            f"{d.speed:g}",
+            f"{d.share:.3f}",
+            f"{d.film_ratio:.2f}",
+            d.method,
+            f"{100 * d.mean:+.1f}",
+            f"{100 * d.rms:.1f}",
+            f"{d.share_mean:+.3f}",
+            f"{d.gap:.2f}",
+            f"{d.seconds:.2g}",
+            d.failures,
+        )
+        for d in found
+    )
+
+
+def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of docs/model-error.md: mean / rms [%] of f a method; a row a load, acf and speed."""
+    methods = [m for m in dict.fromkeys(d.method for d in found) if m != REFERENCE]
+    rows = []
+    for key in dict.fromkeys((d.load, d.acf, d.speed) for d in found):
+        here = {d.method: d for d in found if (d.load, d.acf, d.speed) == key}
+        reference = here[REFERENCE]
+        name = f"{key[0]:g}" + (", exponential" if key[1] == "exponential" else "")
+        cells = [name, f"{key[2]:g}", f"{reference.share:.2f}", str(reference.surfaces)]
+        cells += [f"{100 * here[m].mean:+.1f} / {100 * here[m].rms:.1f}" if m in here else "" for m in methods]
+        rows.append(cells)
+    return ["load (N)", "U (m/s)", "share of spots", "surfaces", *methods], rows

@@ -1,0 +1,95 @@
+"""One gap, one pressure: load by speed by roughness, a bearing of 10 mm radius with a shear-limited compressible oil.
+
+The judge looks at the fields alone: load and elastic gap are summed anew, pressure and gap keep their signs, and the
+flow through every section before the first ruptured or touching cell, by second-order upwind differences and a
+quadrature of the laws, is the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.deterministic import lay_out, solve_point
+from lubfric.halfspace import half_space
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant
+
+from ..check import Check
+from .cell import Condition, judged
+
+RADIUS, E_PRIME, WIDTH, HARDNESS, FRICTION = 1e-2, 231e9, 60e-6, 6e9, 0.1
+ETA, ALPHA, COEFFICIENT, OFFSET = 0.04, 22e-9, 0.09, 2e6
+OIL = Lubricant(
+    ETA, ALPHA, density_law="dowson-higginson", limiting_stress_coefficient=COEFFICIENT, limiting_stress_offset=OFFSET
+)
+ALLOWED = {"load": 1e-3, "gap": 1e-3, "signs": 1e-6, "flow": 0.03}
+LOADS = {"full": (1e3, 1e4, 1e5, 2e5, 3e5), "quick": (1e4, 1e5)}
+SPEEDS = {"full": tuple(np.geomspace(1e-3, 1.0, 10)), "quick": (0.01, 0.3)}
+ROUGHNESS = {"full": (2.5e-8, 5e-8, 1e-7, 2e-7), "quick": (1e-7,)}
+
+
+def cells(level: str) -> Iterator[Check]:
+    """All cells of ``level`` ("quick" or "full")."""
+    across = 24 if level == "quick" else 32
+    for sq in ROUGHNESS[level]:
+        surface = lubfric.generate_surface(
+            (128, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=1
+        )
+        for load in LOADS[level]:
+            for speed in SPEEDS[level]:
+                contact = LineContact(load, RADIUS, E_PRIME, float(speed), OIL)
+                problem = lay_out(
+                    surface, contact, sliding=2 * float(speed), boundary_friction=FRICTION, hardness=HARDNESS
+                )
+                yield judged(
+                    Condition(f"whole: Sq {1e9 * sq:g} nm", "load by speed", load, float(speed), inside=False),
+                    "deterministic",
+                    lambda problem=problem: solve_point(problem),
+                    lambda found, problem=problem: check(problem, found),
+                )
+
+
+def check(problem, found) -> dict[str, float]:
+    """Deviations over what is allowed, from the fields."""
+    dx, _ = found.spacing
+    p, h = found.pressure, found.gap
+    load = p.sum() * dx / p.shape[1] + found.inlet_load
+    operator = half_space(p.shape, found.spacing, E_PRIME, ("free", "periodic"))
+    elastic = (found.x**2 / (2 * RADIUS))[:, None] - problem.heights + operator.apply(p) + found.dent
+    open_ = (h > 2e-9) & (found.dent == 0)
+    offset = (h - elastic)[open_]
+    top = float(p.max())
+    signs = max(-float(p.min()), float(p.max()) - HARDNESS, 0.0) / top
+    found_errors = {
+        "load": abs(load / problem.load - 1),
+        "gap": float(np.ptp(offset)) / float(h[open_].mean()),
+        "signs": signs,
+        "flow": flow_error(found),
+    }
+    return {name: error / ALLOWED[name] for name, error in found_errors.items()}
+
+
+def flow_error(found) -> float:
+    """Largest relative difference of the flow through sections before the first ruptured or touching cell."""
+    p, h, speed, dx = found.pressure, found.gap, found.speed, found.spacing[0]
+    broken = np.flatnonzero((found.touching | ~(p > 0)).any(axis=1))
+    last = (broken[0] if broken.size else p.shape[0]) - 2
+    if last < 3:
+        return 0.0
+    grid = np.linspace(0.0, 1.0, 33)
+    left, right = p[:last, :, None], p[1 : last + 1, :, None]
+    between = left + (right - left) * grid
+    density = (5.9e8 + 1.34 * between) / (5.9e8 + between)
+    index = ALPHA * 1.96e8 / (np.log(ETA) + 9.67)
+    log_ratio = ALPHA * 1.96e8 / index * ((1 + between / 1.96e8) ** index - 1)
+    film = 0.5 * (h[:last] + h[1 : last + 1])
+    fluidity = np.exp(-log_ratio) / ETA + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
+    mean = np.trapezoid(density * fluidity, grid, axis=-1)
+    pressure_flow = film**3 / 12 * mean * (p[1 : last + 1] - p[:last]) / dx
+    mass = (5.9e8 + 1.34 * p) / (5.9e8 + p) * h
+    carried = mass[1:last] + 0.5 * (mass[1:last] - mass[: last - 1])  # second-order upwind
+    flow = (speed * carried - pressure_flow[1:]).mean(axis=1)
+    return float(np.abs(flow / (speed * found.flow_film) - 1).max())
