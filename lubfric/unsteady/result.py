@@ -46,7 +46,8 @@ class TransientResult(Shown):
         half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
         both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
         told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
-        return UncertaintyCurve(unknown, self.sampling_error, both, unknown, unknown, unknown, unknown, told)
+        others = dict.fromkeys(("",), unknown)
+        return UncertaintyCurve(sampling=self.sampling_error, interval=both, text=told, **others)
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
