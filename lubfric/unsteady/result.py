@@ -46,7 +46,8 @@ class TransientResult(Shown):
         half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
         both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
         told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
-        others = dict.fromkeys(("",), unknown)
+        known = ("sampling", "interval", "text")
+        others = {name: unknown for name in UncertaintyCurve.__dataclass_fields__ if name not in known}
         return UncertaintyCurve(sampling=self.sampling_error, interval=both, text=told, **others)
 
     def plot(self, ax=None):
