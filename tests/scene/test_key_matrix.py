@@ -27,7 +27,7 @@ BASE = lubfric.load_scene("flat").with_(
     motion={"entrainment_speed": 0.01, "speeds": ()},
     surface={"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"},
     contact={"shape": (48, 48), "spacing": 2e-6},
-    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "tolerance": 0.01},
+    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "tolerance": 0.01, "sampling": "patch"},
 )
 SPEED = BASE.motion.entrainment_speed
 
@@ -529,6 +529,7 @@ ORACLES = {
         "cavitated_shear": "tests/ehl/test_shear.py::",
         "film_deflection": "tests/point/test_deflection_level.py::test_boundary_limit_at_heavy_load",
         "heat": HEAT,
+        **dict.fromkeys(("sampling", "sampling_tolerance"), SAMPLED),
         "accept": "tests/point/test_judge.py::test_the_ordinary_bearing_without_a_shear_law_is_refused",
     },
     "transient": {

@@ -47,7 +47,7 @@ def test_a_circular_wave_is_damped_as_a_straight_one():
 
 
 @settings(max_examples=20)
-@given(st.floats(6e-6, 40e-6), st.floats(0.0, 0.3), st.integers(0, 99))
+@given(st.floats(6e-6, 39e-6), st.floats(0.0, 0.3), st.integers(0, 99))
 def test_a_constant_passes_whatever_is_missing(index, holes, seed):
     rng = np.random.default_rng(seed)
     mask = rng.random((50, 40)) >= holes

@@ -17,6 +17,7 @@ from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
 DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
+PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})  # the map itself, no line of it
 
 
 def wiring_maps(level: str) -> Iterator[Check]:
@@ -77,7 +78,7 @@ def measured(folder: Path) -> Iterator[Check]:
 
 def made(rough: Roughness, contact: dict):
     """The rough contact that a scene with this surface gets."""
-    s = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
+    s = PATCH.with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
     return prepare(s).contact
 
 
@@ -86,7 +87,7 @@ def generated() -> Iterator[Check]:
     maps = {}
     for seed in (1, 2):
         rough = Roughness(sq=80e-9, correlation_length=(3e-6, 6e-6), acf="gaussian", decay_level=0.2, seed=seed)
-        s = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": (512, 512), "spacing": 0.5e-6})
+        s = PATCH.with_(surface=rough, contact={"shape": (512, 512), "spacing": 0.5e-6})
         maps[seed] = prepare(s).surface.heights
     z = maps[1] - maps[1].mean()
     yield Check("generated map: Sq", float(z.std()), 80e-9, 1e-6, "asked for", unit="m")
