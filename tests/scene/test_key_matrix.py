@@ -84,7 +84,7 @@ CYLINDER = lubfric.load_scene("paper").with_(
     lubricant={"pressure_viscosity_coefficient": 1e-8},  # no pressure spike, whose shear a transient does not resolve
     surface={"sq": 1.5e-7, "correlation_length": 12e-6, "oversize": 2},
     contact={"region": "box", "shape": (64, 24), "spacing": (2e-6, 2.5e-6)},
-    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off"},
+    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "sampling": "patch"},
 )
 ASPERITIES = BASE.with_(contact={"model": "summits", "asperity_separation": "mean-plane"})
 
@@ -474,6 +474,7 @@ FLAT, AREA = (
     HERE + "test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip",
     HERE + "test_the_area_of_the_volume_balance",
 )
+SAMPLED = "tests/sampling/test_line_friction.py::test_the_error_asked_is_reached_and_a_longer_line_is_used"
 HEAT, TIME = (
     "tests/heat/test_heat.py::test_traction_rises_peaks_and_falls_at_1_gpa",
     "tests/unsteady/test_transient_mixed.py::",

@@ -104,12 +104,11 @@ def test_samples_and_maps_of_a_study_file(tmp_path):
         '[vary]\nsurface = [{ file = "a.npy", spacing = 1.1e-6 }, { seed = 3 }]\n'
         "[sample]\ncount = 4\nseed = 2\nlubricant.viscosity = { low = 0.1, high = 1.0, scale = 'log' }\n"
     )
-    written(tmp_path, text)
-    with pytest.raises(lubfric.InputError, match="correlation_length applies to a generated surface"):
-        load_study(tmp_path / "study.toml")
-    (tmp_path / "study.toml").write_text(text.replace('{ file = "a.npy", spacing = 1.1e-6 }, ', "{ seed = 1 }, "))
-    plan = load_study(tmp_path / "study.toml")
+    plan = load_study(Path(written(tmp_path, text)))
     assert plan.shape == (2, 4, 3) and plan.axes[1].keys == ("lubricant.viscosity",)
+    measured, generated = (scene.surface for scene in (plan.batches[0].leader, plan.batches[1].leader))
+    assert Path(measured.file).name == "a.npy" and measured.correlation_length is None  # a file has lengths of its own
+    assert (generated.file, generated.seed, generated.correlation_length) == (None, 3, 4e-6)
 
 
 def test_broken_streams_do_not_stop_a_study(tmp_path):
