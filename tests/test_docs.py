@@ -21,7 +21,7 @@ def test_every_scene_key_is_documented(section):
 
 def test_ci_runs_the_readme_test_command():
     readme, ci = (ROOT / "README.md").read_text(), (ROOT / ".ci" / "run").read_text()
-    command = next(line for line in readme.splitlines() if line.endswith("-m pytest"))
+    command = next(line for line in readme.splitlines() if line.endswith("-m pytest -n 2"))
     environment = command.split("-m venv ")[1].split()[0]
     assert (
         command.replace(environment, '"$environment"')
