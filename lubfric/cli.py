@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .console import INTERRUPTED, Interrupted, interruptible, put, say
 from .errors import ConvergenceError, LubfricError
+from .version import __version__
 
 
 def main(argv=None) -> int:
@@ -37,6 +38,7 @@ def main(argv=None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="lubfric", description="Friction of mixed-lubricated rough line contacts.")
+    parser.add_argument("--version", action="version", version=f"lubfric {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     run = commands.add_parser("run", help="compute the Stribeck curve of a scene and write it to a folder")
     run.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")

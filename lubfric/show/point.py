@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..report import Report
+from .cite import cited
 from .shown import Shown
 
 
@@ -19,6 +20,7 @@ class PointShown(Shown):
     contact_load: float
     film_load: float
     film_to_roughness_ratio: float
+    inlet_film_factor: float
     report: Report
     validity: tuple[Any, ...]
     balance: Any
@@ -37,6 +39,12 @@ class PointShown(Shown):
         if self.validity:
             facts["cautions"] = "; ".join(entry.what for entry in self.validity)
         return facts
+
+    def cite(self) -> str:
+        """The papers behind what was used for this result, one a line, the model's first."""
+        half_space = self.contact_load > 0 and self.shows_contact
+        heated = self.inlet_film_factor != 1.0
+        return "\n".join(cited(contact=half_space, heated=heated, sampled=self.uncertainty.sampling > 0))
 
     @property
     def shows_contact(self) -> bool:
