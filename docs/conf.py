@@ -1,5 +1,6 @@
 """How the site is built: `sphinx-build -W docs site` (extra ``docs``), without network."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -32,6 +33,7 @@ autosummary_generate = True
 napoleon_numpy_docstring = True
 
 sphinx_gallery_conf = {
+    "plot_gallery": os.environ.get("GALLERY") != "0",  # GALLERY=0: pages without running the scripts
     "examples_dirs": "gallery",
     "gallery_dirs": "auto_gallery",
     "filename_pattern": r"[\\/]plot_",

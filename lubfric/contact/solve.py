@@ -50,6 +50,8 @@ def solve_contact(
     max_iterations : after it the solve gives up
     raise_on_failure : False returns the unconverged result with its report
 
+    Notes
+    -----
     Returns a `ContactResult`. Its ``report.residuals`` are computed from the returned pressure alone,
     in double precision, after the iteration has ended; with L the length of
     `lubfric.contact.residual.length_scale`:

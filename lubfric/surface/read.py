@@ -50,6 +50,8 @@ def read_surface(
     missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN does
         always
 
+    Notes
+    -----
     Text: lines that start with # and titles without numbers above the table are skipped (the latter noted in
     ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
     Raises `InputError` for a file that is missing, truncated, of an unknown kind,
