@@ -3,10 +3,11 @@ Traction with and without heat
 ==============================
 
 A roller of 10 mm on a plane, ISO VG 68 at 70 °C, 2 m/s. Left: friction over the slide-roll ratio at three Hertz
-pressures, with the heat of inlet, film and surfaces (full lines) and without it (dashed). Right: without heat the
-curves collapse above a characteristic stress, eta(mean pressure) du/h, of about the Eyring stress, as Jacod, Venner and
-Lugt (Tribol. Trans. 44 (2001) 248-254) found: friction in units of the Eyring stress over the mean pressure then depends
-on it alone. Below, where the film is nearly Newtonian, the points at 0.5 GPa lie above the grey line of one even pressure.
+pressures, with the heat of inlet, film and surfaces (full lines) and without it (dashed). Right: without heat
+the curves collapse above a characteristic stress, eta(mean pressure) du/h, of about the Eyring stress, as
+Jacod, Venner and Lugt (Tribol. Trans. 44 (2001) 248-254) found: friction in units of the Eyring stress over the
+mean pressure then depends on it alone. Below, where the film is nearly Newtonian, the points at 0.5 GPa lie
+above the grey line of one even pressure.
 """
 
 import matplotlib.pyplot as plt
