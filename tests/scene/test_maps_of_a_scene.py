@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.cli import main
@@ -14,19 +15,12 @@ from lubfric.scene import Patch
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
+SCENE = (
+    BODIES_AND_OIL
+    + """[motion]
 entrainment_speed = 0.001
 """
+)
 GENERATED = (
     "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n[contact]\nshape = [96, 64]\nspacing = 0.6e-6\n"
 )

@@ -4,22 +4,15 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.cli import main
 from lubfric.vtk import grid_bytes, vtk_bytes
 
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
+SCENE = (
+    BODIES_AND_OIL
+    + """[motion]
 entrainment_speed = 0.01
 speeds = [0.01, 0.3]
 [surface]
@@ -31,6 +24,7 @@ spacing = [1.1e-6, 0.9e-6]
 [numerics]
 sampling = "patch"
 """
+)
 
 
 class Balanced(HTMLParser):

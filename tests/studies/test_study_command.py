@@ -9,23 +9,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.cli import main
 from lubfric.studies.file import load_study
 
 ROOT = Path(__file__).parents[2]
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
+SCENE = (
+    BODIES_AND_OIL
+    + """[motion]
 entrainment_speed = 0.001
 [surface]
 sq = 1e-7
@@ -34,6 +27,7 @@ correlation_length = 4e-6
 shape = [48, 48]
 spacing = 1.1e-6
 """
+)
 STUDY = """
 scene = "small.toml"
 speed_range = [0.003, 0.3, 3]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric import output
@@ -17,17 +18,9 @@ from lubfric.cli import main
 from lubfric.store import FolderLock
 
 ROOT = Path(__file__).parents[2]
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
+SCENE = (
+    BODIES_AND_OIL
+    + """[motion]
 entrainment_speed = 0.01
 speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
 [surface]
@@ -37,6 +30,7 @@ correlation_length = 4e-6
 shape = [48, 48]
 spacing = 1.1e-6
 """
+)
 HISTORY = (
     "[transient]\nduration = 0.01\noutputs = 10\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
