@@ -42,8 +42,8 @@ class Journal:
         """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too."""
         state = encode({"key": key, "outcome": _storable(outcome)})
         if fields:
-            write_checked(self._path(FIELDS, key), state)
-        write_checked(self._path(STATES, chain), state, sync=False)
+            write_checked(self._path(FIELDS, key), *state)
+        write_checked(self._path(STATES, chain), *state, sync=False)
         self.records.add(key, record_of(outcome))
 
     def state(self, chain: str) -> tuple[str, object]:
