@@ -11,7 +11,6 @@ import numpy as np
 from . import validate
 from .curve.choose import next_speed
 from .curve.interpolate import Interpolant, knee_of
-from .curve.span import span
 from .errors import ConvergenceError, InputError, ValidityError
 from .model import Model, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
@@ -20,14 +19,13 @@ from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from .scene import Scene
 from .show import Shown
 from .store import fingerprint
-from .studies.adaptive import FEWEST, Search, run_adaptive, samples_of
+from .studies.adaptive import AUTO, FEWEST, run_adaptive, samples_of, search_of
 from .studies.chain import Chain, make_chain
 from .studies.journal import Journal
 from .studies.solve import solve_chains
 from .validity.entry import Validity
 from .validity.gather import gathered
 
-AUTO = "auto"
 FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
 NOT_NUMBERS = (
     "report",
@@ -158,10 +156,11 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on
-    f everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary
-    lubrication to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the
-    other. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    ``speeds="auto"`` chooses them (`lubfric.curve`), mostly 9 to 13, at most 25, so that ``curve.at(speed)`` is within
+    the tolerance on f (on a line of a surface: and the sampling tolerance, root sum of squares) everywhere between the
+    slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication to a full film; the
+    knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other, each started from the
+    nearest. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
     `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
     solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
     or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
@@ -220,9 +219,8 @@ def _auto(model: Model, fields, store, on_point, raise_on_failure) -> StribeckRe
     """The curve at speeds of its own choice."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
-    low, high = span(model)
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
-    search = Search(low, high, model.scene.numerics.tolerance, wanted, fingerprint(model))
+    search = search_of(model, fingerprint(model), wanted)
     journal, found = (None if store is None else Journal(store)), {}
     try:
         for speed, outcome in run_adaptive(model, search, journal):

@@ -81,7 +81,7 @@ def line_friction(model: Model, speed: float, start: LineStart | None = None) ->
     sample = Sample(model, speed, first).with_line(model.contact, first, before)
     used: tuple[Used, ...] = ()
     while (length := sample.wanted()) > 0:
-        length, contact, state = _next_line(sample, length, len(used), start)
+        length, contact, state = _next_line(sample, length, used, start)
         if sample.anchor is None:
             found = solved(
                 replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
@@ -93,18 +93,20 @@ def line_friction(model: Model, speed: float, start: LineStart | None = None) ->
     return model, replace(_found(sample), used=used)
 
 
-def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
-    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring
-    speed, if it is long enough, or a new one of ``length``."""
+def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
+    """The length [m] asked of the line after those ``used``, the line, and a state to start from: that of the
+    neighbouring speed, if it is long enough, or a new one of ``length``."""
+    index, before = len(used), start.used if start is not None else ()
+    known = [line.contact for line in (*used, *before) if line.contact is not None]
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
         there = start.used[index]
-        return there.length, there.contact or _line(sample.model, index, there.length), there.state
+        return there.length, there.contact or _line(sample.model, index, there.length, known), there.state
     state = replace(sample.first.balance.contact, fields=None, pressure=None)
-    return length, _line(sample.model, index, length), state
+    return length, _line(sample.model, index, length, known), state
 
 
-def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
-    return line_contact(model.scene, lines_of_model(model).line(index + 1, length))
+def _line(model: Model, index: int, length: float, known: list[HalfSpaceContact]) -> HalfSpaceContact:
+    return line_contact(model.scene, lines_of_model(model).line(index + 1, length), known)
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:

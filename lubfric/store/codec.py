@@ -1,7 +1,7 @@
 """Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
 
-A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": [dtype, shape, order, place]}``,
-a number that is not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts
+A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": [dtype, shape, order,
+place]}``, a number that is not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts
 ``{"dict": {...}}``. Floats keep every bit. Encoded, that tree stands first, its length in front, then the arrays, each
 once however often the tree names it.
 """
@@ -24,7 +24,7 @@ class Arrays:
     """The arrays of one value, one behind the other. ``parts``: their bytes, not copied."""
 
     def __init__(self) -> None:
-        self.parts: list[memoryview] = []
+        self.parts: list[bytes | memoryview] = []
         self._places: dict[int, list] = {}
         self._kept: list[np.ndarray] = []  # so that no other array takes the identity of one of these
         self._end = 0
@@ -38,7 +38,7 @@ class Arrays:
             flat = np.ascontiguousarray(array.T if order == "F" else array).reshape(-1)
             self._places[id(array)] = [array.dtype.str, array.shape, order, self._end]
             self._kept.append(array)
-            self.parts.append(memoryview(flat.view(np.uint8)))
+            self.parts.append(flat.view(np.uint8).data)
             self._end += flat.nbytes
         return self._places[id(array)]
 

@@ -47,7 +47,7 @@ class Records:
                 if self._file.write(line) < len(line):
                     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
                 if time.monotonic() - self._synced > SYNC:
-                    self._sync()
+                    self._sync(self._file)
             except OSError:
                 with suppress(OSError):
                     self._file.truncate(whole)
@@ -74,12 +74,12 @@ class Records:
         """Close the file of this writer; the next `add` begins another."""
         if self._file is not None:
             with saying(f"records in {self.folder} were not forced to the disk"):
-                self._sync()
+                self._sync(self._file)
                 self._file.close()
             self._file = None
 
-    def _sync(self) -> None:
-        os.fsync(self._file.fileno())
+    def _sync(self, file) -> None:
+        os.fsync(file.fileno())
         self._synced = time.monotonic()
 
     def __enter__(self) -> Records:

@@ -16,8 +16,8 @@ PART = ".part-"  # begins the name of a file that is being written
 
 
 def write_whole(path, *content, sync: bool = True) -> None:
-    """Replace ``path`` by ``content``, bytes in one or several pieces: a reader, or whoever finds the folder after a kill, sees the old file or the
-    new.
+    """Replace ``path`` by ``content``, bytes in one or several pieces: a reader, or whoever finds the folder after a
+    kill, sees the old file or the new.
 
     ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as
     `whole_file`.
