@@ -61,8 +61,27 @@ def validated(name):
     raise lubfric.InputError(f"{name} = -1 N is out of range")
 
 
-def test_a_sample_of_the_soak():
-    """Random scenes, one in five closed again by the independent judge."""
-    run = soak(12, 7, 0.2)
-    assert run.answered >= 8 and run.judged >= 1 and (run.raw, run.wrong) == (0, 0), run
-    assert run.worst < 1
+def test_a_sample_of_the_soak_is_kept_and_goes_on(tmp_path, monkeypatch):
+    """Random scenes, each closed again by the independent judge; what is done is read back, not done again."""
+    chunks = soak.soak(16, 7, tmp_path)
+    assert sum(c.answered for c in chunks) >= 10 and sum(c.judged for c in chunks) >= 9
+    assert [w for c in chunks for w in c.wrong] == [] and chunks[0].worst < 1
+    monkeypatch.setattr(soak, "_one", lambda found, seeds: pytest.fail("done before"))
+    assert soak.soak(16, 7, tmp_path) == chunks
+
+
+def test_the_judge_of_the_soak_sees_a_wrong_answer():
+    """f, the division of the load, the deflection, heat, and the sums: each spoilt alone."""
+    scene = random_scene(np.random.default_rng((1, 105)))
+    model = lubfric.prepare(scene)
+    result = lubfric.friction(model)
+    assert max(verdict(model, result).values()) < 1
+    other = lubfric.prepare(scene.with_(lubricant={"temperature_coefficient": 0.0}), like=model)
+    assert 0.05 < result.contact_load / scene.bodies.load < 0.95
+    spoilt = dataclasses.replace(result, coefficient=1.03 * result.coefficient)
+    assert verdict(model, spoilt)["friction sum"] > 1 and verdict(model, spoilt)["friction"] > 1
+    moved = dataclasses.replace(result, contact_load=0.95 * result.contact_load)
+    assert verdict(model, moved)["load"] > 1 and verdict(model, moved)["contact share"] > 1
+    thinner = lubfric.friction(model, 0.7 * result.speed)
+    assert verdict(model, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
+    assert other is not model
