@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from ..line_contact import LineContact
 from ..model import Model
 from ..point.deflection import solved_as_deflected
 from ..result import FrictionResult, result_of
@@ -18,6 +19,7 @@ from .patch_error import of_patch
 def answered(model: Model, speed: float, start: FrictionResult | None, fields: bool, begun: float) -> FrictionResult:
     """``model`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
     speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
+    foretell_ends(model, speed)
     if model.lines is not None:
         chosen, line = line_friction(model, speed, None if start is None else start.line)
         result, (uncertainty, errors) = result_of(chosen, speed, line.point, begun), of_line(chosen.scene, line)
@@ -29,6 +31,15 @@ def answered(model: Model, speed: float, start: FrictionResult | None, fields: b
     uncertainty = replace(uncertainty, model_form=_model_form(model.scene, result))
     report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
+
+
+def foretell_ends(model: Model, speed: float) -> None:
+    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s]."""
+    bodies, film = model.scene.bodies, 0.0
+    if speed != 0:
+        line_load = bodies.load / bodies.width
+        film = LineContact(line_load, bodies.radius, bodies.e_prime, speed, model.scene.lubricant).moes_film
+    model.contact.foretell(bodies, film)
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:
