@@ -10,15 +10,15 @@ from .answer.deterministic import deterministic_answer
 from .answer.load_sharing import load_sharing_answer
 from .answer.one_way import one_way_answer
 from .errors import InputError
-from .model import Model, at_tolerance
 from .plausible import told_doubts
+from .prepared import Prepared, at_tolerance
 from .result import FrictionResult
 from .scene import FASTEST, Scene
 from .validity.entry import refused
 
 
 def friction(
-    scene: Scene | Model,
+    scene: Scene | Prepared,
     speed: float | None = None,
     *,
     start: FrictionResult | None = None,
