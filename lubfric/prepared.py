@@ -117,9 +117,7 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
 
 def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
     if surface is not None or contact is not None:
-        raise InputError(
-            "like = a prepared scene brings its own surface and contact; allowed: like, or surface and contact"
-        )
+        raise InputError("like brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("counterface", scene.counterface, old.counterface),

@@ -45,7 +45,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
 
     if scene_of(scene) is not scene:
         raise InputError(
-            "a fit changes a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare made of it"
+            "a fit changes a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
         )
     if not isinstance(measured, Measured):
         raise InputError(

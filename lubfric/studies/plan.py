@@ -30,7 +30,8 @@ class Curve:
 
 @dataclass(frozen=True)
 class Batch:
-    """Curves that one process solves on one height map. ``leader``: the scene that is prepared, the others are made like it."""
+    """Curves that one process solves on one height map. ``leader``: the scene that the others are prepared
+    like."""
 
     leader: Scene
     curves: tuple[Curve, ...]
@@ -81,7 +82,7 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """The `StudyPlan` of `lubfric.study`, with its arguments; nothing is solved."""
     if scene_of(scene) is not scene:
         raise InputError(
-            "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare made of it"
+            "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
         )
     axes = axes_of(scene, {} if vary is None else vary)
     if isinstance(speeds, str):
