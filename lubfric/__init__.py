@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from .report import Report as Report
     from .result import FrictionResult as FrictionResult
     from .scene import Bodies as Bodies
+    from .scene import ContactDomain as ContactDomain
     from .scene import Motion as Motion
     from .scene import Numerics as Numerics
-    from .scene import Patch as Patch
     from .scene import Roughness as Roughness
     from .scene import Scene as Scene
     from .scene_file import load_scene as load_scene
@@ -81,7 +81,7 @@ _HOME = {
     "Scene": "scene",
     "Lubricant": "lubricant",
     "Numerics": "scene",
-    "Patch": "scene",
+    "ContactDomain": "scene",
     "Roughness": "scene",
     "Motion": "scene",
     "Bodies": "scene",

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
+from .lines.contract import Lines
+from .lines.make import lines_of, pilot, takes_line
 from .plausible import told_doubts
 from .rough.contract import RoughContact
 from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
-from .sampling.lines import Lines
-from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
+from .scene.resolved_gap import check_resolved_gap, resolves_gap
 from .show import Shown
 from .surface import Surface
 from .validate import instance
@@ -63,8 +63,8 @@ def prepare(
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
-    if whole(scene):
-        check_scene(scene)
+    if resolves_gap(scene):
+        check_resolved_gap(scene)
     if like is not None:
         instance("like", like, Model, "what lubfric.prepare returned")
     levels = tuple(film_levels) if like is None else like.film_levels

@@ -64,7 +64,7 @@ def _dry(model: Model) -> Solved:
         CONVERGED,
         0,
         0.0,
-        scene.numerics.volume_tolerance,
+        scene.numerics.tolerances.balance,
         residuals={"volume": 0.0, "load": 0.0},
         notes=("no entrainment: all contact",),
     )
@@ -83,7 +83,7 @@ def _certainly_touching(model: Model, speed: float) -> bool:
 def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
     """The film with the whole load, at the level and on the cells that f asks for."""
     numerics, load = model.scene.numerics, model.scene.bodies.load
-    settings = Settings(model.film_levels[0], film_alone_tolerance(numerics), numerics.volume_tolerance)
+    settings = Settings(model.film_levels[0], film_alone_tolerance(numerics), numerics.tolerances.balance)
     point = OperatingPoint(model, speed, model.contact, settings)
     allowed = allowed_left_out(numerics, 1.0)
     level, left_out = level_for(model.film_levels, numerics, point.line(load), allowed)
@@ -102,7 +102,7 @@ def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: b
     nothing and tells what is needed."""
     numerics = model.scene.numerics
     level = given_level(model.film_levels, numerics) or model.film_levels[0]
-    settings = Settings(level, first_film_tolerance(numerics), numerics.volume_tolerance)
+    settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)
     point = OperatingPoint(model, speed, model.contact, settings)
     if start is not None and start.film is not None and start.contact_load > 0:
         allowed, line = allowed_left_out(numerics, start.forces.sensitivity), point.line(start.film_load)

@@ -24,7 +24,7 @@ class Settings:
 
     level: FilmLevel
     film_tolerance: float
-    volume_tolerance: float
+    balance_tolerance: float
     film_cells: int = 0
     contact_tolerance: float | None = None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ..lines.pieces import line_contact
 from ..model import Model
 from ..point.adapt import Solved, solved
 from ..point.balance import Balance, Lubricated, balanced, divided, separated
@@ -14,7 +15,6 @@ from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, mean_error, mean_of
 from .influence import BlockError, add_errors
 from .line_record import Pooled
-from .pieces import line_contact
 from .response import Response, touched_length
 from .sample import Anchor, Sample, lines_of_model
 
@@ -117,7 +117,7 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     there = _lubricated(anchor)
     here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
     point = at(sample.model, sample.speed, contact, there)
-    point = replace(point, settings=replace(point.settings, volume_tolerance=LINE_VOLUME))
+    point = replace(point, settings=replace(point.settings, balance_tolerance=LINE_VOLUME))
     if here.contact_load < LIGHT * scene.bodies.load:
         alone = separated(point, here.film)
         if alone.contact.volume_residual <= 0:

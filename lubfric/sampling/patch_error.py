@@ -7,6 +7,8 @@ import math
 
 import numpy as np
 
+from ..lines.generated import lengths_of
+from ..lines.windows import length_or_half
 from ..point.adapt import Solved
 from ..rough.height_map import measured, rough_bodies
 from .estimate import (
@@ -21,14 +23,12 @@ from .estimate import (
     uncertainty_of,
     why_not,
 )
-from .generated import lengths_of
 from .influence import BLOCK, LEAST_BLOCKS, BlockError
 from .line_record import NOTHING, LineRecord, pooled, record
 from .missed import missed_share
 from .response import Response, Slopes
 from .sample import response_of
 from .uncertainty import FieldErrors, Uncertainty, field_errors_of
-from .windows import length_or_half
 
 NO_AREA = "contact areas need the scene's own grid: fields=True, numerics.grid = 'given'"
 UNKNOWN = "not known: {}"

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from .. import budget
+from ..lines.contract import Lines
+from ..lines.length import LONGEST, MOST, MOST_CELLS, next_length
 from ..model import Model
 from ..point.adapt import Solved
 from ..point.balance import Balance, divided
@@ -14,9 +16,7 @@ from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import FEWEST, GridStep, grid_step, mean_error
 from .influence import add_errors
-from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
-from .lines import Lines
 from .missed import missed_share
 from .response import Response, respond, slopes_of
 from .uncertainty import FEW

@@ -40,7 +40,7 @@ class Run:
         """The march with outputs at ``times`` [s]."""
         setting = self.sharing.setting
         histories = (*setting.histories, self.sliding) if self.sliding is not None else setting.histories
-        tolerance = self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
+        tolerance = self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.tolerances.film
         return plan_of(times, histories, setting.first_step, tolerance)
 
     def begun(self) -> Progress:
@@ -84,7 +84,7 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
     model = scene if isinstance(scene, Model) else prepare(scene)
-    tolerance = base.numerics.film_tolerance
+    tolerance = base.numerics.tolerances.film
     for finer in FINER:
         setting = _setting(model, plan, load, finer)
         sharing = make_sharing(
@@ -109,7 +109,7 @@ def _refuse_steady_only(scene: Scene) -> None:
 
 
 def _volume_tolerance(scene: Scene) -> float:
-    return min(scene.numerics.volume_tolerance, 1e-4)
+    return min(scene.numerics.tolerances.balance, 1e-4)
 
 
 def _setting(model: Model, plan: Transient, load: History, finer: float) -> Setting:
@@ -135,7 +135,7 @@ def _setting(model: Model, plan: Transient, load: History, finer: float) -> Sett
     reach = float(np.max(np.abs(model.contact.x))) if rough else 0.0
     return make_setting(
         contact,
-        scene.numerics.film_tolerance,
+        scene.numerics.tolerances.film,
         shared=rough,
         reach=reach,
         film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0),

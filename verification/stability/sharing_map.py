@@ -95,7 +95,7 @@ def checked(model: Model, speed: float):
             coefficient, split = judge(model, result, speed)
         found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
-        allowed = ALLOWED | {"load": 2 * scene.numerics.volume_tolerance}  # what one closure balances, the other keeps
+        allowed = ALLOWED | {"load": 2 * scene.numerics.tolerances.balance}  # one closure balances it
         return {name: value / allowed[name] for name, value in found.items()}
 
     return check

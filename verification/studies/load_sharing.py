@@ -28,7 +28,7 @@ LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
 TIGHT = {  # the model of the finite elements: no more and no less
-    "ehl_tolerance": 1e-4,
+    "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "model": "full",
     "film_deflection": "hydrodynamic",
