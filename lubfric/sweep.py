@@ -13,7 +13,7 @@ from .curve.choose import next_speed
 from .curve.interpolate import Interpolant, knee_of
 from .curve.span import span
 from .errors import ConvergenceError, InputError, ValidityError
-from .model import Model, at_tolerance, scene_of
+from .prepared import Prepared, at_tolerance, scene_of
 from .report import CONVERGED, ITERATION_LIMIT, Report
 from .result import FrictionResult
 from .sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
@@ -145,7 +145,7 @@ class StribeckResult(Shown):
 
 
 def stribeck(
-    scene: Scene | Model,
+    scene: Scene | Prepared,
     speeds=None,
     executor=None,
     *,
@@ -216,7 +216,7 @@ def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
     return result
 
 
-def _auto(model: Model, fields, store, on_point, raise_on_failure) -> StribeckResult:
+def _auto(model: Prepared, fields, store, on_point, raise_on_failure) -> StribeckResult:
     """The curve at speeds of its own choice."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
@@ -252,7 +252,7 @@ def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
     )
 
 
-def sweep_chains(model: Model, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
+def sweep_chains(model: Prepared, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
     """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
     order = np.argsort(-np.abs(speeds), kind="stable")
     runs = np.array_split(order, min(order.size, 8)) if spread else [order]

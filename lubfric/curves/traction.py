@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..model import Model, at_tolerance, prepare, scene_of
+from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from ..steady import FrictionResult, friction
@@ -55,7 +55,7 @@ class TractionResult:
 
 
 def traction(
-    scene: Scene | Model,
+    scene: Scene | Prepared,
     ratios,
     *,
     speed: float | None = None,

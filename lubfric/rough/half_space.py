@@ -152,5 +152,5 @@ def half_space_contact(
         operator=operator,
         width=bodies.width,
         hardness=bodies.hardness,
-        tolerance=numerics.pressure_tolerance,
+        tolerance=numerics.tolerances.contact,
     )

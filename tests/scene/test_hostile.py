@@ -76,13 +76,13 @@ def test_a_sample_of_the_soak_is_kept_and_goes_on(tmp_path, monkeypatch):
 def test_the_judge_of_the_soak_sees_a_wrong_answer():
     """f, the loads, and both by the answer to another speed."""
     scene = random_scene(np.random.default_rng((1, 105)))
-    model = lubfric.prepare(scene)
-    result = lubfric.friction(model)
-    assert max(verdict(model, result).values()) < 1
+    prepared = lubfric.prepare(scene)
+    result = lubfric.friction(prepared)
+    assert max(verdict(prepared, result).values()) < 1
     assert 0.05 < result.contact_load / scene.bodies.load < 0.95
     spoilt = dataclasses.replace(result, coefficient=1.03 * result.coefficient)
-    assert verdict(model, spoilt)["friction sum"] > 1 and verdict(model, spoilt)["friction"] > 1
+    assert verdict(prepared, spoilt)["friction sum"] > 1 and verdict(prepared, spoilt)["friction"] > 1
     moved = dataclasses.replace(result, contact_load=0.95 * result.contact_load)
-    assert verdict(model, moved)["load"] > 1 and verdict(model, moved)["contact share"] > 1
-    thinner = lubfric.friction(model, 0.7 * result.speed)
-    assert verdict(model, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
+    assert verdict(prepared, moved)["load"] > 1 and verdict(prepared, moved)["contact share"] > 1
+    thinner = lubfric.friction(prepared, 0.7 * result.speed)
+    assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1

@@ -77,8 +77,8 @@ def chunk(number: int, count: int, seed: int, folder: Path | None) -> Chunk:
 def _one(found: Chunk, seeds: tuple[int, int]) -> None:
     scene = random_scene(np.random.default_rng(seeds))
     try:
-        model = lubfric.prepare(scene)
-        result = lubfric.friction(model)
+        prepared = lubfric.prepare(scene)
+        result = lubfric.friction(prepared)
     except lubfric.LubfricError as error:
         found.refused += 1
         _count(found.reasons, f"{type(error).__name__}: {str(error).split('=')[0].split(':')[0][:WORDS]}")
@@ -88,9 +88,9 @@ def _one(found: Chunk, seeds: tuple[int, int]) -> None:
         found.wrong.append(f"{seeds}: {type(error).__name__}: {error}"[:300])
         return
     found.answered += 1
-    for feature in _features(model, result):
+    for feature in _features(prepared, result):
         _count(found.features, feature)
-    ratios = verdict(model, result)
+    ratios = verdict(prepared, result)
     found.judged += "friction" in ratios
     worst = max(ratios, key=lambda name: ratios[name])
     said = f"{seeds}: {worst} {ratios[worst]:.3g} of what is allowed, f = {result.coefficient:.4g}"
@@ -104,11 +104,11 @@ def _count(counts: dict[str, int], word: str) -> None:
     counts[word] = counts.get(word, 0) + 1
 
 
-def _features(model, result) -> Iterator[str]:
+def _features(prepared, result) -> Iterator[str]:
     """What a soak should have had of everything, by name."""
-    scene, share = model.scene, result.contact_load / model.scene.bodies.load
+    scene, share = prepared.scene, result.contact_load / prepared.scene.bodies.load
     yield scene.contact.geometry
-    yield "line" if model.lines is not None else "patch"
+    yield "line" if prepared.lines is not None else "patch"
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
     yield from (["plastic limit"] if scene.bodies.hardness else [])

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.model import Model
+from lubfric.prepared import Prepared
 
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
@@ -49,10 +49,10 @@ class Sides:
 
 @dataclass(frozen=True)
 class Judge:
-    """A model at one speed [m/s], deflected by its own pressure or, ``scaled``, by the whole load; its strips, and
-    pairs of fine and coarse ones whose difference is added."""
+    """A prepared scene at one speed [m/s], its film deflected by its own pressure or, ``scaled``, by the whole load;
+    its strips, and pairs of fine and coarse ones whose difference is added."""
 
-    model: Model
+    prepared: Prepared
     speed: float
     scaled: bool
     strips: tuple[Strip, ...]
@@ -61,7 +61,7 @@ class Judge:
 
     def sides(self, split: float) -> Sides:
         """Film and contacts at ln(F_H/F_C)."""
-        load = self.model.scene.bodies.load
+        load = self.prepared.scene.bodies.load
         film_load = load / (1 + math.exp(-split))
         film = self.film(film_load, film_load / load if self.scaled else 1.0)
         found = [self.pressed(strip, film, load - film_load) for strip in self.strips]
@@ -75,13 +75,13 @@ class Judge:
 
     def film(self, film_load: float, modulus: float):
         """By differential deflection, or if that does not converge by the tightest Newton solution."""
-        bodies, oil = self.model.scene.bodies, self.model.scene.lubricant
+        bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
         case = {
             "load_per_width": film_load / bodies.width,
             "radius": bodies.radius,
             "e_prime": bodies.e_prime * modulus,
             "entrainment_speed": self.speed,
-            "viscosity": inlet_viscosity(self.model.scene, self.speed),
+            "viscosity": inlet_viscosity(self.prepared.scene, self.speed),
             "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
             "viscosity_law": oil.viscosity_law,
             "density": oil.density_law,
@@ -93,7 +93,7 @@ class Judge:
 
     def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
-        scene, x = self.model.scene, strip.x
+        scene, x = self.prepared.scene, strip.x
         smooth, flat, bodies = film.film_at(x), scene.contact.geometry == "flat", scene.bodies
         half = bodies.half_width
         if flat:
@@ -121,33 +121,33 @@ class Judge:
         return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
 
     def _weight(self, strip: Strip) -> np.ndarray:
-        half, dx = self.model.scene.bodies.half_width, strip.spacing[0]
-        if self.model.scene.contact.region == "box":
+        half, dx = self.prepared.scene.bodies.half_width, strip.spacing[0]
+        if self.prepared.scene.contact.region == "box":
             return np.ones(strip.x.size)
         inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
         return np.clip(inside / dx, 0, 1)
 
     def coefficient(self, split: float, sides: Sides) -> float:
         """f at a division of the load."""
-        scene = self.model.scene
+        scene = self.prepared.scene
         contact_load = scene.bodies.load / (1 + math.exp(split))
         return friction_force(scene, sides, contact_load, self.speed) / scene.bodies.load
 
 
-def judge_of(model: Model, result) -> Judge:
-    """What is needed to close ``result`` of ``model`` anew."""
+def judge_of(prepared: Prepared, result) -> Judge:
+    """What is needed to close ``result`` of ``prepared`` anew."""
     scaled = "by the whole load" in (result.decision.deflection or "")
-    n = model.surface.shape[0]
-    x = (np.arange(n) - 0.5 * (n - 1)) * model.surface.spacing[0]
+    n = prepared.surface.shape[0]
+    x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
-    cancels = abs(result.coefficient) * model.scene.bodies.load < CANCELS * parts
-    tolerance = TIGHT if cancels or model.scene.motion.slide_roll_ratio == 0 else LOOSE
-    if model.lines is None:
-        return Judge(model, result.speed, scaled, (_strip(model.surface, x),), (), tolerance)
-    more = [model.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]
-    strips = tuple(_strip(surface, x) for surface in (model.surface, *more))
-    pairs = tuple(_pair(model.lines, i) for i in range(len(result.line.grid)))
-    return Judge(model, result.speed, scaled, strips, pairs, tolerance)
+    cancels = abs(result.coefficient) * prepared.scene.bodies.load < CANCELS * parts
+    tolerance = TIGHT if cancels or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
+    if prepared.lines is None:
+        return Judge(prepared, result.speed, scaled, (_strip(prepared.surface, x),), (), tolerance)
+    more = [prepared.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]
+    strips = tuple(_strip(surface, x) for surface in (prepared.surface, *more))
+    pairs = tuple(_pair(prepared.lines, i) for i in range(len(result.line.grid)))
+    return Judge(prepared, result.speed, scaled, strips, pairs, tolerance)
 
 
 def _strip(surface, x) -> Strip:
@@ -165,9 +165,9 @@ def _pair(lines, index: int) -> tuple[Strip, Strip]:
     return Strip(z - z.mean(), (dx, dy), x), Strip(kept - kept.mean(), (dx * fx, dy * fy), x[fx // 2 :: fx])
 
 
-def verdict(model: Model, result) -> dict[str, float]:
+def verdict(prepared: Prepared, result) -> dict[str, float]:
     """Deviations of ``result`` by name, over what is allowed."""
-    scene, load = model.scene, model.scene.bodies.load
+    scene, load = prepared.scene, prepared.scene.bodies.load
     share, forces = result.contact_load / load, result.boundary_force + result.shear_force
     found = {
         "load": abs((result.contact_load + result.film_load) / load - 1),
@@ -175,7 +175,7 @@ def verdict(model: Model, result) -> dict[str, float]:
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
     if scene.contact.model == "half-space" and scene.surface.sq:
-        coefficient, split = closed_again(judge_of(model, result), share)
+        coefficient, split = closed_again(judge_of(prepared, result), share)
         found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
     return {name: value / ALLOWED[name] for name, value in found.items()}
