@@ -11,7 +11,7 @@ import numpy as np
 from ..curve.choose import next_speed
 from ..curve.interpolate import Samples
 from ..curve.span import first_speeds
-from ..model import Model
+from ..prepared import Prepared
 from ..result import FrictionResult
 from ..store import digest
 from .chain import solved_at, start_from
@@ -39,17 +39,17 @@ class Search:
         return sorted({*self.first, *self.wanted}, reverse=True)
 
 
-def search_of(model: Model, name: str, wanted: tuple[float, ...] = ()) -> Search:
-    """The search for the curve of ``model``, of that fingerprint ``name``.
+def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> Search:
+    """The search for the curve of ``prepared``, of that fingerprint ``name``.
 
     The tolerance between the points is that on f, and on a line of a rough surface, where neighbouring points may be
     solved on different lengths of it, its root sum of squares with the sampling tolerance.
     """
-    numerics = model.scene.numerics
+    numerics = prepared.scene.numerics
     tolerance = numerics.tolerance
-    if model.lines is not None:
+    if prepared.lines is not None:
         tolerance = math.hypot(tolerance, numerics.sampling_tolerance)
-    return Search(first_speeds(model), tolerance, wanted, name)
+    return Search(first_speeds(prepared), tolerance, wanted, name)
 
 
 def curve_key(name: str) -> str:
@@ -57,13 +57,13 @@ def curve_key(name: str) -> str:
     return digest([name, "complete"])
 
 
-def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
+def run_adaptive(prepared: Prepared, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
     Each point starts from the nearest one before it. Points that the ``journal`` knows are taken from there: the
     choices, and so the rest, come out the same.
     """
-    trail = Trail(model, search, journal)
+    trail = Trail(prepared, search, journal)
     ahead = search.ahead
     while len(trail.speeds) < MOST:
         speed = ahead.pop(0) if ahead else _next(trail, search.tolerance)
@@ -76,10 +76,10 @@ def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Itera
 class Trail:
     """The points so far. ``speeds`` [m/s] and ``outcomes``, without fields where these are not wanted."""
 
-    def __init__(self, model: Model, search: Search, journal: Journal | None):
+    def __init__(self, prepared: Prepared, search: Search, journal: Journal | None):
         self.speeds: list[float] = []
         self.outcomes: list = []
-        self._model, self._search, self._journal = model, search, journal
+        self._prepared, self._search, self._journal = prepared, search, journal
         self._known = {} if journal is None else dict(journal.records.read())
         self._keys: list[str] = []
         self._whole: dict[int, object] = {}  # outcomes with all that a neighbour starts from
@@ -117,7 +117,7 @@ class Trail:
             if key != self._keys[at]:
                 near = min(range(at), key=lambda i: abs(math.log(self.speeds[i] / self.speeds[at])), default=None)
                 start = None if near is None else start_from(self._start_of(near))
-                found = solved_at(self._model, self.speeds[at], start, self.speeds[at] in self._search.wanted)
+                found = solved_at(self._prepared, self.speeds[at], start, self.speeds[at] in self._search.wanted)
             self._whole[at] = found
         return self._whole[at]
 

@@ -23,6 +23,9 @@ BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of
 def main(argv: list[str]) -> int:
     """Exit code 0: every table asked for was measured and written."""
     options = parser().parse_args(argv)
+    if options.list:
+        print("\n".join(options.only or TABLES))
+        return 0
     wanted = set(options.only or TABLES)
     for page in sorted(options.docs.glob("*.md")):
         text = page.read_text(encoding="utf-8")
@@ -58,4 +61,5 @@ def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser("python -m verification tables", description=__doc__)
     p.add_argument("--only", nargs="+", choices=list(TABLES), metavar="TABLE", help=f"of {', '.join(TABLES)}")
     p.add_argument("--docs", type=Path, default=Path("docs"), metavar="DIR", help="folder of the documents")
+    p.add_argument("--list", action="store_true", help="name the tables and stop")
     return p
