@@ -3,8 +3,8 @@ agree."""
 
 import pytest
 
-from verification.tables import BLOCK, body, main, replaced
-from verification.tables.measured import TABLES, Table
+from verification.tables import BLOCK, TABLES, body, main, replaced
+from verification.tables.measured import Table
 
 TABLE = Table(["speed", "f"], [["0.1", "0.05"]])
 

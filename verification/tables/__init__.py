@@ -15,8 +15,10 @@ import sys
 import time
 from pathlib import Path
 
-from .measured import TABLES, Table
+from . import measured, studies
+from .measured import Table
 
+TABLES = measured.TABLES | studies.TABLES
 BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
 
 
