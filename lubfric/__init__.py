@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from .fitting.fit import fit as fit
     from .history.plan import Transient as Transient
     from .lubricant import Lubricant as Lubricant
-    from .model import Model as Model
-    from .model import prepare as prepare
     from .paper.differential import solve_differential_deflection as solve_differential_deflection
+    from .prepared import Prepared as Prepared
+    from .prepared import prepare as prepare
     from .report import Report as Report
     from .result import FrictionResult as FrictionResult
     from .scene import Bodies as Bodies
@@ -87,8 +87,8 @@ _HOME = {
     "Bodies": "scene",
     "load_scene": "scene_file",
     "friction": "steady",
-    "prepare": "model",
-    "Model": "model",
+    "prepare": "prepared",
+    "Prepared": "prepared",
     "FrictionResult": "result",
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ..deterministic.point import deterministic_point
 from ..deterministic.refine import Refined
-from ..model import Model
+from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..validity.bodies import of_motion
@@ -18,21 +18,23 @@ NO_PLACES = "not estimated for one pressure of film and contact"
 DRAWN, CUT = 0.1, 0.1  # flow drawn from ruptured valleys, load of a Newtonian film sheared beyond f_b p: told above
 
 
-def deterministic_answer(model: Model, speed: float, start: FrictionResult | None, begun: float) -> FrictionResult:
-    """``model`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
-    scene, surface = model.scene, model.surface
+def deterministic_answer(
+    prepared: Prepared, speed: float, start: FrictionResult | None, begun: float
+) -> FrictionResult:
+    """``prepared`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
+    scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
     known = {} if found.error is None else {"coefficient": found.error}
     return replace(
-        resolved_result(model, speed, _numbers(model, speed, found), begun),
+        resolved_result(prepared, speed, _numbers(prepared, speed, found), begun),
         deterministic=found,
         uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
         errors=field_errors_of(known, NO_PLACES),
     )
 
 
-def _numbers(model: Model, speed: float, found: Refined) -> Resolved:
-    bodies, result = model.scene.bodies, found.result
+def _numbers(prepared: Prepared, speed: float, found: Refined) -> Resolved:
+    bodies, result = prepared.scene.bodies, found.result
     dx, dy = result.spacing
     return Resolved(
         film="deterministic",
@@ -53,7 +55,7 @@ def _numbers(model: Model, speed: float, found: Refined) -> Resolved:
         mean_gap=result.mean_gap,
         load_residual=result.report.residuals["load"],
         report=result.report,
-        entries=_entries(model, speed, found),
+        entries=_entries(prepared, speed, found),
     )
 
 
@@ -76,10 +78,10 @@ def _notes(found: Refined) -> tuple[str, ...]:
     )
 
 
-def _entries(model: Model, speed: float, found: Refined) -> tuple[Validity, ...]:
+def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity, ...]:
     """Entries for all that does not hold; those of bodies and map first."""
-    scene, result = model.scene, found.result
-    entries = [*model.known, *of_motion(scene, speed, result.central_gap)]
+    scene, result = prepared.scene, found.result
+    entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
     entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
     entries += of_thickness(scene.bodies, result.central_gap)
     lubricant = scene.lubricant

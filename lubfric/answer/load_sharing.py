@@ -6,11 +6,11 @@ import math
 import time
 from dataclasses import replace
 
-from ..model import Model
 from ..oil.describe import estimate_in_words
 from ..point.adapt import Solved
 from ..point.deflection import solved_as_deflected
 from ..point.judge import judged_validity
+from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.estimate import of_line
 from ..sampling.line_friction import line_friction
@@ -20,19 +20,19 @@ from ..validity.model_form import load_sharing_error
 
 
 def load_sharing_answer(
-    model: Model, speed: float, start: FrictionResult | None, fields: bool, begun: float
+    prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool, begun: float
 ) -> FrictionResult:
-    """``model`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
+    """``prepared`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
     speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
-    if model.lines is not None:
-        chosen, line = line_friction(model, speed, None if start is None else start.line)
+    if prepared.lines is not None:
+        chosen, line = line_friction(prepared, speed, None if start is None else start.line)
         result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
         result = replace(result, line=line.start)
     else:
         balance = None if start is None else start.balance
-        chosen, point = solved_as_deflected(model, speed, balance, given_grid=fields)
+        chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
         result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point)
-    uncertainty = replace(uncertainty, model_form=_model_form(model.scene, result))
+    uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
     report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
 
@@ -44,17 +44,17 @@ def _model_form(scene: Scene, result: FrictionResult) -> float:
     return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)
 
 
-def _numbers(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:
+def _numbers(prepared: Prepared, speed: float, point: Solved, begun: float) -> FrictionResult:
     """Of ``point``, beside what is known of their error."""
-    scene, balance = model.scene, point.balance
+    scene, balance = prepared.scene, point.balance
     contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = judged_validity(model, speed, balance)
+    passed = judged_validity(prepared, speed, balance)
     oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
-    sq = model.surface.sq
+    sq = prepared.surface.sq
     return FrictionResult(
         speed=speed,
         coefficient=found.coefficient,

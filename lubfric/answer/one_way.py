@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..deterministic.refine import estimate
-from ..model import Model
 from ..one_way.point import OneWay
 from ..one_way.refine import one_way_point
+from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..validity.bodies import of_motion
@@ -20,22 +20,22 @@ from .resolved import Resolved, resolved_result
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
 
 
-def one_way_answer(model: Model, speed: float, start: FrictionResult | None, begun: float) -> FrictionResult:
-    """``model`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
-    scene = model.scene
-    found = one_way_point(scene, model.surface, speed, () if start is None else start.one_way)
+def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | None, begun: float) -> FrictionResult:
+    """``prepared`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
+    scene = prepared.scene
+    found = one_way_point(scene, prepared.surface, speed, () if start is None else start.one_way)
     one, error = found[-1], estimate([one.coefficient for one in found])
     uncertainty = replace(
-        not_sampled(error, scene, model.surface.size[1], NOT_KNOWN),
+        not_sampled(error, scene, prepared.surface.size[1], NOT_KNOWN),
         model_form=one_way_error(one.contact_load / (one.contact_load + one.film_load)),
     )
-    result = resolved_result(model, speed, _numbers(model, speed, one, error), begun)
+    result = resolved_result(prepared, speed, _numbers(prepared, speed, one, error), begun)
     return replace(result, one_way=found, uncertainty=uncertainty, errors=field_errors_of({}, NOT_KNOWN))
 
 
-def _numbers(model: Model, speed: float, one: OneWay, error: float | None) -> Resolved:
+def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None) -> Resolved:
     """``error``: estimated, of f by the grid, relative."""
-    bodies = model.scene.bodies
+    bodies = prepared.scene.bodies
     strip, central = np.abs(one.x) <= bodies.half_width, float(np.interp(0.0, one.x, one.gap.mean(axis=1)))
     hardness = math.inf if bodies.hardness is None else bodies.hardness
     estimated = "" if error is None else f", estimated error {100 * error:.2g} % of f"
@@ -52,12 +52,12 @@ def _numbers(model: Model, speed: float, one: OneWay, error: float | None) -> Re
         couette=one.couette,
         rolling=one.rolling,
         contact_fraction=float(one.closed[strip].mean()),
-        contact_area=float(one.closed.mean(axis=1).sum()) * (one.x[1] - one.x[0]) * model.surface.size[1],
+        contact_area=float(one.closed.mean(axis=1).sum()) * (one.x[1] - one.x[0]) * prepared.surface.size[1],
         plastic_fraction=float((one.contact_pressure[strip] >= hardness).mean()),
         min_gap=float(one.gap[~one.closed].min()),
         central_gap=central,
         mean_gap=float(one.gap[strip].mean()),
         load_residual=(one.contact_load + one.film_load) * bodies.width / bodies.load - 1,
         report=one.report,
-        entries=(*model.known, *of_motion(model.scene, speed, central)),
+        entries=(*prepared.known, *of_motion(prepared.scene, speed, central)),
     )

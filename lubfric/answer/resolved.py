@@ -6,8 +6,8 @@ import math
 import time
 from dataclasses import dataclass, replace
 
-from ..model import Model
 from ..point.decision import Decision
+from ..prepared import Prepared
 from ..report import Report
 from ..result import FrictionResult
 from ..validity.entry import Validity
@@ -43,10 +43,10 @@ class Resolved:
     entries: tuple[Validity, ...]
 
 
-def resolved_result(model: Model, speed: float, found: Resolved, begun: float) -> FrictionResult:
+def resolved_result(prepared: Prepared, speed: float, found: Resolved, begun: float) -> FrictionResult:
     """The numbers of ``found``, of the whole width, isothermal; ``begun``: when the solve did, by
     `time.perf_counter`."""
-    scene, width, sq = model.scene, model.scene.bodies.width, model.surface.sq
+    scene, width, sq = prepared.scene, prepared.scene.bodies.width, prepared.surface.sq
     decision = Decision(
         film=found.film,
         contact=found.contact,
@@ -65,7 +65,7 @@ def resolved_result(model: Model, speed: float, found: Resolved, begun: float) -
         rolling_force=found.rolling * width,
         boundary_force=found.boundary * width,
         real_contact_area_fraction=found.contact_fraction,
-        real_contact_area=found.contact_area * width / model.surface.size[1],
+        real_contact_area=found.contact_area * width / prepared.surface.size[1],
         plastic_area_fraction=found.plastic_fraction,
         min_film=found.min_gap,
         central_film=found.central_gap,

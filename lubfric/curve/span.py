@@ -8,28 +8,28 @@ from scipy.optimize import brentq
 
 from ..errors import InputError
 from ..line_contact import LineContact
-from ..model import Model
+from ..prepared import Prepared
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
 SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
-def span(model: Model) -> tuple[float, float]:
+def span(prepared: Prepared) -> tuple[float, float]:
     """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that
     Moes' formula gives the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for a smooth surface without speeds, which has no such range.
     """
-    speeds = sorted({abs(u) for u in model.scene.motion.speeds if u != 0})
+    speeds = sorted({abs(u) for u in prepared.scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
-    sq = model.surface.sq
+    sq = prepared.surface.sq
     if sq <= 0:
         raise InputError(
             "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
         )
 
-    bodies, lubricant = model.scene.bodies, model.scene.lubricant
+    bodies, lubricant = prepared.scene.bodies, prepared.scene.lubricant
 
     def excess(log_speed: float, ratio: float) -> float:
         line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, math.exp(log_speed), lubricant)

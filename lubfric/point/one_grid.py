@@ -48,7 +48,7 @@ def needed_settings(stage: Stage) -> Settings | None:
     """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its
     own will do. Beside a level given, the levels are those that leave out no more than is allowed."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
-    numerics, levels = point.scene.numerics, point.model.film_levels
+    numerics, levels = point.scene.numerics, point.prepared.film_levels
     sensitivity = max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
     allowed = allowed_left_out(numerics, sensitivity)
     if given_level(levels, numerics) is None and not stage.left_out.total <= allowed:

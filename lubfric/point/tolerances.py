@@ -56,7 +56,11 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> 
 def contact_tolerance(point: OperatingPoint, state: ContactState, volume: float) -> float | None:
     """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap
     is a small part of Sq the contact's own is too loose."""
-    own, given, sq = point.model.contact.adjustable_tolerance, point.settings.contact_tolerance, point.model.surface.sq
+    own, given, sq = (
+        point.prepared.contact.adjustable_tolerance,
+        point.settings.contact_tolerance,
+        point.prepared.surface.sq,
+    )
     if state.fields is None or own is None or sq == 0 or point.scene.numerics.contact_tolerance is not None:
         return given
     enough = max(volume * state.mean_gap / sq, budget.TIGHTEST_CONTACT)

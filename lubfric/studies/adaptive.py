@@ -9,7 +9,7 @@ import numpy as np
 
 from ..curve.choose import first_speeds, next_speed
 from ..curve.interpolate import Samples
-from ..model import Model
+from ..prepared import Prepared
 from ..steady import FrictionResult
 from ..store import digest
 from .chain import Chain, resumed, solved, start_from
@@ -22,7 +22,7 @@ FEWEST = 3  # solved speeds that an interpolation needs
 @dataclass(frozen=True)
 class Search:
     """What to solve. ``low``, ``high``: ends of the curve [m/s]; ``tolerance``: relative, on f between the points;
-    ``wanted``: speeds [m/s] that must be among them, with their fields; ``name``: fingerprint of the model."""
+    ``wanted``: speeds [m/s] that must be among them, with their fields; ``name``: fingerprint of the prepared scene."""
 
     low: float
     high: float
@@ -39,7 +39,7 @@ class Search:
         return Chain(tuple(speeds), tuple(keys), tuple(speed in self.wanted for speed in speeds))
 
 
-def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
+def run_adaptive(prepared: Prepared, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
     Each speed starts from the one before. Points that the ``journal`` knows are taken from there: the choices, and so
@@ -59,7 +59,7 @@ def run_adaptive(model: Model, search: Search, journal: Journal | None) -> Itera
         if journal is not None and chain.keys[-1] in known:
             outcome, last = _known(chain, journal, known), None
         else:
-            outcome = last = _continued(model, chain, journal, last)
+            outcome = last = _continued(prepared, chain, journal, last)
             outcome = outcome if chain.fields[-1] else without_fields(outcome)
         outcomes.append(outcome)
         yield speeds[-1], outcome
@@ -72,15 +72,15 @@ def _known(chain: Chain, journal: Journal, known: dict):
     return journal.fields(chain.keys[-1]) or outcome if chain.fields[-1] else outcome
 
 
-def _continued(model: Model, chain: Chain, journal: Journal | None, last):
+def _continued(prepared: Prepared, chain: Chain, journal: Journal | None, last):
     """The last point of ``chain``, whole, solved from the one before and kept."""
     at = len(chain.keys) - 1
     start = start_from(last)
     if journal is not None and last is None and at:
-        start, caught_up = resumed(model, chain, journal, at)
+        start, caught_up = resumed(prepared, chain, journal, at)
         if caught_up is not None:
             return caught_up
-    outcome = solved(model, chain, at, start)
+    outcome = solved(prepared, chain, at, start)
     if journal is not None:
         journal.keep(chain.name, chain.keys[at], outcome, chain.fields[at])
     return outcome

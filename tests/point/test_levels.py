@@ -15,8 +15,8 @@ from lubfric.film.shear import shear_force
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
-from lubfric.model import prepare
 from lubfric.point.grids import coarser_grids
+from lubfric.prepared import prepare
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 SCENE = (
     lubfric.load_scene("paper")

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.asperity import contact_law
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
 from lubfric.rough.contact_curve import contact_curve

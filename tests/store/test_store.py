@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.store import (
     FolderLock,
     Records,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.store import digest
 from lubfric.studies import chain
 from lubfric.sweep import QUANTITIES

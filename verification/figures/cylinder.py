@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from ..check import AT_LEAST, AT_MOST, Check
 from .draw import axes, image, png

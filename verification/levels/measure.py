@@ -12,7 +12,7 @@ import numpy as np
 
 import lubfric
 from lubfric.errors import LubfricError
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from ..check import Check
 from ..report import finite

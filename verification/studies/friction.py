@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.model import Model, prepare
+from lubfric.prepared import Prepared, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
@@ -60,7 +60,7 @@ def surface(shape: tuple[int, int], spacing: float, seed: int = 1, acf: str = "g
     return lubfric.generate_surface(shape, spacing, sq=100e-9, correlation_length=LENGTH, acf=acf, seed=seed).heights
 
 
-def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Model:
+def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Prepared:
     """The scene made ready for given heights."""
     return prepare(scene(region, **numerics), lubfric.Surface(heights, (spacing, spacing)))
 

@@ -11,7 +11,7 @@ import lubfric
 from lubfric.history import Harmonic, Ramp
 from lubfric.history import Table as History
 from lubfric.history.plan import Transient
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check
