@@ -18,7 +18,7 @@ from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
 
 AUTO = "auto"
-MOST = 25  # speeds at most
+MOST, CHOSEN = 25, 12  # speeds at most, and about
 FEWEST = 3  # solved speeds that an interpolation needs
 
 
@@ -49,7 +49,7 @@ def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> 
     tolerance = numerics.tolerance
     if prepared.lines is not None:
         tolerance = math.hypot(tolerance, numerics.sampling_tolerance)
-    return Search(first_speeds(prepared), tolerance, wanted, name)
+    return Search(first_speeds(prepared.scene, prepared.surface.sq), tolerance, wanted, name)
 
 
 def curve_key(name: str) -> str:

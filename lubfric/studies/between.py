@@ -15,7 +15,7 @@ def coefficient_at(result, speed) -> np.ndarray:
     speeds = validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
     found = np.full((*result.status.shape[:-1], speeds.size), np.nan)
     for index in np.ndindex(*found.shape[:-1]):
-        curve = _curve(result, index)
+        curve = curve_of(result, index)
         if curve is not None:
             known, at = curve.samples.speed, np.abs(speeds)
             inside = (at >= known[0] * (1 - 1e-9)) & (at <= known[-1] * (1 + 1e-9))
@@ -27,13 +27,13 @@ def lift_offs(result) -> np.ndarray:
     """See `StudyResult.lift_off`."""
     found = np.full(result.status.shape[:-1], np.nan)
     for index in np.ndindex(*found.shape):
-        curve = _curve(result, index)
+        curve = curve_of(result, index)
         if curve is not None and curve.lift_off is not None:
             found[index] = curve.lift_off
     return found
 
 
-def _curve(result, index) -> Interpolant | None:
+def curve_of(result, index) -> Interpolant | None:
     """The curve at one position along the axes; None where fewer than three of its points are solved."""
     columns = {name: values[index] for name, values in result.columns.items()}
     speed = np.abs(columns[SPEED] if result.chosen else result.coords[SPEED][1])

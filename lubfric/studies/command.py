@@ -11,8 +11,8 @@ from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
 from .file import load_study
 from .pool import pool
-from .result import UNUSED, StudyResult, open_study
-from .row import CONVERGED
+from .result import StudyResult, open_study
+from .row import CONVERGED, UNUSED
 from .run import study
 from .tables import to_netcdf
 

@@ -12,13 +12,13 @@ from ..errors import InputError
 from ..prepared import scene_of
 from ..scene import Scene
 from ..store import fingerprint
-from .adaptive import AUTO, MOST, curve_key
+from .adaptive import AUTO, CHOSEN, MOST, curve_key
 from .chain import Chain, make_chain
+from .cost import by_curve
 from .vary import Axis, axes_of
 
 CHAIN = 25  # points at most that are solved one after the other
 BATCH = 50  # points at least, where curves that share a map are solved by one process
-CHOSEN = 12  # points of a curve that chooses its speeds, about
 
 
 @dataclass(frozen=True)
@@ -154,11 +154,6 @@ def _curve(index, scene, leader, speeds, maps) -> Curve:
         parts.append(leader.bodies)
     whole = fingerprint(*parts)
     return Curve(index, scene, whole, tuple(make_chain(whole, piece) for piece in pieces))
-
-
-def by_curve(scene: Scene) -> bool:
-    """Its contact is read from one periodic contact curve."""
-    return scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
 
 
 def _shared(scene: Scene) -> str:

@@ -11,21 +11,20 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..scene import scene_as_dict
+from ..show import Shown
 from ..store import Records
 from ..version import __version__
 from .adaptive import AUTO
 from .journal import POINTS
 from .quantities import QUANTITIES
-from .row import AT, CONVERGED, COUNT, CURVE, SPEED, STATUS, row_of
+from .row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
 PLAN = "study.json"
-MISSING = "not computed"
-UNUSED = "not needed"  # places of a curve that needed fewer points
 POINT = "point"  # the last dimension where speeds are chosen
 
 
-@dataclass(frozen=True)
-class StudyResult:
+@dataclass(frozen=True, repr=False)
+class StudyResult(Shown):
     """Arrays over the varied values and, last, the speed: ``result["coefficient"]``, ``result.dims``,
     ``result.coords``. Where each curve chose its speeds, the last dimension is "point" and ``result["speed"]`` is such
     an array too; ``result.at(speeds)`` puts all curves on the same speeds.
@@ -98,9 +97,20 @@ class StudyResult:
             raise InputError(f"a study has no column {name!r}{validate.nearest(name, self.columns)}; see .columns")
         return self.columns[name]
 
-    def __repr__(self) -> str:
-        shape = " x ".join(f"{n} {d}" for n, d in zip(self.status.shape, self.dims))
-        return f"<StudyResult: {shape}; {self.failed} failed, {self.missing} not computed>"
+    def _facts(self) -> dict[str, str]:
+        facts = {"": " x ".join(f"{n} {d}" for n, d in zip(self.status.shape, self.dims))}
+        good = np.isfinite(self["coefficient"])
+        if good.any():
+            f = self["coefficient"][good]
+            facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
+        return facts | {"failed": str(self.failed), "not computed": str(self.missing)}
+
+    def plot(self, ax=None, **style):
+        """f over speed, a line for each curve (at most 50 of them, evenly picked), on ``ax`` or new axes, which are
+        returned; ``style``: of the lines."""
+        from .draw import curves_axes
+
+        return curves_axes(self, ax, **style)
 
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over

@@ -6,6 +6,8 @@ from ..store.codec import from_plain
 from .journal import PLACE
 
 SPEED, STATUS, CONVERGED = "speed", "status", "converged"
+MISSING = "not computed"
+UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 CURVE, AT, COUNT = "curve", "at", "count"  # of a point whose speed was chosen: its curve, its place; points in all
 CLEARANCE = "clearance"
 

@@ -11,8 +11,7 @@ import numpy as np
 from ..errors import InputError
 from ..store import whole_file, write_whole
 from .quantities import KEYS, QUANTITIES, described
-from .result import UNUSED
-from .row import SPEED
+from .row import SPEED, UNUSED
 
 
 def to_xarray(result):

@@ -1,4 +1,4 @@
-"""Studies whose curves choose their own speeds: what each is alone, the same bits anywhere and after any cut, tables."""
+"""Studies whose curves choose their own speeds: each as it is alone, the same bits anywhere and after a cut, tables."""
 
 from concurrent.futures import ProcessPoolExecutor
 
@@ -99,3 +99,17 @@ def test_speeds_at_fixed_points_are_interpolated_too():
     found, alone = lubfric.study(SCENE, {}, speeds), lubfric.stribeck(SCENE, speeds)
     np.testing.assert_allclose(found.at([0.002, 0.3]), alone.at([0.002, 0.3]), rtol=1e-12)
     assert float(found.lift_off) == pytest.approx(alone.lift_off, rel=1e-12)
+
+
+def test_a_study_shows_itself(study):
+    """Lines, points and labels are those of its numbers."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    assert repr(study).startswith("<StudyResult: 2 lubricant.viscosity x ") and repr(study).count("\n") == 0
+    assert "<table>" in study._repr_html_()
+    axes = study.plot()
+    lines = axes.get_lines()
+    assert len(lines) == 4 and lines[0].get_label() == "viscosity 0.1 Pa s"
+    solved = study["coefficient"][0]
+    np.testing.assert_array_equal(np.sort(lines[1].get_ydata()), np.sort(solved[np.isfinite(solved)]))
+    np.testing.assert_allclose(lines[0].get_ydata(), study.at(lines[0].get_xdata())[0])
+    plt.close(axes.figure)
