@@ -23,23 +23,33 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import validate
+from .asperity_definitions import FINDERS
 from .errors import ConvergenceError, InputError
 from .report import CONVERGED, STAGNATED, Report
 from .roots import increasing_root
 
-DEFINITIONS = ("summits", "patches")
+DEFINITIONS = tuple(FINDERS)
 SCAN = 1.25  # ratio between neighbouring approaches of the scan for a load
 SCAN_RANGE = (1e-5, 1.0)  # of the height range: down to the deepest valley
 
 
 @dataclass(frozen=True)
 class AsperityResult:
-    """All contacts at one separation. Arrays have one entry per contact.
+    """All contacts at one separation. Arrays have one entry for each contact.
 
-    separation [m] (number or (nx, ny)); load [N] on the whole map; mean_pressure [Pa] load over the map;
-    contact_area [m^2] sum of pi a^2, and its fraction of the map; plastic_area_fraction where the pressure is
-    at the hardness; contacts: how many; index (contacts, 2): their highest grid points; overlap delta
-    [m]; radii R [m]; forces [N]; report of the search when the load was given.
+    Attributes
+    ----------
+    separation : height of the flat [m], one number or (nx, ny)
+    load : on the whole map [N]
+    mean_pressure : load over the area of the map [Pa]
+    contact_area : sum of pi a² [m²], and contact_area_fraction of the map [-]
+    plastic_area_fraction : where the pressure is at the hardness [-]
+    contacts : how many
+    index : their highest grid points, (contacts, 2)
+    overlap : delta [m], (contacts,)
+    radii : R [m], (contacts,)
+    forces : [N], (contacts,)
+    report : of the search, when the load was given
     """
 
     definition: str
@@ -60,22 +70,31 @@ class AsperityResult:
 def asperity_contact(
     heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
 ) -> AsperityResult:
-    """Contact of a rough surface with a rigid flat held at ``separation``.
+    """Contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
 
     Parameters
     ----------
     heights : (nx, ny) [m], upwards
     spacing : (dx, dy) or one length [m]
-    e_prime : E' [Pa], ``2/E' = sum (1 - nu^2)/E``
-    separation : height of the flat [m], in the same coordinate as ``heights`` (for heights about their
-        mean: the distance of the undeformed mean planes); one number, or (nx, ny) under a curved film
+    e_prime : E' [Pa], ``2/E' = sum (1 - nu²)/E``
+    separation : height of the flat [m], in the same coordinate as ``heights``; for heights about their mean it is the
+        distance of the undeformed mean planes. One number, or (nx, ny) under a curved film
     definition : "summits" or "patches"
     hardness : the pressure of every contact is cut off at this value [Pa]; None: elastic
-    periodic : whether neighbours wrap around (one value or one per axis); summits need all 8 neighbours
+    periodic : whether neighbours wrap around, one value or one for each axis. A summit needs all 8 neighbours
 
-    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a^2 = pi R delta``; a
-    Hertz pressure of peak p0 cut off at P_u leaves ``F = P_u pi a^2 (1 - s^2/3)``, ``s = P_u/p0 < 1``.
-    Raises `InputError` for what is out of range.
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+
+    Notes
+    -----
+    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a² = pi R delta`` (Hertz 1882).
+    A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
     heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
     try:
@@ -83,14 +102,14 @@ def asperity_contact(
     except (TypeError, ValueError):
         raise InputError(f"separation must be a number or an array of shape {heights.shape} in m") from None
     validate.array("separation", flat, "m", ndim=2)
-    find = _FINDERS[definition](heights, spacing, periodic)
+    find = FINDERS[definition](heights, spacing, periodic)
     return _loaded(find, flat, separation, spacing, e_prime, hardness, definition)
 
 
 def contact_law(heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True):
     """separation [m] -> `AsperityResult`, as `asperity_contact`, with the summits looked for only once."""
     heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
-    find = _FINDERS[definition](heights, spacing, periodic)
+    find = FINDERS[definition](heights, spacing, periodic)
 
     def at(separation):
         flat = np.broadcast_to(np.asarray(separation, dtype=float), heights.shape)
@@ -111,20 +130,36 @@ def separation_for_load(
     tolerance=1e-3,
     raise_on_failure=True,
 ) -> AsperityResult:
-    """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.
+    """The separation at which independent asperities carry a given load.
 
-    The flat comes down, each approach to the highest point 25 % longer than the last and none below the
-    deepest valley, until the load is reached; then that step is searched (Chandrupatla). Stops when
-    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the
-    separation; that of patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts)
-    and has a largest value, because patches grow together.
-    Raises `InputError`, or `ConvergenceError` with report and the closest result when the model cannot
-    carry the load or jumps over it.
+    Parameters
+    ----------
+    heights, spacing, e_prime, definition, hardness, periodic : as in `asperity_contact`
+    mean_pressure : load over the area of the map [Pa]
+    tolerance : relative, on the load
+    raise_on_failure : False returns the closest result with its report
+
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+    ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
+
+    Notes
+    -----
+    The flat comes down. Each approach to the highest point is 25 % longer than the last, and none goes below the
+    deepest valley. When the load is reached, that step is searched (Chandrupatla). The search stops when ``|load -
+    target|/target <= tolerance``. The load of summits is continuous and falls with the separation. That of patches
+    jumps where cells join (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value, because
+    patches grow together.
     """
     heights, spacing, periodic = _checked(heights, spacing, e_prime, definition, hardness, periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
-    find, top, span = _FINDERS[definition](heights, spacing, periodic), heights.max(), float(np.ptp(heights))
+    find, top, span = FINDERS[definition](heights, spacing, periodic), heights.max(), float(np.ptp(heights))
     if span == 0:
         raise InputError("heights are all equal: no asperities; allowed: a rough surface in m")
 
@@ -224,77 +259,3 @@ def _loaded(find, flat, separation, spacing, e_prime, hardness, definition) -> A
         radii=radius,
         forces=force,
     )
-
-
-def _summit_finder(heights, spacing, periodic):
-    """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
-    inside = np.ones(heights.shape, bool)
-    for axis in range(2):
-        if not periodic[axis]:
-            rim: list = [slice(None)] * 2
-            rim[axis] = [0, -1]
-            inside[tuple(rim)] = False
-    for step in ((0, 1), (1, -1), (1, 0), (1, 1)):  # of equal neighbours the later one is the summit
-        inside &= heights >= np.roll(heights, (-step[0], -step[1]), (0, 1))
-        inside &= heights > np.roll(heights, step, (0, 1))
-    index = np.argwhere(inside)
-    i, j = index.T
-    nx, ny = heights.shape
-    along_x = 2 * heights[i, j] - heights[(i + 1) % nx, j] - heights[i - 1, j]
-    along_y = 2 * heights[i, j] - heights[i, (j + 1) % ny] - heights[i, j - 1]
-    radius = 2 / (along_x / spacing[0] ** 2 + along_y / spacing[1] ** 2)
-
-    def find(flat):
-        overlap = heights[i, j] - flat[i, j]
-        touching = overlap > 0
-        return index[touching], overlap[touching], radius[touching]
-
-    return find
-
-
-def _patch_finder(heights, spacing, periodic):
-    """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
-    from scipy import ndimage
-
-    def find(flat):
-        overlap = heights - flat
-        regions, count = ndimage.label(overlap > 0, np.ones((3, 3)))
-        label, count = _join_across_edges(regions, count, periodic)
-        if count == 0:
-            return np.zeros((0, 2), int), np.zeros(0), np.zeros(0)
-        cells = np.flatnonzero(label)
-        order = np.lexsort((overlap.ravel()[cells], label.ravel()[cells]))
-        cells = cells[order]
-        sizes = np.bincount(label.ravel()[cells])[1:]
-        highest = cells[np.cumsum(sizes) - 1]
-        delta = overlap.ravel()[highest]
-        radius = sizes * spacing[0] * spacing[1] / (2 * math.pi * delta)
-        return np.stack(np.unravel_index(highest, heights.shape), axis=1), delta, radius
-
-    return find
-
-
-def _join_across_edges(label, count, periodic):
-    """Give regions that touch across a periodic edge (also diagonally) one number."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    pairs = [np.zeros((2, 0), int)]
-    for axis in range(2):
-        if periodic[axis]:
-            first, last = np.take(label, 0, axis), np.take(label, -1, axis)
-            for shift in (-1, 0, 1):
-                here, there = last.copy(), np.roll(first, shift)
-                if shift and not periodic[1 - axis]:
-                    there[0 if shift == 1 else -1] = 0
-                both = (here > 0) & (there > 0)
-                pairs.append(np.stack([here[both], there[both]]))
-    a, b = np.concatenate(pairs, axis=1)
-    if count == 0 or a.size == 0:
-        return label, count
-    graph = coo_matrix((np.ones(a.size), (a - 1, b - 1)), shape=(count, count))
-    count, number = connected_components(graph, directed=False)
-    return np.concatenate([[0], number + 1])[label], count
-
-
-_FINDERS = {"summits": _summit_finder, "patches": _patch_finder}

@@ -27,23 +27,41 @@ def friction(
     fields: bool = False,
     raise_on_failure: bool = True,
 ) -> FrictionResult:
-    """Friction coefficient of ``scene`` at an entrainment speed [m/s] (default: the scene's own).
+    """Friction coefficient of a scene at one entrainment speed.
 
-    The film and the rough contact share the load so that F_T = F_C + F_H and the lubricant volume
-    of Eq. (8) hold together (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without
-    entrainment the contact carries everything; when the film clears the summits no contact is solved.
+    Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of
+    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything.
+    When the film clears the summits, no contact is solved.
 
-    ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``:
-    no load is shared, one pressure carries it (docs/deterministic.md).
-    ``start``: the result of a neighbouring speed of the same map, for a warm start.
-    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
-    solved; on a long line they are those of the line, on its cells.
-    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.tolerances.balance, divided by the share
-    of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
-    not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
-    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always
-    raises).
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
+    speed : entrainment speed U [m/s]; None: the scene's own
+    start : the result of a neighbouring speed of the same map, for a warm start
+    tolerance : relative, on the coefficient; None: ``numerics.tolerance``. No more is modelled than it needs
+        (docs/levels.md, ``result.decision``)
+    model : "full": everything, on the scene's own grid; "deterministic": no load is shared, there is one gap and one
+        pressure (docs/deterministic.md); None: ``numerics.model``
+    fields : True: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
+        solved. On a long line they are those of the line, on its cells
+    raise_on_failure : False returns the result also where the balance did not close or the result is refused. A film or
+        contact that failed always raises
+
+    Returns
+    -------
+    FrictionResult
+
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : a part did not converge; carries report and result
+    ValidityError : an assumption fails so badly that f means nothing, and ``numerics.accept`` is false; carries the
+        result
+
+    Notes
+    -----
+    The balance stops when ``|mean gap - mean film|/(mean gap + mean film) <= numerics.tolerances.balance``, divided by
+    the share of the film in f. The means are over the area A.
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)

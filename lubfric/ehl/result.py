@@ -16,18 +16,24 @@ from .start import State
 
 @dataclass(frozen=True, repr=False)
 class EHLResult(Shown):
-    """Steady line-contact film, SI units. Arrays are (n,), x ascending.
+    """Steady film of a smooth line contact. Arrays are (n,), x ascending.
 
-    x [m]: nodes, the line of centres at 0, from the inlet to a stretch of cavitated outlet;
-    pressure [Pa], film_thickness [m], viscosity [Pa s], density_ratio [-]: at the nodes.
-    rupture [m]: where the film ruptures (p = dp/dx = 0).
-    min_film [m]: smallest film; central_film [m]: film at x = 0.
-    flow_film [m]: mass flux/(rho0 |U|). It is the film at the rupture point, where dp/dx = 0 and
-    rho = rho0; with constant density also the film at every other point where dp/dx = 0.
-    flux [m²/s]: mass flux/rho0, along +x when positive.
-    approach [m]: h0 in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'.
-    half_width [m], hertz_pressure [Pa]: Hertz values of the load; contact: what was solved.
-    imposed: the pressure, if any, that deflects the film beside its own.
+    Attributes
+    ----------
+    x : nodes [m], the line of centres at 0, from the inlet to a stretch of cavitated outlet
+    pressure, film_thickness, viscosity : at the nodes [Pa, m, Pa s]
+    density_ratio : rho/rho0 at the nodes [-]
+    rupture : where the film ruptures, p = dp/dx = 0 [m]
+    min_film, central_film : smallest film, and the film at x = 0 [m]
+    flow_film : mass flux/(rho0 |U|) [m]. It is the film at the rupture point, where dp/dx = 0 and rho = rho0. With
+        constant density it is also the film at every other point where dp/dx = 0
+    flux : mass flux/rho0, along +x when positive [m²/s]
+    approach : h0 [m] in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'
+    half_width, hertz_pressure : Hertz values of the load [m, Pa]
+    contact : what was solved, a `LineContact`
+    imposed : the pressure, if any, that deflects the film beside its own
+    report : how the solve ended
+    state : what a neighbouring solve starts from
     """
 
     x: np.ndarray
