@@ -25,12 +25,17 @@ from .validity.entry import Validity
 
 @dataclass(frozen=True, repr=False)
 class Prepared(Shown):
-    """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
+    """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: nothing in it changes.
 
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
-    bodies
-    and map do not meet; lines: where ``surface`` is a line of the scene's roughness, more of it; given: it was given to
-    `prepare`, and is all there is.
+    Attributes
+    ----------
+    scene : what was asked
+    surface : its height map
+    contact : the rough contact on it
+    film_levels : the film levels to choose from, the simplest first
+    known : assumptions that bodies and map do not meet
+    lines : where ``surface`` is a line of the scene's roughness: more of it
+    given : True: the map was given to `prepare`, and is all there is
     """
 
     scene: Scene

@@ -93,6 +93,10 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     Returns
     -------
     list of tuples, one value for each range
+
+    Raises
+    ------
+    InputError : an argument out of range
     """
     from scipy.stats import qmc
 

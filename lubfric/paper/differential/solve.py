@@ -65,43 +65,57 @@ def solve_differential_deflection(
 ) -> EHLResult:
     """Film of a smooth line contact by differential deflection, on a uniform grid.
 
-    The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
-    of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
-    ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
-    from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
-    (`lubfric.paper.differential.equations`). A step costs O(N log N + N bandwidth²).
+    Problem and result are those of `lubfric.solve_ehl`. Reynolds' equation is coupled to the second difference of the
+    film, whose weights on the pressures decay like 1/k² with the distance k in nodes. The weights within ``bandwidth``
+    are implicit; the rest is exact by FFT. The two constants that the difference loses come from the full integral at
+    the ends. So the answer is that of the full integral for any bandwidth (`lubfric.paper.differential.equations`). A
+    step costs O(N log N + N bandwidth²). The far pressures are not lagged: GMRES adds them to each Newton step.
 
-    Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
-    H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,
-    Proc. IMechE J 215 (2001) 319-337. The far pressures are not lagged: GMRES adds them to each Newton step.
+    Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate, H. P. Evans,
+    Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001)
+    319-337.
 
-    Parameters beyond those of `lubfric.solve_ehl`
+    Checked for M = 1e-3 to 1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the
+    contact: at M = 1000 it needs about 50 times the nodes of a graded one.
+
+    Parameters
     ----------
-    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
-    domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
-        contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
-        behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
-    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
-    max_iterations : Newton steps per grid; start : used on the coarsest grid; its x, pressure and film
+    load_per_width, radius, e_prime, entrainment_speed, viscosity, pressure_viscosity_coefficient : as in
+        `lubfric.solve_ehl`, in SI units
+    viscosity_law, density, tolerance, inlet_length : as in `lubfric.solve_ehl`
+    start : a neighbouring result, used on the coarsest grid; its x, pressure and film
+    max_iterations : Newton steps per grid
+    nodes : at least 65; None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
+    domain : (first, last) node in the direction of motion [m], the line of centres at 0. It must hold the dry contact.
+        None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat behind the expected rupture.
+        Not together with inlet_length, which says where the lubricant begins
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; it changes only the time
+    most_nodes : largest number of nodes that is tried
+    raise_on_failure : False returns an unconverged result with its report
 
-    report.residuals, all relative, must be <= tolerance:
-    discretisation : largest change of min_film, central_film and flow_film against the grid of half the
-        cells, or a quarter of the change before that
-    domain : estimated effect of the finite inlet on flow_film (0 with inlet_length)
-    mass : largest |flux through a face before rupture/q - 1|; load : |∫ p dx/load - 1|
-    film : largest |h - full integral|/h
-    complementarity : largest of -p/p_max and of 1 - flux/q behind rupture
-    (the last four are <= 1e-3 tolerance where Newton's method converged)
-    report.evaluations counts banded solves, each with one convolution.
+    Returns
+    -------
+    EHLResult : its ``x`` is the uniform grid with the rupture point added as a node
 
     Raises
     ------
     InputError : a value out of range, before any work
-    ConvergenceError : residuals above tolerance, with report and result; not if raise_on_failure is False
+    ConvergenceError : residuals above tolerance; carries report and result
 
-    ``x`` in the result is the uniform grid with the rupture point added as a node. Checked for M = 1e-3 to
-    1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
-    needs about 50 times the nodes of a graded one at M = 1000.
+    Notes
+    -----
+    All residuals of the report are relative, and must be <= tolerance:
+
+    - discretisation: largest change of min_film, central_film and flow_film against the grid of half the cells, or a
+      quarter of the change before that
+    - domain: estimated effect of the finite inlet on flow_film (0 with inlet_length)
+    - mass: largest |flux through a face before rupture/q - 1|
+    - load: |∫ p dx/load - 1|
+    - film: largest |h - full integral|/h
+    - complementarity: largest of -p/p_max and of 1 - flux/q behind rupture
+
+    The last four are <= 1e-3 tolerance where Newton's method converged. report.evaluations counts banded solves, each
+    with one convolution.
     """
     contact = LineContact(
         load_per_width,
