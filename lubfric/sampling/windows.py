@@ -31,6 +31,7 @@ class MeasuredLines:
     lengths: tuple[float, float]
     starts: tuple[int, ...]
     nested: bool = True
+    exact_sq: bool = False
 
     @property
     def window(self) -> float:
