@@ -52,9 +52,10 @@ def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
     assert unaware == pytest.approx(np.std(means) / 0.6, rel=0.1)
 
 
-def test_a_line_too_short_for_eight_blocks_tells_nothing():
-    assert block_error(np.arange(300.0), 1.0, 10.0) == BlockError(math.inf, 0)
-    assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in (400.0, 800.0, 900.0, 1e4)] == [7, 7, 9, 31]
+def test_a_line_too_short_for_five_blocks_tells_nothing():
+    assert block_error(np.arange(240.0), 1.0, 10.0) == BlockError(math.inf, 0)
+    lengths = (250.0, 300.0, 400.0, 800.0, 900.0, 1e4)
+    assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in lengths] == [4, 5, 7, 7, 9, 31]
 
 
 def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load():
