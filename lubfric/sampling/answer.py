@@ -12,6 +12,7 @@ from ..scene import Scene
 from ..validity.model_form import load_sharing_error
 from .estimate import of_line
 from .line_friction import line_friction
+from .other_cells import by_half_cells, too_coarse
 from .patch_error import of_patch
 
 
@@ -22,12 +23,16 @@ def answered(model: Model, speed: float, start: FrictionResult | None, fields: b
         chosen, line = line_friction(model, speed, None if start is None else start.line)
         result, (uncertainty, errors) = result_of(chosen, speed, line.point, begun), of_line(chosen.scene, line)
         result = replace(result, line=line.start)
+        change = line.by_half_cells
     else:
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(model, speed, balance, given_grid=fields)
         result, (uncertainty, errors) = result_of(chosen, speed, point, begun), of_patch(chosen, speed, point)
+        change = by_half_cells(chosen, speed, point)
+    cautions = too_coarse(change, model.scene.numerics.tolerance)
+    result = replace(result, validity=(*result.validity, *cautions))
     uncertainty = replace(uncertainty, model_form=_model_form(model.scene, result))
-    report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
+    report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
 
 
