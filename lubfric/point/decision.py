@@ -21,8 +21,8 @@ class Decision:
     clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
     coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
     (None: the map's own grid); own_error: on the map's own grid, the same of the last step to it (infinite: nothing to
-    compare it with); tolerance: asked, on f; deflection: what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not
-    chosen but given.
+    compare it with); tolerance: asked, on f; deflection: what deflects the film, heat: what of it was modelled, in
+    words ("": not chosen, not known); forced: what was not chosen but given.
     """
 
     film: str
