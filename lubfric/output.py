@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import InputError
-from .model import Model
+from .prepared import Prepared
 from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
 from .scene import scene_as_dict
@@ -41,17 +41,17 @@ UNITS = {
 IN_WORDS = ("validity", "uncertainty")  # columns of a table
 
 
-def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
+def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
     """The record of a run in plain JSON types: resolved input, versions, seed, timings, numbers and reports."""
     import scipy
 
     record = {
-        "scene": scene_as_dict(model.scene),
+        "scene": scene_as_dict(prepared.scene),
         "surface": {
-            "shape": model.surface.heights.shape,
-            "spacing": model.surface.spacing,
-            "statistics": _statistics(model.surface),
-            "notes": list(model.surface.notes),
+            "shape": prepared.surface.heights.shape,
+            "spacing": prepared.surface.spacing,
+            "statistics": _statistics(prepared.surface),
+            "notes": list(prepared.surface.notes),
         },
         "versions": {
             "lubfric": __version__,
@@ -59,7 +59,7 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
             "scipy": scipy.__version__,
             "python": platform.python_version(),
         },
-        "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
+        "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
         "validity": list(curve.validity),
@@ -120,13 +120,13 @@ def read_csv(path: Path) -> Columns:
         ) from None
 
 
-def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
+def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
     arrays = {
         "speed": np.array([p.speed for p in points]),
-        "heights": model.surface.heights,
-        "spacing": np.array(model.surface.spacing),
-        "contact_x": model.contact.x,
+        "heights": prepared.surface.heights,
+        "spacing": np.array(prepared.surface.spacing),
+        "contact_x": prepared.contact.x,
     }
     balances = [point.balance for point in points if point.balance is not None]
     for i, balance in enumerate(balances):

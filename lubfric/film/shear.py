@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..lubricant import Lubricant, shear_stress
-from ..validity.stress import carried_stress
+from ..lubricant import Lubricant, carried_stress, shear_stress
 
 
 @dataclass(frozen=True)
@@ -20,7 +19,7 @@ class ShearForce:
     large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of
     what rising and falling pressure contribute to the rolling force, which is their small difference at high pressure:
     an error of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above
-    what oils carry (`lubfric.validity.stress`), and stress_ratio [-]: the largest of them over that.
+    what oils carry (`lubfric.lubricant.carried_stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float

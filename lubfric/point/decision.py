@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .. import budget
 from ..film.contract import LeftOut
-from ..model import Model
+from ..prepared import Prepared
 from ..scene import Numerics
 from .one_grid import Stage
 
@@ -92,12 +92,12 @@ def _percent(value: float) -> str:
     return f"{100 * value:.2g} %"
 
 
-def dry(model: Model) -> Decision:
+def dry(prepared: Prepared) -> Decision:
     """Of a contact without film, on its own grid."""
-    grid, numerics = model.contact.grid, model.scene.numerics
+    grid, numerics = prepared.contact.grid, prepared.scene.numerics
     return Decision(
         film="none",
-        contact=model.contact.name,
+        contact=prepared.contact.name,
         tolerance=numerics.tolerance,
         shape=None if grid is None else grid.cells,
         forced=_forced(numerics),
@@ -106,14 +106,14 @@ def dry(model: Model) -> Decision:
 
 def alone(stage: Stage) -> Decision:
     """Of a film with the whole load."""
-    state, sq = stage.balance.contact, stage.point.model.surface.sq
+    state, sq = stage.balance.contact, stage.point.prepared.surface.sq
     return replace(_film(stage), contact="none", clearance=(state.mean_film - state.mean_gap) / max(sq, 1e-12))
 
 
 def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
     """Of film and contact, on a grid of estimated ``error`` of f; ``finest``: the map's own."""
-    model, grid, own = stage.point.model, stage.point.contact.grid, stage.point.model.contact.grid
-    decision = replace(_film(stage), contact=model.contact.name, grid_error=None if finest else error)
+    prepared, grid, own = stage.point.prepared, stage.point.contact.grid, stage.point.prepared.contact.grid
+    decision = replace(_film(stage), contact=prepared.contact.name, grid_error=None if finest else error)
     if finest:
         decision = replace(decision, own_error=error)
     if grid is not None and own is not None:

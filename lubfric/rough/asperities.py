@@ -180,5 +180,5 @@ def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact
         hardness=bodies.hardness,
         definition=contact.model,
         reading=contact.asperity_separation,
-        tolerance=numerics.pressure_tolerance,
+        tolerance=numerics.tolerances.contact,
     )

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..film.contract import Film
+from ..lines.pieces import thinned
 from ..point.operating_point import OperatingPoint
 from ..rough.contract import ContactState
 from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 from .other_cells import half_again
-from .pieces import thinned
 
 SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
 FEWEST = 3  # pieces too short for blocks

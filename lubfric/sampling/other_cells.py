@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import math
 
-from ..model import Model
 from ..point.adapt import Solved
+from ..prepared import Prepared
 from ..validity.entry import Validity
 from .at_split import at
 
@@ -15,7 +15,7 @@ SLOWEST, FASTEST = 0.5, 0.125  # ratio of successive changes
 CHECKED = 0.1  # of the tolerance: an estimate from averaged cells below it needs no other
 
 
-def by_half_cells(model: Model, speed: float, point: Solved) -> float:
+def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
     """Estimated relative change of f on cells half as long as the map's own; NaN where it was solved on others or on
     the own ones by name, where averaged cells showed no change worth it, or where there is nothing to compare.
 
@@ -31,7 +31,7 @@ def by_half_cells(model: Model, speed: float, point: Solved) -> float:
         coarse = point.contact.thinned(every)
         if coarse is None:
             break
-        thickness, shape = at(model, speed, coarse, balance.lubricated).imposed_on(coarse, balance.lubricated.film)
+        thickness, shape = at(prepared, speed, coarse, balance.lubricated).imposed_on(coarse, balance.lubricated.film)
         found.append(coarse.close(thickness, balance.contact_load, None, shape).volume_residual)
     if len(found) == 1:
         return math.nan

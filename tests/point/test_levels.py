@@ -15,8 +15,8 @@ from lubfric.film.shear import shear_force
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
-from lubfric.model import prepare
 from lubfric.point.grids import coarser_grids
+from lubfric.prepared import prepare
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
@@ -220,6 +220,6 @@ def test_a_spike_that_the_grid_does_not_hold_is_found_by_the_sum_of_the_shear_st
     model = prepare(scene)
     found = lubfric.friction(model, 3.57)
     assert found.decision.contact == "none" and found.balance.film.state.pressure.size > 300
-    coarse = lubfric.friction(prepare(scene.with_(numerics={"ehl_tolerance": 6e-3}), like=model), 3.57)
+    coarse = lubfric.friction(prepare(scene.with_(numerics={"film_tolerance": 6e-3}), like=model), 3.57)
     assert any("not resolved" in note for note in coarse.decision.notes)
     assert found.coefficient == pytest.approx(lubfric.friction(model, 3.57, tolerance=2e-3).coefficient, rel=5e-3)

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.asperity import contact_law
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
 from lubfric.rough.contact_curve import contact_curve
@@ -88,7 +88,7 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     paper = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed, fields=True)
     assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
     assert paper.film_load == pytest.approx(load.film_load, rel=2e-3)
-    assert abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
+    assert abs(paper.load_residual) <= 2 * scene.numerics.tolerances.balance and abs(paper.volume_residual) < 1e-4
     assert paper.balance.contact.fields.report.solver == "single loop, consistent"
 
 

@@ -10,10 +10,10 @@ import lubfric
 from lubfric import Transient
 from lubfric.cli import main
 from lubfric.describe import describe_scene
+from lubfric.lines.outlook import foretold
 from lubfric.output import read_csv
 from lubfric.point.adapt import solved
 from lubfric.rough.height_map import contact_map
-from lubfric.sampling.outlook import foretold
 from lubfric.sampling.sample import response_of
 
 PAPER = lubfric.load_scene("paper")
