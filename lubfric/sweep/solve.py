@@ -12,12 +12,11 @@ from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
 from ..scene import Scene
 from ..store import fingerprint
+from ..studies.adaptive import AUTO
 from ..studies.chain import Chain, make_chain
 from ..studies.solve import solve_chains
 from .auto import auto_curve
 from .result import StribeckResult, collected
-
-AUTO = "auto"
 
 
 def stribeck(
@@ -34,10 +33,11 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), at most 25, so that ``curve.at(speed)`` is within the tolerance on
-    f everywhere between the slowest and the fastest of the scene's speeds, or, where it has none, from boundary
-    lubrication to a full film; the knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the
-    other. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    ``speeds="auto"`` chooses them (`lubfric.curve`), mostly 9 to 13, at most 25, so that ``curve.at(speed)`` is within
+    the tolerance on f (on a line of a surface: and the sampling tolerance, root sum of squares) everywhere between the
+    slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication to a full film; the
+    knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other, each started from the
+    nearest. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
     `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
     solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
     or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
