@@ -46,20 +46,20 @@ def friction(
     raises).
     """
     begun = time.perf_counter()
-    ready = at_tolerance(scene, tolerance, model)
+    prepared = at_tolerance(scene, tolerance, model)
     if speed is None:
-        speed = ready.scene.motion.entrainment_speed
+        speed = prepared.scene.motion.entrainment_speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
         validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
-    numerics = ready.scene.numerics
-    with told_doubts(ready.scene):
+    numerics = prepared.scene.numerics
+    with told_doubts(prepared.scene):
         if numerics.model == "deterministic" and speed != 0:
-            result = deterministic_answer(ready, speed, start, begun)
+            result = deterministic_answer(prepared, speed, start, begun)
         elif numerics.closure == "one-way" and speed != 0:
-            result = one_way_answer(ready, speed, start, begun)
+            result = one_way_answer(prepared, speed, start, begun)
         else:
-            result = load_sharing_answer(ready, speed, start, fields, begun)
+            result = load_sharing_answer(prepared, speed, start, fields, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "

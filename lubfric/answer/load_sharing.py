@@ -6,6 +6,7 @@ import math
 import time
 from dataclasses import replace
 
+from ..line_contact import LineContact
 from ..oil.describe import estimate_in_words
 from ..point.adapt import Solved
 from ..point.deflection import solved_as_deflected
@@ -14,6 +15,7 @@ from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.estimate import of_line
 from ..sampling.line_friction import line_friction
+from ..sampling.other_cells import by_half_cells, too_coarse
 from ..sampling.patch_error import of_patch
 from ..scene import Scene
 from ..validity.model_form import load_sharing_error
@@ -24,17 +26,31 @@ def load_sharing_answer(
 ) -> FrictionResult:
     """``prepared`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
     speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
+    foretell_ends(prepared, speed)
     if prepared.lines is not None:
         chosen, line = line_friction(prepared, speed, None if start is None else start.line)
         result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
         result = replace(result, line=line.start)
+        change = line.by_half_cells
     else:
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
         result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point)
+        change = by_half_cells(chosen, speed, point)
+    cautions = too_coarse(change, prepared.scene.numerics.tolerance)
+    result = replace(result, validity=(*result.validity, *cautions))
     uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
-    report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
+    report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
+
+
+def foretell_ends(prepared: Prepared, speed: float) -> None:
+    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s]."""
+    bodies, film = prepared.scene.bodies, 0.0
+    if speed != 0:
+        line_load = bodies.load / bodies.width
+        film = LineContact(line_load, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant).moes_film
+    prepared.contact.foretell(bodies, film)
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:
