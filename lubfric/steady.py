@@ -29,39 +29,28 @@ def friction(
 ) -> FrictionResult:
     """Friction coefficient of a scene at one entrainment speed.
 
-    Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of
-    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything.
-    When the film clears the summits, no contact is solved.
+    Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
+    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything. When
+    the film clears the summits, no contact is solved. Stops when ``|gap - film|/(gap + film)``, means over A, is <=
+    numerics.tolerances.balance, divided by the share of the film in f.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    start : the result of a neighbouring speed of the same map, for a warm start
-    tolerance : relative, on the coefficient; None: ``numerics.tolerance``. No more is modelled than it needs
-        (docs/levels.md, ``result.decision``)
-    model : "full": everything, on the scene's own grid; "deterministic": no load is shared, there is one gap and one
-        pressure (docs/deterministic.md); None: ``numerics.model``
-    fields : True: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
-        solved. On a long line they are those of the line, on its cells
-    raise_on_failure : False returns the result also where the balance did not close or the result is refused. A film or
-        contact that failed always raises
+    start : a result at a neighbouring speed of the same map
+    tolerance : relative, on f; None: ``numerics.tolerance``. No more is modelled than it needs (docs/levels.md)
+    model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
+    fields : True: film and contact in ``result.balance`` on the scene's own contact grid (on a long line: on its cells)
+    raise_on_failure : False returns also what is not balanced or refused. A film or contact that failed always raises
 
-    Returns
-    -------
-    FrictionResult
+    Returns a `FrictionResult`.
 
     Raises
     ------
     InputError : before any work
     ConvergenceError : a part did not converge; carries report and result
-    ValidityError : an assumption fails so badly that f means nothing, and ``numerics.accept`` is false; carries the
-        result
-
-    Notes
-    -----
-    The balance stops when ``|mean gap - mean film|/(mean gap + mean film) <= numerics.tolerances.balance``, divided by
-    the share of the film in f. The means are over the area A.
+    ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)

@@ -25,6 +25,15 @@ class ContactResult(Shown):
     contact_area_fraction : share of the cells with p > 0 [-]
     plastic_area_fraction : share of the cells with p = hardness [-]
     report : how the solve ended
+
+    Notes
+    -----
+    The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
+    has ended. L is the length of `lubfric.contact.residual.length_scale`:
+
+    - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
+    - penetration: ``max(-gap)/L`` over cells with p < H
+    - load: ``|mean p - mean_pressure|/mean_pressure``, or volume: ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``
     """
 
     pressure: np.ndarray

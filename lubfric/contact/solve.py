@@ -33,7 +33,8 @@ def solve_contact(
 
     Solved is ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``. With a hardness H also ``p <= H``, and
     cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
-    doi:10.1007/s11249-015-0536-z).
+    doi:10.1007/s11249-015-0536-z). The solve has converged when the largest residual of the report is <= tolerance
+    (`ContactResult` has their formulas).
 
     Parameters
     ----------
@@ -44,11 +45,10 @@ def solve_contact(
     mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count as zero
     hardness : limit of the pressure [Pa]; None: elastic
     boundary : "periodic" or "free" for each axis, see `lubfric.halfspace.half_space`
-    tolerance : largest residual accepted (below)
+    tolerance : largest residual accepted
     start : an earlier `ContactResult`, or a pressure field [Pa], to start from
     operator : a `HalfSpace` built before for this grid, to share between solves
-    max_iterations : after so many the solve gives up
-    raise_on_failure : False returns the unconverged result with its report
+    max_iterations, raise_on_failure : after so many the solve gives up; False returns the unconverged result
 
     Returns
     -------
@@ -58,16 +58,6 @@ def solve_contact(
     ------
     InputError : a value out of range, before any work
     ConvergenceError : the tolerance was not met; carries report and result
-
-    Notes
-    -----
-    The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
-    has ended. L is the length of `lubfric.contact.residual.length_scale`. The solve has converged when the largest of
-    them is <= tolerance:
-
-    - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
-    - penetration: ``max(-gap)/L`` over cells with p < H
-    - load: ``|mean p - mean_pressure|/mean_pressure``, or volume: ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``
     """
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     check_control(problem, mean_pressure, mean_gap)

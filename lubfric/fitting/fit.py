@@ -24,6 +24,11 @@ MOST = 30  # curves on the way, beside those of the differences
 def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None) -> FitResult:
     """Find the values of ``parameters`` with which a scene comes closest to a measured curve.
 
+    Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
+    trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
+    stay above the tolerance on f. It stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
+    sum by <= 1e-4 of it. `FitResult` says how sure the values are.
+
     Parameters
     ----------
     scene : what is known, with the numerics to be used
@@ -32,22 +37,12 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
     executor : for the speeds of a curve, as in `lubfric.stribeck`
 
-    Returns
-    -------
-    FitResult
+    Returns a `FitResult`.
 
     Raises
     ------
     InputError : before any work
     ConvergenceError : the search does not end, or a curve fails; carries the result
-
-    Notes
-    -----
-    Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
-    trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
-    stay above the tolerance on f. It stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
-    sum by <= 1e-4 of it. The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p where no deviations are given. A
-    parameter whose 95 % interval is as wide as its bounds is one that the data cannot tell.
     """
     from scipy.optimize import least_squares
 

@@ -20,6 +20,9 @@ AT_BOUND = 5e-3  # of the bounds
 class FitResult:
     """Parameters found by `lubfric.fit`, and how well the data tell them.
 
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p where no deviations are given. A parameter whose 95 %
+    interval is as wide as its bounds is one that the data cannot tell.
+
     Attributes
     ----------
     values : the parameters found, {"section.key": value}

@@ -28,8 +28,6 @@ def read_surface(
 ) -> Surface:
     """Read a measured height map, take off its form, then fill what was not measured (the mask stays).
 
-    Nothing is printed: look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
-
     ==================== ==================================================================
     .npy                 heights[ix, iy]; needs ``spacing``
     .txt .csv .asc .dat  one line of the file is one x; blanks, tabs, commas or semicolons between
@@ -42,6 +40,7 @@ def read_surface(
 
     In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
     noted in ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
+    Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
 
     Parameters
     ----------

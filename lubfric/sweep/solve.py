@@ -12,12 +12,11 @@ from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
 from ..scene import Scene
 from ..store import fingerprint
+from ..studies.adaptive import AUTO
 from ..studies.chain import Chain, make_chain
 from ..studies.solve import solve_chains
 from .auto import auto_curve
 from .result import StribeckResult, collected
-
-AUTO = "auto"
 
 
 def stribeck(
@@ -35,36 +34,20 @@ def stribeck(
     """The Stribeck curve of a scene: friction over the entrainment speed.
 
     Speeds are solved from the fastest down, each started from its neighbour. A point that fails leaves NaN, and its
-    exception in ``errors``; the others are still solved.
+    exception in ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
-    speeds : entrainment speeds [m/s]; None: the scene's own. "auto" chooses at most 25 of them (`lubfric.curve`), so
-        that ``curve.at(speed)`` is within the tolerance on f everywhere between the slowest and the fastest speed of
-        the scene (where it has none: from boundary lubrication to a full film). They enclose the knee at lift-off,
-        ``curve.lift_off``, and are solved one after the other
-    executor : any `concurrent.futures.Executor`. The speeds are then split into neighbouring runs. Those of a lost
-        worker are solved again here
-    tolerance, model : as in `lubfric.friction`
-    fields : True, or a list of speeds [m/s], whose film and contact are kept, on the scene's own contact grid
-    store : a folder that receives every point as it ends. The same call goes on from there, to the same bits. The
-        folder is yours to remove
-    on_point : called as on_point(done, total, speed, outcome) as points end; the outcome is a `FrictionResult` or an
-        exception
+    speeds : entrainment speeds [m/s], (n,); None: the scene's own; "auto": at most 25, so that ``curve.at(speed)`` is
+        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed
+    executor : any `concurrent.futures.Executor`, for runs of neighbouring speeds
+    tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
+    store : a folder that receives every point as it ends. The same call goes on from there, to the same bits
+    on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
     raise_on_failure : False returns a curve with failed points
 
-    Returns
-    -------
-    StribeckResult
-
-    Raises
-    ------
-    InputError : before any work
-    ConvergenceError : at the end, when a point failed; the whole curve is its ``result``
-    ValidityError : the same, where all that failed is outside the range of the model
-
-    A fault of the program, or an interrupt, goes through as it is, with the points so far as its ``result``.
+    Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")

@@ -1,4 +1,4 @@
-"""What an asperity is, by either definition of `lubfric.asperity`: where it stands, how far it reaches, its radius."""
+"""Where the asperities of a height map are, and how sharp: summits, or patches above a separation."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 
-def summit_finder(heights, spacing, periodic):
+def _summit_finder(heights, spacing, periodic):
     """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
     inside = np.ones(heights.shape, bool)
     for axis in range(2):
@@ -33,7 +33,7 @@ def summit_finder(heights, spacing, periodic):
     return find
 
 
-def patch_finder(heights, spacing, periodic):
+def _patch_finder(heights, spacing, periodic):
     """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
     from scipy import ndimage
 
@@ -78,4 +78,4 @@ def _join_across_edges(label, count, periodic):
     return np.concatenate([[0], number + 1])[label], count
 
 
-FINDERS = {"summits": summit_finder, "patches": patch_finder}
+FINDERS = {"summits": _summit_finder, "patches": _patch_finder}
