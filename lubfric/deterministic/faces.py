@@ -63,16 +63,17 @@ def _sides(axis: int):
 @dataclass(frozen=True)
 class CouetteFlow:
     """Through the faces behind every cell along x [m²/s] (nx, ny); derivatives by rho h of that cell and of the one
-    before it [m/s]."""
+    before it [m/s], and by the filled part of the cell [m²/s]."""
 
     flow: np.ndarray
     by_own: np.ndarray
     by_before: np.ndarray
+    by_fill: np.ndarray
 
 
-def couette_flow(problem: Problem, mass) -> CouetteFlow:
-    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces; in the first cell the parabola gives the
-    difference."""
+def couette_flow(problem: Problem, mass, fill=1.0) -> CouetteFlow:
+    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces, where the cell is filled to the part ``fill``; in the
+    first cell the parabola gives the difference."""
     x, dx = problem.x, problem.spacing[0]
     step = np.empty_like(mass)
     step[1:] = mass[1:] - mass[:-1]
@@ -84,4 +85,5 @@ def couette_flow(problem: Problem, mass) -> CouetteFlow:
     by_own[0] = np.where(free[0], 0.0, by_own[0])
     by_before[0] = 0.0
     U = problem.speed
-    return CouetteFlow(U * (mass + half), U * (1 + by_own), U * by_before)
+    full = U * (mass + half)
+    return CouetteFlow(fill * full, fill * U * (1 + by_own), fill * U * by_before, full)
