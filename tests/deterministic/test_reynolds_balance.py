@@ -64,7 +64,7 @@ def test_derivatives_are_those_of_the_residual(name):
     p, h = 1e8 * random.random(shape), 1e-7 + 1e-7 * random.random(shape)
     p[0] *= 0.1
     h[0] = problem.x[0] ** 2 / (2 * RADIUS)
-    by_p, by_h = derivatives(problem, balance(problem, p, h), p)
+    by_p, by_h, _ = derivatives(problem, balance(problem, p, h), p)
     for matrix, base, step, at in (
         (by_p, p, 10.0, lambda v: balance(problem, v, h).residual),
         (by_h, h, 1e-14, lambda v: balance(problem, p, v).residual),
