@@ -1,7 +1,7 @@
 """One linear system of Newton's method: GMRES with the dense K by FFT, preconditioned by a sparse LU with its diagonal.
 
-Unknown in every cell is p, or the dent where it has yielded, or the fill where it has ruptured; and h0. Through h every cell
-depends on every pressure; ``R_p + R_h diag(K)`` is sparse and enough of that.
+Unknown in every cell is p, or the dent where it has yielded, or the fill where it has ruptured; and h0. Through h every
+cell depends on every pressure; ``R_p + R_h diag(K)`` is sparse and enough of that.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ KRYLOV, CYCLES = 40, 3
 
 @dataclass(frozen=True)
 class Step:
-    """Changes of pressure [Pa], fill [-], dent [m], h0 [m] and gap [m] that solve the linear system; ``iterations`` of GMRES, and
-    the relative residual that was left."""
+    """Changes of pressure [Pa], fill [-], dent [m], h0 [m] and gap [m] that solve the linear system; ``iterations`` of
+    GMRES, and the relative residual that was left."""
 
     pressure: np.ndarray
     fill: np.ndarray
