@@ -30,15 +30,15 @@ if TYPE_CHECKING:
     from .fitting.fit import fit as fit
     from .history.plan import Transient as Transient
     from .lubricant import Lubricant as Lubricant
-    from .model import Model as Model
-    from .model import prepare as prepare
     from .paper.differential import solve_differential_deflection as solve_differential_deflection
+    from .prepared import Prepared as Prepared
+    from .prepared import prepare as prepare
     from .report import Report as Report
     from .result import FrictionResult as FrictionResult
     from .scene import Bodies as Bodies
+    from .scene import ContactDomain as ContactDomain
     from .scene import Motion as Motion
     from .scene import Numerics as Numerics
-    from .scene import Patch as Patch
     from .scene import Roughness as Roughness
     from .scene import Scene as Scene
     from .scene_file import load_scene as load_scene
@@ -81,14 +81,14 @@ _HOME = {
     "Scene": "scene",
     "Lubricant": "lubricant",
     "Numerics": "scene",
-    "Patch": "scene",
+    "ContactDomain": "scene",
     "Roughness": "scene",
     "Motion": "scene",
     "Bodies": "scene",
     "load_scene": "scene_file",
     "friction": "steady",
-    "prepare": "model",
-    "Model": "model",
+    "prepare": "prepared",
+    "Prepared": "prepared",
     "FrictionResult": "result",
     "transient": "unsteady.run",
     "TransientResult": "unsteady.result",
@@ -110,6 +110,7 @@ _HOME = {
     "StribeckResult": "sweep",
 }
 _PACKAGES = ("oil",)
+_BEFORE = {"Patch": "ContactDomain", "Model": "Prepared"}
 __all__ = sorted([*_HOME, *_PACKAGES])
 
 
@@ -117,7 +118,8 @@ def __getattr__(name: str) -> Any:
     if name in _PACKAGES:
         return import_module(f"lubfric.{name}")
     if name not in _HOME:
-        raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
+        today = f": it is lubfric.{_BEFORE[name]} now" if name in _BEFORE else ""
+        raise AttributeError(f"module 'lubfric' has no attribute {name!r}{today}")
     value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)
     globals()[name] = value
     return value

@@ -7,11 +7,11 @@ import math
 from .analytic import film as film_formulas
 from .errors import InputError
 from .inputs import input_lines
+from .lines.make import lines_of, takes_line
+from .lines.outlook import in_words
 from .plausible import told_doubts
 from .point.outlook import outlook
 from .rough.height_map import contact_map
-from .sampling.make import lines_of, takes_line
-from .sampling.outlook import in_words
 from .scene import Scene
 from .surface import correlation_length, rms_slope
 from .validity.foretold import foretold

@@ -19,6 +19,7 @@ from .validate import choice, nonnegative, number, positive
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
+CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
 NO_LIQUID = 1e10  # Pa: no oil flows there
 VISCOSITY_LAWS = ("roelands", "barus", "constant")
 DENSITY_LAWS = ("constant", "dowson-higginson")
@@ -152,3 +153,8 @@ def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
         limit = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
         tau = np.clip(tau, -limit, limit)
     return tau
+
+
+def carried_stress(pressure) -> np.ndarray:
+    """What an oil carries at most [Pa] at ``pressure`` [Pa], any shape: 5 MPa + 0.12 p."""
+    return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import InputError
-from .model import Model
+from .prepared import Prepared
 from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
 from .scene import scene_as_dict
@@ -38,19 +38,20 @@ UNITS = {
     "seconds": "s",
     "line_length": "m",
 }
+IN_WORDS = ("validity", "uncertainty")  # columns of a table
 
 
-def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
+def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
     """The record of a run in plain JSON types: resolved input, versions, seed, timings, numbers and reports."""
     import scipy
 
     record = {
-        "scene": scene_as_dict(model.scene),
+        "scene": scene_as_dict(prepared.scene),
         "surface": {
-            "shape": model.surface.heights.shape,
-            "spacing": model.surface.spacing,
-            "statistics": _statistics(model.surface),
-            "notes": list(model.surface.notes),
+            "shape": prepared.surface.heights.shape,
+            "spacing": prepared.surface.spacing,
+            "statistics": _statistics(prepared.surface),
+            "notes": list(prepared.surface.notes),
         },
         "versions": {
             "lubfric": __version__,
@@ -58,7 +59,7 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
             "scipy": scipy.__version__,
             "python": platform.python_version(),
         },
-        "seed": model.scene.surface.seed if model.scene.surface.file is None else None,
+        "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
         "validity": list(curve.validity),
@@ -68,12 +69,13 @@ def curve_record(model: Model, curve: StribeckResult, seconds: float) -> dict:
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold
-    there."""
+    """One row a speed, one column a quantity, the unit in the heading; the last columns say what does not hold
+    there, and how sure f is."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
     columns |= {f"{name} [{UNITS.get(name, '-')}]": v for name, v in uncertainty_columns(curve.uncertainty).items()}
     texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
-    return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
+    words = {"validity": texts, "uncertainty": curve.uncertainty.text}
+    return table_bytes(columns | {name: np.array(words[name], dtype=object) for name in IN_WORDS})
 
 
 def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
@@ -111,20 +113,20 @@ def read_csv(path: Path) -> Columns:
         with Path(path).open(encoding="utf-8", newline="") as file:
             heading, *rows = list(csv.reader(file))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-        return Columns({n: np.array(c, str if n == "validity" else float) for n, c in columns.items()})
+        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:
         raise InputError(
             f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"
         ) from None
 
 
-def fields_bytes(model: Model, points: list[FrictionResult]) -> bytes:
+def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
     arrays = {
         "speed": np.array([p.speed for p in points]),
-        "heights": model.surface.heights,
-        "spacing": np.array(model.surface.spacing),
-        "contact_x": model.contact.x,
+        "heights": prepared.surface.heights,
+        "spacing": np.array(prepared.surface.spacing),
+        "contact_x": prepared.contact.x,
     }
     balances = [point.balance for point in points if point.balance is not None]
     for i, balance in enumerate(balances):

@@ -84,7 +84,7 @@ def _mark(figure, axes, speed, columns) -> None:
     figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
 
 
-def plot_contact(path: Path, model, point) -> None:
+def plot_contact(path: Path, prepared, point) -> None:
     """Contact pressure map, and film, separation and surface on a section through the highest pressure.
 
     ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
@@ -93,32 +93,32 @@ def plot_contact(path: Path, model, point) -> None:
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
-    x = model.contact.x
-    heights = model.surface.heights - model.surface.heights.mean()
+    x = prepared.contact.x
+    heights = prepared.surface.heights - prepared.surface.heights.mean()
     contact = point.balance.contact.fields
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
-    _pressure_map(figure, left, model, contact, row)
+    _pressure_map(figure, left, prepared, contact, row)
     left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
     if point.balance.film is not None and heights.shape[0] == x.size:
         _section(right, x, heights[:, row], point.balance, row)
-        right.set_title(f"section at y = {row * model.surface.spacing[1] * 1e6:.1f} µm")
-        _place_on_the_line(left, model, point, row)
+        right.set_title(f"section at y = {row * prepared.surface.spacing[1] * 1e6:.1f} µm")
+        _place_on_the_line(left, prepared, point, row)
     else:
         right.set_axis_off()
     figure.savefig(path, dpi=150)
 
 
-def _place_on_the_line(axes, model, point, row) -> None:
+def _place_on_the_line(axes, prepared, point, row) -> None:
     """Of a long line the part around the section, about twice as long as wide, and where it lies."""
-    step, (across, along) = model.surface.spacing[1], model.surface.size
-    if model.lines is None or along < WHOLE * across:
+    step, (across, along) = prepared.surface.spacing[1], prepared.surface.size
+    if prepared.lines is None or along < WHOLE * across:
         return
     first = min(max(row * step - across, 0.0), along - 2 * across)
     axes.set_ylim(first * 1e6, (first + 2 * across) * 1e6)
     axes.set_ylabel(f"y (µm) on a line of {1e3 * point.uncertainty.length:.3g} mm; dotted: section")
 
 
-def _pressure_map(figure, axes, model, contact, row) -> None:
+def _pressure_map(figure, axes, prepared, contact, row) -> None:
     if contact is None:
         axes.text(
             0.5,
@@ -130,7 +130,7 @@ def _pressure_map(figure, axes, model, contact, row) -> None:
         )
         axes.set_axis_off()
         return
-    x, (_, dy), half_width = model.contact.x, model.surface.spacing, model.scene.bodies.half_width
+    x, (_, dy), half_width = prepared.contact.x, prepared.surface.spacing, prepared.scene.bodies.half_width
     image = axes.imshow(
         contact.pressure.T / 1e9,
         origin="lower",

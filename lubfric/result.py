@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import math
-import time
 from dataclasses import dataclass, field, replace
 
 from .deterministic.refine import Refined
-from .model import Model
-from .oil.describe import estimate_in_words
 from .one_way.point import OneWay
-from .point.adapt import Solved
 from .point.balance import Balance
 from .point.decision import Decision
-from .point.judge import judged_validity
 from .report import Report
 from .sampling.line_friction import LineStart
 from .sampling.uncertainty import FieldErrors, Uncertainty
@@ -82,43 +76,3 @@ class FrictionResult(PointShown):
     def without_fields(self) -> FrictionResult:
         """Its numbers alone."""
         return replace(self, balance=None, deterministic=None, one_way=(), line=None)
-
-
-def result_of(model: Model, speed: float, point: Solved, begun: float) -> FrictionResult:
-    """The numbers of ``point``; ``begun``: when its solve did, by `time.perf_counter`."""
-    scene, balance = model.scene, point.balance
-    contact, film, found = balance.contact, balance.film, balance.forces
-    central = film.central_film if film is not None else math.nan
-    separated = balance.contact_load == 0
-    passed = judged_validity(model, speed, balance)
-    oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
-    known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
-    sq = model.surface.sq
-    return FrictionResult(
-        speed=speed,
-        coefficient=found.coefficient,
-        contact_load=balance.contact_load,
-        film_load=balance.film_load,
-        shear_force=found.shear.total,
-        couette_force=found.shear.couette,
-        rolling_force=found.shear.rolling,
-        boundary_force=found.boundary,
-        real_contact_area_fraction=contact.real_contact_area_fraction,
-        real_contact_area=float(contact.contact_fraction.sum() * (contact.x[1] - contact.x[0]) * scene.bodies.width),
-        plastic_area_fraction=contact.plastic_area_fraction,
-        min_film=film.min_film if film is not None else math.nan,
-        central_film=central,
-        mean_gap=contact.mean_film if separated else contact.mean_gap,
-        film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
-        inlet_film_factor=found.heat.film_factor,
-        flash_temperature_rise=found.heat.flash,
-        film_temperature_rise=found.heat.film,
-        load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
-        volume_residual=0.0 if film is None or separated else contact.volume_residual,
-        seconds=time.perf_counter() - begun,
-        report=replace(balance.report, notes=notes),
-        balance=balance,
-        decision=point.decision,
-        validity=passed,
-    )

@@ -13,9 +13,9 @@ from . import validate
 from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
-from .model import prepare
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import plot_contact, plot_stribeck
+from .prepared import prepare
 from .run_folder import RunFolder, run_folder
 from .scene import FASTEST, Scene
 from .show.report import report_page
@@ -44,8 +44,8 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     asked, chosen = _asked(scene, speeds, fields)
     begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")
-    model = prepare(scene)
-    say(model.surface.describe())
+    prepared = prepare(scene)
+    say(prepared.surface.describe())
 
     def on_point(done, total, speed, outcome):
         counted[0] = done
@@ -54,15 +54,15 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     def kept() -> str:
         return f"interrupted; {counted[0]} of {total} points are kept in {out}: the same command goes on from there"
 
-    with keeping(kept), run_folder(out, fingerprint(model, asked, chosen)) as folder:
+    with keeping(kept), run_folder(out, fingerprint(prepared, asked, chosen)) as folder:
         curve = stribeck(
-            model, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
+            prepared, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
         )
-        _write(folder, model, curve, chosen)
-        record = curve_record(model, curve, time.perf_counter() - begun)
-        _write_more(folder, model, curve, record, more)
+        _write(folder, prepared, curve, chosen)
+        record = curve_record(prepared, curve, time.perf_counter() - begun)
+        _write_more(folder, prepared, curve, record, more)
         folder.finish(record)
-    for text in curve.validity:
+    for text in (*curve.validity, *_doubts(curve)):
         say(text)
     if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
         say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
@@ -70,6 +70,14 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     if curve.errors:
         raise _unsolved(curve)
     return 0
+
+
+def _doubts(curve) -> tuple[str, ...]:
+    """What the errors of f say beside numbers: at how many speeds, and at the first of them in full."""
+    told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
+    if not told:
+        return ()
+    return (f"at {told[0][0]:g} m/s and {len(told) - 1} other speeds, how sure f is: {'; '.join(told[0][1])}",)
 
 
 def _unsolved(curve) -> ConvergenceError:
@@ -92,36 +100,36 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
     return asked, chosen
 
 
-def _write(folder: RunFolder, model, curve, chosen) -> None:
+def _write(folder: RunFolder, prepared, curve, chosen) -> None:
     """All but the result."""
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), model.scene.name)
+        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), prepared.scene.name)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))
-        folder.write("fields.npz", fields_bytes(model, points))
-        folder.draw("contact.png", plot_contact, model, points[0])
+        folder.write("fields.npz", fields_bytes(prepared, points))
+        folder.draw("contact.png", plot_contact, prepared, points[0])
     whole = [p for p in curve.points if p is not None and p.deterministic is not None]
     if whole:
         whole.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", deterministic_bytes([p.deterministic.result for p in whole]))
-        folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, model.scene.bodies.half_width)
+        folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, prepared.scene.bodies.half_width)
 
 
-def _write_more(folder: RunFolder, model, curve, record: dict, more: Extras) -> None:
+def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:
     """The page and the files for ParaView, where they are asked for."""
     if more.vtk:
         touching = [p for p in curve.points if p is not None and p.shows_contact]
         for i, point in enumerate(touching):
-            folder.write(f"contact_{i}.vtk", vtk_bytes(model, point))
+            folder.write(f"contact_{i}.vtk", vtk_bytes(prepared, point))
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
     if more.report:
         captions = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
         images = {text: (folder.path / name).read_bytes() for name, text in captions.items() if name in folder.written}
-        folder.write("report.html", report_page(model, curve, record, images))
+        folder.write("report.html", report_page(prepared, curve, record, images))
 
 
 def parse_speeds(option: str, text: str | None) -> list[float]:

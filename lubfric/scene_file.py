@@ -16,7 +16,7 @@ from .history.read import history
 from .lubricant import Lubricant
 from .plausible import told_slips
 from .roughness import GENERATED, Roughness, check_keys, named
-from .scene import Bodies, Motion, Numerics, Patch, Scene
+from .scene import Bodies, ContactDomain, Motion, Numerics, Scene
 from .short_forms import resolve, short_keys
 
 SECTIONS = {
@@ -25,7 +25,7 @@ SECTIONS = {
     "motion": Motion,
     "surface": Roughness,
     "counterface": Roughness,
-    "contact": Patch,
+    "contact": ContactDomain,
     "numerics": Numerics,
     "transient": Transient,
 }

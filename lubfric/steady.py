@@ -6,20 +6,19 @@ import math
 import time
 
 from . import validate
-from .deterministic.answer import deterministic_result
-from .deterministic.point import deterministic_point
+from .answer.deterministic import deterministic_answer
+from .answer.load_sharing import load_sharing_answer
+from .answer.one_way import one_way_answer
 from .errors import InputError
-from .model import Model, at_tolerance
-from .one_way.answer import one_way_point, one_way_result
 from .plausible import told_doubts
+from .prepared import Prepared, at_tolerance
 from .result import FrictionResult
-from .sampling.answer import answered
 from .scene import FASTEST, Scene
 from .validity.entry import refused
 
 
 def friction(
-    scene: Scene | Model,
+    scene: Scene | Prepared,
     speed: float | None = None,
     *,
     start: FrictionResult | None = None,
@@ -40,28 +39,27 @@ def friction(
     ``start``: the result of a neighbouring speed of the same map, for a warm start.
     ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
     solved; on a long line they are those of the line, on its cells.
-    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.volume_tolerance, divided by the share
+    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.tolerances.balance, divided by the share
     of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
     not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
     ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always
     raises).
     """
     begun = time.perf_counter()
-    ready = at_tolerance(scene, tolerance, model)
+    prepared = at_tolerance(scene, tolerance, model)
     if speed is None:
-        speed = ready.scene.motion.entrainment_speed
+        speed = prepared.scene.motion.entrainment_speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
         validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
-    if ready.scene.numerics.model == "deterministic" and speed != 0:
-        found = deterministic_point(ready.scene, ready.surface, speed, start.deterministic if start else None)
-        result = deterministic_result(ready, speed, found, begun)
-    elif ready.scene.numerics.closure == "one-way" and speed != 0:
-        shared = one_way_point(ready.scene, ready.surface, speed, start.one_way if start else ())
-        result = one_way_result(ready, speed, shared, begun)
-    else:
-        with told_doubts(ready.scene):
-            result = answered(ready, speed, start, fields, begun)
+    numerics = prepared.scene.numerics
+    with told_doubts(prepared.scene):
+        if numerics.model == "deterministic" and speed != 0:
+            result = deterministic_answer(prepared, speed, start, begun)
+        elif numerics.closure == "one-way" and speed != 0:
+            result = one_way_answer(prepared, speed, start, begun)
+        else:
+            result = load_sharing_answer(prepared, speed, start, fields, begun)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "
@@ -70,5 +68,5 @@ def friction(
         )
     if raise_on_failure:
         result.report.raise_if_failed(result)
-        refused(result.validity, ready.scene.numerics.accept, result)
+        refused(result.validity, numerics.accept, result)
     return result

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .model import Model
+from .prepared import Prepared
 from .result import FrictionResult
 
 FIELDS = ("height", "contact_pressure", "gap", "film_thickness", "film_pressure")
 
 
-def vtk_bytes(model: Model, point: FrictionResult) -> bytes:
+def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
     """Height [m], contact pressure [Pa], gap [m]; constant along the line: film thickness [m], film pressure [Pa].
 
     At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface).
@@ -19,8 +19,8 @@ def vtk_bytes(model: Model, point: FrictionResult) -> bytes:
     x, y = point.x, point.y
     shape = (x.size, y.size)
     found = {"contact_pressure": point.pressure, "gap": point.gap}
-    if model.surface.shape == shape:
-        found["height"] = model.surface.heights - np.nanmean(model.surface.heights)
+    if prepared.surface.shape == shape:
+        found["height"] = prepared.surface.heights - np.nanmean(prepared.surface.heights)
     film = None if point.balance is None else point.balance.film
     if film is not None:
         found["film_thickness"] = np.repeat(film.film_at(x)[:, None], y.size, axis=1)

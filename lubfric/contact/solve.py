@@ -50,19 +50,15 @@ def solve_contact(
     max_iterations : after it the solve gives up
     raise_on_failure : False returns the unconverged result with its report
 
-    Notes
-    -----
-    Returns a `ContactResult`. Its ``report.residuals`` are computed from the returned pressure alone,
-    in double precision, after the iteration has ended; with L the length of
-    `lubfric.contact.residual.length_scale`:
+    Returns a `ContactResult`. Its ``report.residuals`` are computed from the returned pressure alone, in double
+    precision, after the iteration has ended; with L the length of `lubfric.contact.residual.length_scale`:
 
     - complementarity ``Σ p m / (L Σ p)``, misfit m = |gap|, or max(gap, 0) where p = H;
     - penetration ``max(-gap)/L`` over cells with p < H;
-    - load ``|mean p - mean_pressure|/mean_pressure``, or volume
-      ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``.
+    - load ``|mean p - mean_pressure|/mean_pressure``, or volume ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``.
 
-    Converged when the largest is <= tolerance. Raises `InputError` before any work, and
-    `ConvergenceError` with report and result when the tolerance is not met.
+    Converged when the largest is <= tolerance. Raises `InputError` before any work, and `ConvergenceError` with report
+    and result when the tolerance is not met.
     """
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     check_control(problem, mean_pressure, mean_gap)

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..console import say
 from ..errors import ConvergenceError
-from ..model import prepare
 from ..output import UNITS, plain
+from ..prepared import prepare
 from ..run_folder import run_folder
 from ..run_sweep import parse_speeds
 from ..scene import Scene, scene_as_dict
@@ -27,10 +27,10 @@ from .traction import TractionResult, traction
 def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     """Solve, write traction.csv, traction.png and, last, result.json to ``out``, and say what does not hold."""
     begun = time.perf_counter()
-    model, asked = prepare(scene), parse_speeds("--ratios", ratios)
-    say(model.surface.describe())
-    with run_folder(out, fingerprint(model, asked, "traction")) as folder:
-        found = traction(model, asked, on_point=_progress, raise_on_failure=False)
+    prepared, asked = prepare(scene), parse_speeds("--ratios", ratios)
+    say(prepared.surface.describe())
+    with run_folder(out, fingerprint(prepared, asked, "traction")) as folder:
+        found = traction(prepared, asked, on_point=_progress, raise_on_failure=False)
         folder.clear()
         folder.write("traction.csv", _csv(found))
         if len(found.errors) < found.ratio.size:

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..model import Model, at_tolerance, prepare, scene_of
+from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from ..steady import FrictionResult, friction
@@ -55,7 +55,7 @@ class TractionResult:
 
 
 def traction(
-    scene: Scene | Model,
+    scene: Scene | Prepared,
     ratios,
     *,
     speed: float | None = None,
@@ -76,14 +76,14 @@ def traction(
     ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
     own = scene_of(scene).motion.entrainment_speed
     speed = own if speed is None else validate.number("speed", speed, "m/s")
-    ready = at_tolerance(scene, tolerance, model)
+    prepared = at_tolerance(scene, tolerance, model)
     points: list[FrictionResult | None] = [None] * ratios.size
     errors: dict[int, Exception] = {}
     start = None
     for done, i in enumerate(np.argsort(np.abs(ratios), kind="stable"), start=1):
-        asked = ready.scene.with_(motion={"slide_roll_ratio": float(ratios[i])})
+        asked = prepared.scene.with_(motion={"slide_roll_ratio": float(ratios[i])})
         try:
-            found = friction(prepare(asked, like=ready), speed, start=start)
+            found = friction(prepare(asked, like=prepared), speed, start=start)
         except LubfricError as error:
             errors[int(i)] = error
         else:

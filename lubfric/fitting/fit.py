@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputError
-from ..model import scene_of
+from ..prepared import scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from .measured import Measured
@@ -44,7 +44,9 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     from scipy.optimize import least_squares
 
     if scene_of(scene) is not scene:
-        raise InputError("a fit changes a scene; allowed: what lubfric.load_scene returned, not a model of it")
+        raise InputError(
+            "a fit changes a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
+        )
     if not isinstance(measured, Measured):
         raise InputError(
             f"measured = {measured!r}; allowed: lubfric.read_measured(...) or lubfric.Measured(x, coefficient)"

@@ -1,4 +1,4 @@
-"""The model's friction at the measured points, for any values of the parameters."""
+"""The computed friction at the measured points, for any values of the parameters."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import ConvergenceError
-from ..model import Model, prepare
+from ..prepared import Prepared, prepare
 from ..scene import Scene
 from ..steady import friction
 from ..sweep import stribeck
@@ -27,7 +27,7 @@ SHARING = (
 class Predictor:
     """f of ``scene`` at the points of ``measured`` for values of ``parameters``, each curve to ``tolerance``.
 
-    like: a model whose map and operator or curve serve all values, or None where they depend on these.
+    like: a prepared scene whose map and operator or curve serve all values, or None where they depend on these.
     """
 
     scene: Scene
@@ -35,23 +35,25 @@ class Predictor:
     parameters: Parameters
     tolerance: float
     executor: object = None
-    like: Model | None = field(default=None, repr=False)
+    like: Prepared | None = field(default=None, repr=False)
 
     def at(self, unit: np.ndarray) -> np.ndarray:
         """f (n,) at positions of the parameters between their bounds. Raises `ConvergenceError` when a point fails."""
         scene = self.parameters.into(self.scene, self.parameters.values(np.clip(unit, 0.0, 1.0)))
         scene = scene.with_(numerics={"tolerance": self.tolerance})
-        model = prepare(scene) if self.like is None else prepare(scene, like=self.like)
+        prepared = prepare(scene) if self.like is None else prepare(scene, like=self.like)
         if self.measured.over == SPEED:
-            return stribeck(model, self.measured.x, self.executor).coefficient
-        return _traction(model, self.measured.x)
+            return stribeck(prepared, self.measured.x, self.executor).coefficient
+        return _traction(prepared, self.measured.x)
 
 
-def _traction(model: Model, slips) -> np.ndarray:
+def _traction(prepared: Prepared, slips) -> np.ndarray:
     """f at slide-roll ratios, each started from its neighbour."""
     found, start = [], None
     for slip in slips:
-        start = friction(prepare(model.scene.with_(motion={"slide_roll_ratio": float(slip)}), like=model), start=start)
+        start = friction(
+            prepare(prepared.scene.with_(motion={"slide_roll_ratio": float(slip)}), like=prepared), start=start
+        )
         found.append(start.coefficient)
     return np.array(found)
 

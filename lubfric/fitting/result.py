@@ -83,7 +83,7 @@ class FitResult:
 
     @property
     def band(self) -> tuple[np.ndarray, np.ndarray]:
-        """(low, high) of f at the measured points: where the model's curve lies with 95 %."""
+        """(low, high) of f at the measured points: where the computed curve lies with 95 %."""
         reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
         return self.predicted - reach, self.predicted + reach
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import overload
+
+import numpy as np
 
 from .. import validate
 from ..errors import InputError
 from .pressure import BASES, Estimate, gold, so_klaus
-from .temperature import CELSIUS, ViscosityTable, Walther, checked_temperature
+from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index
 
 AT_15 = 15 + CELSIUS  # K
@@ -16,6 +20,7 @@ DENSITY_SLOPE = {"mineral": 0.64, "pao": 0.62, "ester": 0.72, "polyglycol": 0.78
 CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 15 %
 ESTIMATES = ("so-klaus", "gold")
 STEP = 0.05  # K, of a central difference
+Temperatures = Sequence[float] | np.ndarray
 
 
 @dataclass(frozen=True)
@@ -57,17 +62,26 @@ class Oil:
         if self.estimate == "so-klaus" and self.base != "mineral":
             raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
 
-    def kinematic_viscosity(self, temperature: float) -> float:
-        """nu [m²/s] at ``temperature`` [K]."""
-        return self.viscosity_law(temperature)
+    @overload
+    def kinematic_viscosity(self, temperature: float) -> float: ...
+    @overload
+    def kinematic_viscosity(self, temperature: Temperatures) -> np.ndarray: ...
+    def kinematic_viscosity(self, temperature: float | Temperatures) -> float | np.ndarray:
+        """nu [m²/s] at ``temperature`` [K], one or an array of them."""
+        return at_each(self.viscosity_law, temperature)
 
-    def density_at(self, temperature: float) -> float:
-        """rho [kg/m³] at ``temperature`` [K]: that at 15 °C less ``density_slope`` times the distance from there.
+    @overload
+    def density_at(self, temperature: float) -> float: ...
+    @overload
+    def density_at(self, temperature: Temperatures) -> np.ndarray: ...
+    def density_at(self, temperature: float | Temperatures) -> float | np.ndarray:
+        """rho [kg/m³] at ``temperature`` [K], one or an array of them: that at 15 °C less ``density_slope`` times the
+        distance from there.
 
         A straight line, good to some 0.5 % between 0 and 100 °C.
         """
         slope = DENSITY_SLOPE[self.base] if self.density_slope is None else self.density_slope
-        return self.density_15 - slope * (checked_temperature(temperature) - AT_15)
+        return at_each(lambda t: self.density_15 - slope * (checked_temperature(t) - AT_15), temperature)
 
     @property
     def density_15(self) -> float:
@@ -80,8 +94,12 @@ class Oil:
         GPa)."""
         return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
 
-    def viscosity(self, temperature: float) -> float:
-        """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K]."""
+    @overload
+    def viscosity(self, temperature: float) -> float: ...
+    @overload
+    def viscosity(self, temperature: Temperatures) -> np.ndarray: ...
+    def viscosity(self, temperature: float | Temperatures) -> float | np.ndarray:
+        """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:

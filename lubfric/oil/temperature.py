@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+
+import numpy as np
 
 from .. import validate
 from ..errors import InputError
@@ -21,6 +24,14 @@ def checked_temperature(temperature: float, name: str = "temperature") -> float:
         return validate.number(name, temperature, "K", minimum=RANGE[0], maximum=RANGE[1])
     except InputError as error:
         raise InputError(f"{error}{hint}") from None
+
+
+def at_each(function: Callable[[float], float], temperature) -> float | np.ndarray:
+    """``function`` of one temperature [K], a float; of an array of them, an array of its shape."""
+    if np.ndim(temperature) == 0:
+        return function(temperature)
+    temperatures = validate.array("temperature", temperature, "K", ndim=np.ndim(temperature))
+    return np.array([function(t) for t in temperatures.ravel().tolist()]).reshape(temperatures.shape)
 
 
 @dataclass(frozen=True)

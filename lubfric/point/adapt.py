@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from ..errors import ConvergenceError
 from ..film.ladder import given_level, level_for
 from ..line_contact import LineContact
-from ..model import Model
+from ..prepared import Prepared
 from ..report import CONVERGED, Report
 from ..rough.contract import RoughContact
 from .balance import Balance, separated
@@ -30,33 +30,33 @@ class Solved:
     contact: RoughContact
 
 
-def solved(model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
-    """``model`` at ``speed`` [m/s] with no more film, contact and cells than f needs.
+def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
+    """``prepared`` at ``speed`` [m/s] with no more film, contact and cells than f needs.
 
     First the film of the whole load: where it clears the summits, no contact is solved. Else film and contact on the
     coarsest grid, then on finer ones until what is left is within its share. ``given_grid``: on the scene's own.
     """
-    numerics = model.scene.numerics
+    numerics = prepared.scene.numerics
     if speed == 0 or numerics.film_level == "none":
-        return _dry(model)
+        return _dry(prepared)
     if numerics.contact_level == "none":
-        return _film_alone(model, speed, start)
+        return _film_alone(prepared, speed, start)
     notes: tuple[str, ...] = ()
-    if not _certainly_touching(model, speed):
+    if not _certainly_touching(prepared, speed):
         try:
-            found = _film_alone(model, speed, start)
+            found = _film_alone(prepared, speed, start)
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the film of the whole load was not solved ({error})",)
         else:
             if found.decision.clearance is not None and found.decision.clearance >= 0:
                 return found
-    found = _in_contact(model, speed, start, given_grid)
+    found = _in_contact(prepared, speed, start, given_grid)
     return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
 
 
-def _dry(model: Model) -> Solved:
+def _dry(prepared: Prepared) -> Solved:
     """No film: the contact carries the whole load under the undeformed cylinder."""
-    scene, contact = model.scene, model.contact
+    scene, contact = prepared.scene, prepared.contact
     state = contact.close(contact.x**2 / (2 * scene.bodies.radius), scene.bodies.load)
     contact.check(state)
     report = Report(
@@ -64,29 +64,29 @@ def _dry(model: Model) -> Solved:
         CONVERGED,
         0,
         0.0,
-        scene.numerics.volume_tolerance,
+        scene.numerics.tolerances.balance,
         residuals={"volume": 0.0, "load": 0.0},
         notes=("no entrainment: all contact",),
     )
     balance = Balance(0.0, scene.bodies.load, None, state, report, dry_forces(scene), None)
-    return Solved(balance, dry(model), contact)
+    return Solved(balance, dry(prepared), contact)
 
 
-def _certainly_touching(model: Model, speed: float) -> bool:
+def _certainly_touching(prepared: Prepared, speed: float) -> bool:
     """Twice Moes' film over an undeformed cylinder, thicker than any film everywhere, would not clear the summits."""
-    bodies, x = model.scene.bodies, model.contact.x
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, model.scene.lubricant)
+    bodies, x = prepared.scene.bodies, prepared.contact.x
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
     film = SAFE_FILM * line.moes_film
-    return model.contact.close(film + x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
+    return prepared.contact.close(film + x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
 
 
-def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
+def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solved:
     """The film with the whole load, at the level and on the cells that f asks for."""
-    numerics, load = model.scene.numerics, model.scene.bodies.load
-    settings = Settings(model.film_levels[0], film_alone_tolerance(numerics), numerics.volume_tolerance)
-    point = OperatingPoint(model, speed, model.contact, settings)
+    numerics, load = prepared.scene.numerics, prepared.scene.bodies.load
+    settings = Settings(prepared.film_levels[0], film_alone_tolerance(numerics), numerics.tolerances.balance)
+    point = OperatingPoint(prepared, speed, prepared.contact, settings)
     allowed = allowed_left_out(numerics, 1.0)
-    level, left_out = level_for(model.film_levels, numerics, point.line(load), allowed)
+    level, left_out = level_for(prepared.film_levels, numerics, point.line(load), allowed)
     point, film = replace(point, settings=replace(settings, level=level)), start.film if start else None
     while True:
         balance = separated(point, film)
@@ -94,22 +94,22 @@ def _film_alone(model: Model, speed: float, start: Balance | None) -> Solved:
         if cells == point.settings.film_cells:
             break
         point, film = replace(point, settings=replace(point.settings, film_cells=cells)), balance.film
-    return Solved(balance, alone(Stage(point, balance, left_out)), model.contact)
+    return Solved(balance, alone(Stage(point, balance, left_out)), prepared.contact)
 
 
-def _in_contact(model: Model, speed: float, start: Balance | None, given_grid: bool) -> Solved:
+def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_grid: bool) -> Solved:
     """Film and contact: first with the level that a neighbour's film load needs, or the simplest, which costs next to
     nothing and tells what is needed."""
-    numerics = model.scene.numerics
-    level = given_level(model.film_levels, numerics) or model.film_levels[0]
-    settings = Settings(level, first_film_tolerance(numerics), numerics.volume_tolerance)
-    point = OperatingPoint(model, speed, model.contact, settings)
+    numerics = prepared.scene.numerics
+    level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
+    settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)
+    point = OperatingPoint(prepared, speed, prepared.contact, settings)
     if start is not None and start.film is not None and start.contact_load > 0:
         allowed, line = allowed_left_out(numerics, start.forces.sensitivity), point.line(start.film_load)
-        level, _ = level_for(model.film_levels, numerics, line, allowed)
+        level, _ = level_for(prepared.film_levels, numerics, line, allowed)
         point = replace(point, settings=replace(settings, level=level))
     own = given_grid or numerics.grid == "given" or numerics.model == "full"
-    grids = [model.contact] if own else coarser_grids(model.contact, model.surface.sq)
+    grids = [prepared.contact] if own else coarser_grids(prepared.contact, prepared.surface.sq)
     stage, index, error = on_enough_cells(point, grids, start)
     decision = in_contact(stage, error, finest=index == len(grids) - 1)
     return Solved(stage.balance, decision, stage.point.contact)

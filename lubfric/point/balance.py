@@ -84,8 +84,8 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Lubricated:
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual| <= settings.volume_tolerance. ``start``: a neighbour, its split moved as if a film
-    at the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
+    construction. Stops at |residual| <= settings.balance_tolerance. ``start``: a neighbour, its split moved as if a
+    film at the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
@@ -95,7 +95,7 @@ def balanced(point: OperatingPoint, start: Balance | None = None) -> Lubricated:
         begin if by_load else begin - THICKER,
         step=FIRST_STEP if by_load and start is None else NEXT_STEP,
         bounds=BOUNDS,
-        tolerance=point.settings.volume_tolerance,
+        tolerance=point.settings.balance_tolerance,
         slope=start.slope if start else None,
         first=first,
     )
@@ -150,7 +150,7 @@ def _balance(point: OperatingPoint, found: Trial, residuals, history, status, no
         status=status,
         iterations=len(history),
         residual=min(history),
-        tolerance=point.settings.volume_tolerance,
+        tolerance=point.settings.balance_tolerance,
         residuals=residuals,
         history=tuple(history),
         evaluations=len(history),

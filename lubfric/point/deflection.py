@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .. import budget
-from ..model import Model
+from ..prepared import Prepared
 from .adapt import Solved, solved
 from .balance import Balance
 
@@ -35,36 +35,36 @@ def own_pressure_error(scene, balance: Balance) -> float:
 
 
 def solved_as_deflected(
-    model: Model, speed: float, start: Balance | None = None, *, given_grid: bool = False
-) -> tuple[Model, Solved]:
-    """``model`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance needs
-    it, and its solution (`solved`). A loose solve by the film's own pressure that is far beyond its share goes to
+    prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False
+) -> tuple[Prepared, Solved]:
+    """``prepared`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance
+    needs it, and its solution (`solved`). A loose solve by the film's own pressure that is far beyond its share goes to
     the whole load at once; the choice does not depend on ``start``."""
-    if model.scene.numerics.film_deflection != "auto":
-        return model, solved(model, speed, start, given_grid=given_grid)
-    limit, error, option = budget.DEFLECTION * model.scene.numerics.tolerance, 0.0, "hydrodynamic"
+    if prepared.scene.numerics.film_deflection != "auto":
+        return prepared, solved(prepared, speed, start, given_grid=given_grid)
+    limit, error, option = budget.DEFLECTION * prepared.scene.numerics.tolerance, 0.0, "hydrodynamic"
     if speed != 0:
-        error = own_pressure_error(model.scene, solved(_loose(model), speed).balance)
+        error = own_pressure_error(prepared.scene, solved(_loose(prepared), speed).balance)
     if error <= CERTAIN * limit:
-        chosen = deflected_by(model, option)
+        chosen = deflected_by(prepared, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
-        error = own_pressure_error(model.scene, found.balance)
+        error = own_pressure_error(prepared.scene, found.balance)
     if error > limit:
-        chosen, option = deflected_by(model, "scaled"), "scaled"
+        chosen, option = deflected_by(prepared, "scaled"), "scaled"
         found = solved(chosen, speed, start, given_grid=given_grid)
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
     return chosen, replace(found, decision=replace(found.decision, deflection=told))
 
 
-def _loose(model: Model) -> Model:
-    """``model`` by its film's own pressure, to a tolerance that costs little and tells whether it will do."""
-    return replace(model, scene=model.scene.with_(numerics=LOOSE))
+def _loose(prepared: Prepared) -> Prepared:
+    """``prepared`` by its film's own pressure, to a tolerance that costs little and tells whether it will do."""
+    return replace(prepared, scene=prepared.scene.with_(numerics=LOOSE))
 
 
-def deflected_by(model: Model, option: str) -> Model:
-    """``model`` with its film deflected by the pressure that ``option`` names; contact and map are the same."""
-    return replace(model, scene=model.scene.with_(numerics={"film_deflection": option}))
+def deflected_by(prepared: Prepared, option: str) -> Prepared:
+    """``prepared`` with its film deflected by the pressure that ``option`` names; contact and map are the same."""
+    return replace(prepared, scene=prepared.scene.with_(numerics={"film_deflection": option}))
 
 
 def in_words(error: float, limit: float, option: str) -> str:

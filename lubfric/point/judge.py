@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..model import Model
+from ..prepared import Prepared
 from ..validity.bodies import of_motion
 from ..validity.entry import Validity
 from ..validity.film import of_deflection, of_pressure, of_thickness
@@ -16,11 +16,11 @@ from .deflection import strip_rise
 STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
 
 
-def judged_validity(model: Model, speed: float, balance: Balance) -> tuple[Validity, ...]:
-    """Entries for all that does not hold at ``balance``; those of bodies and map (`Model.known`) first."""
-    scene, film = model.scene, balance.film
+def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:
+    """Entries for all that does not hold at ``balance``; those of bodies and map (`Prepared.known`) first."""
+    scene, film = prepared.scene, balance.film
     thickness = film.central_film if film is not None else math.nan
-    entries = [*model.known, *of_motion(scene, speed, thickness)]
+    entries = [*prepared.known, *of_motion(scene, speed, thickness)]
     if film is not None:
         entries += of_pressure(scene.lubricant, float(film.pressure.max()))
         entries += of_thickness(scene.bodies, thickness)

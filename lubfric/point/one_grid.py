@@ -11,7 +11,7 @@ from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
 from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
-from .tolerances import allowed_left_out, contact_tolerance, film_tolerance, least_cells, volume_tolerance
+from .tolerances import allowed_left_out, balance_tolerance, contact_tolerance, film_tolerance, least_cells
 
 ROUNDS = 8  # each with a higher level or tighter tolerances
 
@@ -48,15 +48,15 @@ def needed_settings(stage: Stage) -> Settings | None:
     """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its
     own will do. Beside a level given, the levels are those that leave out no more than is allowed."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
-    numerics, levels = point.scene.numerics, point.model.film_levels
+    numerics, levels = point.scene.numerics, point.prepared.film_levels
     sensitivity = max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
     allowed = allowed_left_out(numerics, sensitivity)
     if given_level(levels, numerics) is None and not stage.left_out.total <= allowed:
         lowest = lowest_level(levels, point.line(balance.film_load), allowed)[0]
         level = higher(levels, settings.level, lowest)
         if level != settings.level:  # the sensitivity found without it is no guide to tolerances
-            return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.film_tolerance))
-    film, volume = film_tolerance(numerics, sensitivity), volume_tolerance(numerics, sensitivity)
+            return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.tolerances.film))
+    film, volume = film_tolerance(numerics, sensitivity), balance_tolerance(numerics, sensitivity)
     cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
@@ -66,7 +66,7 @@ def needed_settings(stage: Stage) -> Settings | None:
     return replace(
         settings,
         film_tolerance=min(film, settings.film_tolerance),
-        volume_tolerance=min(volume, budget.SLACK * settings.volume_tolerance),
+        balance_tolerance=min(volume, budget.SLACK * settings.balance_tolerance),
         film_cells=cells,
         contact_tolerance=contact,
     )

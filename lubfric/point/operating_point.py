@@ -12,7 +12,7 @@ from ..film.contract import Film, FilmLevel
 from ..heat.point import film_lubricant
 from ..line_contact import LineContact
 from ..lubricant import Lubricant
-from ..model import Model
+from ..prepared import Prepared
 from ..rough.contract import ContactState, RoughContact
 from ..scene import Scene
 
@@ -24,7 +24,7 @@ class Settings:
 
     level: FilmLevel
     film_tolerance: float
-    volume_tolerance: float
+    balance_tolerance: float
     film_cells: int = 0
     contact_tolerance: float | None = None
 
@@ -61,7 +61,7 @@ class Trial(Start):
 class OperatingPoint:
     """A model at one speed [m/s], not 0, to ``settings``, on ``contact``: the model's own, coarser, or a part of it."""
 
-    model: Model
+    prepared: Prepared
     speed: float
     contact: RoughContact
     settings: Settings
@@ -69,7 +69,7 @@ class OperatingPoint:
     @property
     def scene(self) -> Scene:
         """Of the model."""
-        return self.model.scene
+        return self.prepared.scene
 
     def line(self, film_load: float) -> LineContact:
         """The smooth line contact of a film that carries ``film_load`` [N]; with Johnson's modulus E' F_H/F_T where the
@@ -117,10 +117,8 @@ class OperatingPoint:
 
     def guessed_split(self) -> float:
         """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""
-        scene, thickness = self.scene, max(2 * self.model.surface.sq, 1e-12)
-        bodies = scene.bodies
-        whole = 4.895 * scene.lubricant.viscosity * abs(self.speed) * bodies.radius * bodies.width
-        share = min(whole / (thickness * bodies.load), 0.9)
+        thickness = max(2 * self.prepared.surface.sq, 1e-12)
+        share = min(self.line(self.scene.bodies.load).rigid_film / thickness, 0.9)
         return math.log(share / (1 - share))
 
     def film(self, film_load: float, start: Start, imposed=None) -> Film:

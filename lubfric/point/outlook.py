@@ -32,7 +32,7 @@ def outlook(scene: Scene, surface: Surface, speed: float) -> str:
         tolerance=numerics.tolerance,
         film_words=level.words,
         left_out=left_out,
-        film_tolerance=numerics.film_tolerance if level.numerical else 0.0,
+        film_tolerance=numerics.tolerances.film if level.numerical else 0.0,
     ).film_text
     if level.numerical and 0 < left_out.total < 10:
         words += f" (rigid: {100 * left_out.total:.2g} % off, budget {100 * allowed:.2g} %)"

@@ -12,8 +12,8 @@ from .operating_point import OperatingPoint, Settings
 
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
     """Of a numerical film, where ``sensitivity`` of its error reaches f."""
-    if numerics.ehl_tolerance is not None:
-        return numerics.film_tolerance
+    if numerics.film_tolerance is not None:
+        return numerics.tolerances.film
     share = budget.FILM_GRID * numerics.tolerance / sensitivity
     return max(min(share, budget.LOOSEST_FILM), budget.TIGHTEST_FILM)
 
@@ -21,19 +21,19 @@ def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
 def film_alone_tolerance(numerics: Numerics) -> float:
     """Of a numerical film without contact."""
     if numerics.model == "full":
-        return numerics.film_tolerance
-    return numerics.ehl_tolerance or min(budget.FILM_GRID_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
+        return numerics.tolerances.film
+    return numerics.film_tolerance or min(budget.FILM_GRID_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
 
 
 def first_film_tolerance(numerics: Numerics) -> float:
     """Of the film that tells what is needed."""
-    return budget.LOOSEST_FILM if numerics.ehl_tolerance is None else numerics.ehl_tolerance
+    return budget.LOOSEST_FILM if numerics.film_tolerance is None else numerics.film_tolerance
 
 
-def volume_tolerance(numerics: Numerics, sensitivity: float) -> float:
+def balance_tolerance(numerics: Numerics, sensitivity: float) -> float:
     """Of the volume balance; where the film is imposed on the contact it is an error of the load itself."""
     if numerics.balance_tolerance is not None or numerics.closure != "load":
-        return numerics.volume_tolerance
+        return numerics.tolerances.balance
     share = budget.BALANCE * numerics.tolerance / sensitivity
     return max(min(share, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME)
 
@@ -48,7 +48,7 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> 
     of stresses that no oil carries."""
     found = balance.forces
     resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
-    if not settings.level.numerical or numerics.ehl_tolerance is not None or resolved:
+    if not settings.level.numerical or numerics.film_tolerance is not None or resolved:
         return settings.film_cells
     return min(2 * balance.film.cells, max(budget.MOST_CELLS, settings.film_cells))
 
@@ -56,7 +56,11 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> 
 def contact_tolerance(point: OperatingPoint, state: ContactState, volume: float) -> float | None:
     """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap
     is a small part of Sq the contact's own is too loose."""
-    own, given, sq = point.model.contact.adjustable_tolerance, point.settings.contact_tolerance, point.model.surface.sq
+    own, given, sq = (
+        point.prepared.contact.adjustable_tolerance,
+        point.settings.contact_tolerance,
+        point.prepared.surface.sq,
+    )
     if state.fields is None or own is None or sq == 0 or point.scene.numerics.contact_tolerance is not None:
         return given
     enough = max(volume * state.mean_gap / sq, budget.TIGHTEST_CONTACT)

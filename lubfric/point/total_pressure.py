@@ -57,7 +57,7 @@ def film_and_contact(point: OperatingPoint, film_load: float, contact_load: floa
     if point.contact.nominally_flat:
         return point.trial(film_load, contact_load, last, Ellipse(line_load, 0.0, half_width).nodes)
     used = _first(last.film, line_load, half_width)
-    tolerance = max(0.5 * min(point.settings.volume_tolerance, point.settings.film_tolerance), TIGHTEST)
+    tolerance = max(0.5 * min(point.settings.balance_tolerance, point.settings.film_tolerance), TIGHTEST)
     history: list[float] = []
     steps: list[tuple[Ellipse, np.ndarray]] = []
     while len(history) < MOST:

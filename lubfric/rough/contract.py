@@ -14,7 +14,7 @@ import numpy as np
 
 from ..contact import ContactResult
 from ..errors import InputError
-from ..scene import Scene
+from ..scene import Bodies, Scene
 
 
 @dataclass(frozen=True)
@@ -122,6 +122,10 @@ class RoughContact:
         """The same on cells twice as long and wide, heights averaged; None where that cannot be."""
         return None
 
+    def thinned(self, every: int) -> RoughContact | None:
+        """Every ``every``-th of its cells each way, with the heights they have; None where that cannot be."""
+        return None
+
     @property
     def sq(self) -> float:
         """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""
@@ -137,6 +141,10 @@ class RoughContact:
 
     def check(self, state: ContactState) -> None:
         """Raise `InputError` where ``state``, of this contact or a part of it, is cut short by its ends."""
+
+    def foretell(self, bodies: Bodies, film: float) -> None:
+        """Raise `InputError` where it is clear, before anything is solved, that `check` will: ``film`` [m] is about
+        what the smooth film of the whole load is."""
 
     def again(self, scene: Scene, old: Scene) -> RoughContact:
         """The same map for ``scene``, of another load, motion or tolerance than ``old``, for which it was made; raises

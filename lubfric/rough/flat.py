@@ -94,7 +94,7 @@ def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
             bodies.e_prime,
             heaviest=heaviest,
             hardness=bodies.hardness,
-            tolerance=numerics.pressure_tolerance,
+            tolerance=numerics.tolerances.contact,
             accuracy=budget.CURVE * numerics.tolerance,
             operator=half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers),
         )

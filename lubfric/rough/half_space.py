@@ -11,13 +11,17 @@ from ..contact import solve_contact
 from ..errors import InputError
 from ..halfspace import HalfSpace, half_space
 from ..paper.contact import single_loop
-from ..scene import Scene
+from ..scene import Bodies, Scene
+from . import edges
 from .contract import ContactState
 from .half_space_grid import HalfSpaceGrid
 from .strip import area_half_width, area_weight, centred_axis, check_strip, weighted_mean
 
-EDGE_SHARE = 0.01
 BOUNDARY = ("free", "periodic")
+LONGER = (
+    f"allowed: at most {100 * edges.ALLOWED:g} % (make the patch longer in x: contact.shape, or for a measured map "
+    "surface.extension = 'mirror')"
+)
 
 
 @dataclass(frozen=True)
@@ -87,12 +91,22 @@ class HalfSpaceContact(HalfSpaceGrid):
         step = self.spacing[0]
         ends = [i for i in (0, -1) if abs(state.x[i] - self.x[i]) < 0.5 * step]
         share = sum(state.pressure[i].sum() for i in ends) / state.pressure.sum()
-        if share > EDGE_SHARE:
+        if share > edges.ALLOWED:
             raise InputError(
                 f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                f"patch {self.x.size * step:.3g} m long; allowed: at most {100 * EDGE_SHARE:g} % (make the "
-                "patch longer in x: "
-                "contact.shape, or for a measured map surface.extension = 'mirror')"
+                f"patch {self.x.size * step:.3g} m long; {LONGER}"
+            )
+
+    def foretell(self, bodies: Bodies, film: float) -> None:
+        """By a row of springs (`lubfric.rough.edges`)."""
+        if film > edges.FILM * self.sq or self.hardness is not None:
+            return
+        line_load = bodies.load / bodies.width
+        share = edges.edge_share(self.heights, self.spacing, self.x, line_load, bodies.radius, bodies.e_prime)
+        if share > edges.SURE * edges.ALLOWED:
+            raise InputError(
+                f"contact.shape: about {100 * share:.2g} % of the load of a dry contact would sit on the edge columns "
+                f"of a patch {self.x.size * self.spacing[0]:.3g} m long (foretold, nothing was solved); {LONGER}"
             )
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
@@ -138,5 +152,5 @@ def half_space_contact(
         operator=operator,
         width=bodies.width,
         hardness=bodies.hardness,
-        tolerance=numerics.pressure_tolerance,
+        tolerance=numerics.tolerances.contact,
     )

@@ -7,7 +7,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..roughness import Roughness, named
-from ..scene import Patch, Scene
+from ..scene import ContactDomain, Scene
 from ..surface import Surface, generate_surface, read_surface, rms_slope
 from ..surface.outliers import outliers
 from .strip import TOO_SHORT, check_strip
@@ -81,13 +81,13 @@ def check_grid(scene: Scene, surface: Surface) -> None:
     check_strip(scene, surface.spacing[0], surface.size[0])
 
 
-def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surface:
-    """A generated map on the grid of ``patch``; that of the counterface draws other numbers from the same seed."""
-    if patch.shape is None or patch.spacing is None:
+def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
+    """A generated map on the grid of ``domain``; that of the counterface draws other numbers from the same seed."""
+    if domain.shape is None or domain.spacing is None:
         raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}")
     surface = generate_surface(
-        tuple(rough.oversize * n for n in patch.shape),
-        validate.spacing("contact.spacing", patch.spacing),
+        tuple(rough.oversize * n for n in domain.shape),
+        validate.spacing("contact.spacing", domain.spacing),
         sq=rough.sq,
         correlation_length=rough.correlation_length,
         acf=rough.acf,
@@ -96,7 +96,7 @@ def generated_map(rough: Roughness, patch: Patch, name: str = "surface") -> Surf
     )
     if rough.oversize == 1:
         return surface
-    surface = surface.cropped(patch.shape).periodic("mirror", axes=(patch.geometry == "flat", True))
+    surface = surface.cropped(domain.shape).periodic("mirror", axes=(domain.geometry == "flat", True))
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
@@ -144,14 +144,14 @@ def refuse_outliers(surface: Surface) -> None:
 
 def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
     """The middle of an open map, on the contact grid, closed where the contact is periodic."""
-    patch, reach = scene.contact, 2 * REACH * scene.bodies.half_width
-    if patch.spacing is not None:
-        surface = surface.resampled(spacing=patch.spacing)
+    domain, reach = scene.contact, 2 * REACH * scene.bodies.half_width
+    if domain.spacing is not None:
+        surface = surface.resampled(spacing=domain.spacing)
     if continued:
-        length = reach if patch.shape is None else patch.shape[0] * surface.spacing[0]
-        surface = surface.continued(length) if patch.shape or patch.geometry == "cylinder" else surface
-    nx, ny = patch.shape or surface.shape
-    if patch.shape is None and patch.geometry == "cylinder":
+        length = reach if domain.shape is None else domain.shape[0] * surface.spacing[0]
+        surface = surface.continued(length) if domain.shape or domain.geometry == "cylinder" else surface
+    nx, ny = domain.shape or surface.shape
+    if domain.shape is None and domain.geometry == "cylinder":
         nx = min(nx, 2 * int(REACH * scene.bodies.half_width / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
         raise InputError(
@@ -159,4 +159,4 @@ def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
             f"{'' if continued else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
         )
-    return surface.cropped((nx, ny)).periodic("mirror", axes=(patch.geometry == "flat", True))
+    return surface.cropped((nx, ny)).periodic("mirror", axes=(domain.geometry == "flat", True))

@@ -2,6 +2,6 @@
 asked.
 
 A finite piece of a rough surface is a sample. `influence` reads its error off one solved contact, `response` carries it
-to the friction; `cells`, `generated` and `windows` make lines of any length, `grid_pair` corrects their coarse cells,
-`length` says how much is needed and `line_friction` puts it together.
+to the friction; `lubfric.lines` makes lines of any length, `grid_pair` corrects their coarse cells and `line_friction`
+puts it together.
 """

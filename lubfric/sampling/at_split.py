@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..model import Model
 from ..point.balance import Lubricated
 from ..point.forces import forces
 from ..point.operating_point import OperatingPoint, Settings, Start, Trial
+from ..prepared import Prepared
 from ..rough.contract import RoughContact
 from ..rough.strip import weighted_mean
 
 ANY = 0.1  # tolerance of a film whose grid is given
 
 
-def at(model: Model, speed: float, contact: RoughContact, balance: Lubricated) -> OperatingPoint:
+def at(prepared: Prepared, speed: float, contact: RoughContact, balance: Lubricated) -> OperatingPoint:
     """The operating point of ``balance`` on ``contact``, its film to be solved again on the grid that it has."""
-    return OperatingPoint(model, speed, contact, Settings(balance.level, ANY, 0.0, film_cells=balance.film.cells))
+    return OperatingPoint(prepared, speed, contact, Settings(balance.level, ANY, 0.0, film_cells=balance.film.cells))
 
 
 def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -> Lubricated:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
-from ..model import Model
+from ..lines.pieces import line_contact
 from ..point.adapt import Solved, solved
 from ..point.balance import Balance, Lubricated, balanced, divided, separated
 from ..point.deflection import solved_as_deflected
+from ..prepared import Prepared
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, mean_error, mean_of
 from .influence import BlockError, add_errors
 from .line_record import Pooled
-from .pieces import line_contact
 from .response import Response, touched_length
 from .sample import Anchor, Sample, lines_of_model
 
@@ -67,44 +68,53 @@ class LineFound:
     used: tuple[Used, ...] = ()
 
     @property
+    def by_half_cells(self) -> float:
+        """Estimated relative change of f on cells half as long as the scene's own; NaN where they were not reached."""
+        if self.response is None or not self.grid:
+            return math.nan
+        return self.response.relative("coefficient", mean_of(self.grid, "beyond", math.nan))
+
+    @property
     def start(self) -> LineStart:
         """For a neighbouring speed."""
         return LineStart(self.first, self.used, self.grid)
 
 
-def line_friction(model: Model, speed: float, start: LineStart | None = None) -> tuple[Model, LineFound]:
-    """``model`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
+def line_friction(prepared: Prepared, speed: float, start: LineStart | None = None) -> tuple[Prepared, LineFound]:
+    """``prepared`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
     ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found
     of the same model at a neighbouring speed."""
     before = start.grid if start else ()
-    model, first = solved_as_deflected(model, speed, start.first if start else None, given_grid=True)
-    sample = Sample(model, speed, first).with_line(model.contact, first, before)
+    prepared, first = solved_as_deflected(prepared, speed, start.first if start else None, given_grid=True)
+    sample = Sample(prepared, speed, first).with_line(prepared.contact, first, before)
     used: tuple[Used, ...] = ()
     while (length := sample.wanted()) > 0:
-        length, contact, state = _next_line(sample, length, len(used), start)
+        length, contact, state = _next_line(sample, length, used, start)
         if sample.anchor is None:
             found = solved(
-                replace(model, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
+                replace(prepared, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
             )
         else:
             found = _on_line(sample, contact, state)
         sample = sample.with_line(contact, found, before)
         used = (*used, Used(length, contact, replace(found.balance.contact, fields=None)))
-    return model, replace(_found(sample), used=used)
+    return prepared, replace(_found(sample), used=used)
 
 
-def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
-    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring
-    speed, if it is long enough, or a new one of ``length``."""
+def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
+    """The length [m] asked of the line after those ``used``, the line, and a state to start from: that of the
+    neighbouring speed, if it is long enough, or a new one of ``length``."""
+    index, before = len(used), start.used if start is not None else ()
+    known = [line.contact for line in (*used, *before) if line.contact is not None]
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
         there = start.used[index]
-        return there.length, there.contact or _line(sample.model, index, there.length), there.state
+        return there.length, there.contact or _line(sample.prepared, index, there.length, known), there.state
     state = replace(sample.first.balance.contact, fields=None, pressure=None)
-    return length, _line(sample.model, index, length), state
+    return length, _line(sample.prepared, index, length, known), state
 
 
-def _line(model: Model, index: int, length: float) -> HalfSpaceContact:
-    return line_contact(model.scene, lines_of_model(model).line(index + 1, length))
+def _line(prepared: Prepared, index: int, length: float, known: list[HalfSpaceContact]) -> HalfSpaceContact:
+    return line_contact(prepared.scene, lines_of_model(prepared).line(index + 1, length), known)
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
@@ -113,11 +123,11 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response
     gives, to first order.
     """
-    anchor, scene = sample.known, sample.model.scene
+    anchor, scene = sample.known, sample.prepared.scene
     there = _lubricated(anchor)
-    here = redivided(at(sample.model, sample.speed, anchor.contact, there), there, sample.together.contact_load)
-    point = at(sample.model, sample.speed, contact, there)
-    point = replace(point, settings=replace(point.settings, volume_tolerance=LINE_VOLUME))
+    here = redivided(at(sample.prepared, sample.speed, anchor.contact, there), there, sample.together.contact_load)
+    point = at(sample.prepared, sample.speed, contact, there)
+    point = replace(point, settings=replace(point.settings, balance_tolerance=LINE_VOLUME))
     if here.contact_load < LIGHT * scene.bodies.load:
         alone = separated(point, here.film)
         if alone.contact.volume_residual <= 0:
@@ -134,7 +144,7 @@ def _found(sample: Sample) -> LineFound:
     together, anchor, first = sample.together, sample.anchor, sample.first
     if first.balance.film is None:
         return LineFound(first, first.balance, together, sample.known.response)
-    ended = sample.reached > sample.model.scene.numerics.sampling_tolerance and sample.lines.nested
+    ended = sample.reached > sample.prepared.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
         return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
     error = add_errors(together.gap, mean_error(anchor.grid))
@@ -158,11 +168,11 @@ def _lubricated(anchor: Anchor) -> Lubricated:
 
 def _divided(sample: Sample, together: Pooled) -> Solved:
     """The anchor's point with the load divided as all lines and the grid ask."""
-    anchor, scene = sample.known, sample.model.scene
+    anchor, scene = sample.known, sample.prepared.scene
     balance = _lubricated(anchor)
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
-    point = at(sample.model, sample.speed, anchor.contact, balance)
+    point = at(sample.prepared, sample.speed, anchor.contact, balance)
     final = redivided(point, balance, divided(scene.bodies.load, split)[1])
     film, area = quantities(point, final)["mean_gap"], mean_of(anchor.grid, "area", 1.0)
     columns = area * together.touched_length / touched_length(balance.contact)

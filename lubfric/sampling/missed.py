@@ -8,18 +8,24 @@ import numpy as np
 
 from .influence import SPOT
 
+FEWEST = 14  # blocks: of 25 correlation lengths
 OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def missed_share(model, film, found, correlation_length: float) -> float:
+def missed_share(prepared, film, found, correlation_length: float) -> float:
     """What `missed_load` would add to f, relative to it; NaN where the contact has no cells or too few along y."""
-    if model.contact.grid is None or model.contact.nominally_flat or not found.coefficient:
+    if prepared.contact.grid is None or prepared.contact.nominally_flat or not found.coefficient:
         return math.nan
-    bodies = model.scene.bodies
-    heights = model.surface.heights - model.surface.heights.mean()
+    bodies = prepared.scene.bodies
+    heights = prepared.surface.heights - prepared.surface.heights.mean()
     load = missed_load(
-        heights, model.surface.spacing, film.film_at(model.contact.x), bodies.e_prime, bodies.width, correlation_length
+        heights,
+        prepared.surface.spacing,
+        film.film_at(prepared.contact.x),
+        bodies.e_prime,
+        bodies.width,
+        correlation_length,
     )
     return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
 
@@ -37,7 +43,7 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
-    if blocks.size < 4:
+    if blocks.size < FEWEST:
         return math.nan
     scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi
     place = float(blocks.mean()) - EULER * scale

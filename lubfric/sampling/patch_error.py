@@ -7,6 +7,8 @@ import math
 
 import numpy as np
 
+from ..lines.generated import lengths_of
+from ..lines.windows import length_or_half
 from ..point.adapt import Solved
 from ..rough.height_map import measured, rough_bodies
 from .estimate import (
@@ -21,28 +23,26 @@ from .estimate import (
     uncertainty_of,
     why_not,
 )
-from .generated import lengths_of
 from .influence import BLOCK, LEAST_BLOCKS, BlockError
 from .line_record import NOTHING, LineRecord, pooled, record
 from .missed import missed_share
 from .response import Response, Slopes
 from .sample import response_of
 from .uncertainty import FieldErrors, Uncertainty, field_errors_of
-from .windows import length_or_half
 
 NO_AREA = "contact areas need the scene's own grid: fields=True, numerics.grid = 'given'"
 UNKNOWN = "not known: {}"
 
 
-def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErrors]:
+def of_patch(prepared, speed: float, point: Solved) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a point on one patch.
 
     The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half
     of a mirrored map counts. Nothing more is made of the surface: it is all there is.
     """
     balance = point.balance
-    length = model.surface.size[1] / (2 if mirrored(model) else 1)
-    correlation, why = correlation_along_y(model), ""
+    length = prepared.surface.size[1] / (2 if mirrored(prepared) else 1)
+    correlation, why = correlation_along_y(prepared), ""
     response, gap_error, there = None, NOTHING, LineRecord(length, balance.contact_load)
     if balance.film is None:
         gap_error = BlockError(0.0, LEAST_BLOCKS)
@@ -53,22 +53,23 @@ def of_patch(model, speed: float, point: Solved) -> tuple[Uncertainty, FieldErro
             why = UNKNOWN.format("this contact has no places along y to compare")
         elif not long_enough:
             why = UNKNOWN.format(
-                f"{length / correlation:.2g} correlation lengths along y, {LEAST_BLOCKS * BLOCK:g} are needed"
+                f"the patch holds {length / correlation:.2g} correlation lengths along y, an interval takes "
+                f"{LEAST_BLOCKS * BLOCK:g} (numerics.sampling = 'line', or a map that is longer across the motion)"
             )
         else:
-            response = response_of(model, speed, point.contact, balance)
+            response = response_of(prepared, speed, point.contact, balance)
             grid = point.contact.grid
             assert grid is not None  # of half-spaces: it has fields
-            rows = grid.cells[1] // (2 if mirrored(model) else 1)
+            rows = grid.cells[1] // (2 if mirrored(prepared) else 1)
             there = record(
                 point.contact, balance.contact, balance.contact_load, response.slopes, correlation, rows=slice(0, rows)
             )
             gap_error = there.gap
-    return _told(model, point, response, gap_error, there, why)
+    return _told(prepared, point, response, gap_error, there, why)
 
 
-def _told(model, point: Solved, response, gap_error, there, why):
-    scene, balance = model.scene, point.balance
+def _told(prepared, point: Solved, response, gap_error, there, why):
+    scene, balance = prepared.scene, point.balance
     found = balance.forces
     numerical = _numerical(point, response)
     relative, together = coefficient_error(numerical, found, response), pooled([there])
@@ -82,7 +83,7 @@ def _told(model, point: Solved, response, gap_error, there, why):
     elif balance.film is None:
         sampling, known = 0.0, dry_errors(together)
     else:
-        sampling = missed_share(model, balance.film, found, correlation_along_y(model))
+        sampling = missed_share(prepared, balance.film, found, correlation_along_y(prepared))
         known = film_alone_errors(film_error(point), found)
         gap_error, why = BlockError(0.0, ORDER), ""
         if not math.isfinite(sampling):
@@ -124,8 +125,8 @@ def _from_slope(point: Solved) -> Response:
     return Response(Slopes(0.0, 0.0, 0.0), split, rates | dict.fromkeys(films, share))
 
 
-def mirrored(model) -> bool:
-    heights = model.surface.heights
+def mirrored(prepared) -> bool:
+    heights = prepared.surface.heights
     return (
         heights.shape[1] > 1
         and bool(np.array_equal(heights[:, :2], heights[:, :-3:-1]))
@@ -133,11 +134,11 @@ def mirrored(model) -> bool:
     )
 
 
-def correlation_along_y(model) -> float:
+def correlation_along_y(prepared) -> float:
     """Correlation length [m] at 1/e: that of the scene, or of the map itself."""
-    if model.lines is not None:
-        return model.lines.lengths[1]
-    scene = model.scene
-    if not measured(scene) and not model.given:
+    if prepared.lines is not None:
+        return prepared.lines.lengths[1]
+    scene = prepared.scene
+    if not measured(scene) and not prepared.given:
         return max(lengths_of(rough)[1] for rough, _ in rough_bodies(scene))
-    return length_or_half(model.surface, 1)
+    return length_or_half(prepared.surface, 1)

@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from .. import budget
-from ..model import Model
+from ..lines.contract import Lines
+from ..lines.length import LONGEST, MOST, MOST_CELLS, next_length
 from ..point.adapt import Solved
 from ..point.balance import Balance, divided
+from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import FEWEST, GridStep, grid_step, mean_error
 from .influence import add_errors
-from .length import LONGEST, MOST, MOST_CELLS, next_length
 from .line_record import LineRecord, Pooled, length_of, pooled, record
-from .lines import Lines
 from .missed import missed_share
 from .response import Response, respond, slopes_of
 from .uncertainty import FEW
@@ -40,9 +40,9 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Sample:
-    """Lines of ``model`` solved at one speed: ``first`` that of the pilot, ``anchor`` of the first in contact."""
+    """Lines of ``prepared`` solved at one speed: ``first`` that of the pilot, ``anchor`` of the first in contact."""
 
-    model: Model
+    prepared: Prepared
     speed: float
     first: Solved
     records: tuple[LineRecord, ...] = ()
@@ -51,7 +51,7 @@ class Sample:
     @property
     def lines(self) -> Lines:
         """Of the model."""
-        return lines_of_model(self.model)
+        return lines_of_model(self.prepared)
 
     @property
     def known(self) -> Anchor:
@@ -79,25 +79,25 @@ class Sample:
     def missed(self) -> float:
         """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and
         the length of all."""
-        model, first = self.model, self.first
-        found = missed_share(model, first.balance.film, first.balance.forces, self.lines.lengths[1])
+        prepared, first = self.prepared, self.first
+        found = missed_share(prepared, first.balance.film, first.balance.forces, self.lines.lengths[1])
         found = found if math.isfinite(found) else math.inf  # too short to tell
-        return found * length_of(model.contact) / sum(r.length for r in self.records)
+        return found * length_of(prepared.contact) / sum(r.length for r in self.records)
 
     @property
     def few(self) -> bool:
         """Too few spots carry the load for an honest interval, and it matters."""
-        asked = self.model.scene.numerics.sampling_tolerance
+        asked = self.prepared.scene.numerics.sampling_tolerance
         return self.anchor is not None and self.together.participation < FEW and self.reached > MATTERS * asked
 
     def wanted(self) -> float:
         """Length [m] of the next line; 0 where no more is needed or to be had."""
-        lines, asked, so_far = self.lines, self.model.scene.numerics.sampling_tolerance, self.together.length
+        lines, asked, so_far = self.lines, self.prepared.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
         reached = self.reached
         if room < LEAST_MORE * so_far or (reached <= asked and not self.few):
             return 0.0
-        contact: Any = self.model.contact  # of half-spaces, on the cells of the line
+        contact: Any = self.prepared.contact  # of half-spaces, on the cells of the line
         held = MOST_CELLS / contact.heights.shape[0] * contact.spacing[1]
         more = next_length(so_far, max(reached, asked), asked, min(LONGEST * lines.lengths[1], held, room))
         return so_far + more if lines.nested else more
@@ -109,7 +109,7 @@ class Sample:
         kept = () if lines.nested else self.records
         if balance.contact_load == 0:
             return replace(self, records=(*kept, LineRecord(length)))
-        anchor = self.anchor or _anchor(self.model, self.speed, contact, point, before)
+        anchor = self.anchor or _anchor(self.prepared, self.speed, contact, point, before)
         found = record(
             contact,
             balance.contact,
@@ -117,29 +117,30 @@ class Sample:
             anchor.response.slopes,
             lines.lengths[1],
             lines.windows(length),
+            exact_sq=lines.exact_sq,
         )
         return replace(self, records=(*kept, found), anchor=anchor)
 
 
-def lines_of_model(model: Model) -> Lines:
-    """More of the line that ``model`` is of."""
-    if model.lines is None:
+def lines_of_model(prepared: Prepared) -> Lines:
+    """More of the line that ``prepared`` is of."""
+    if prepared.lines is None:
         raise ValueError("a model of one patch has no further lines")
-    return model.lines
+    return prepared.lines
 
 
-def _anchor(model, speed: float, contact, point: Solved, before) -> Anchor:
-    response = response_of(model, speed, contact, point.balance)
-    return Anchor(contact, point, response, _grid(model, speed, point, response, before))
+def _anchor(prepared, speed: float, contact, point: Solved, before) -> Anchor:
+    response = response_of(prepared, speed, contact, point.balance)
+    return Anchor(contact, point, response, _grid(prepared, speed, point, response, before))
 
 
-def response_of(model, speed: float, contact, balance: Balance) -> Response:
+def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
     """`Response` of a balance on ``contact``."""
-    scene, wet = model.scene, balance.lubricated
+    scene, wet = prepared.scene, balance.lubricated
     if wet is None:
         thickness = under = contact.x**2 / (2 * scene.bodies.radius)
     else:
-        point = at(model, speed, contact, wet)
+        point = at(prepared, speed, contact, wet)
         thickness, under = point.imposed_on(contact, wet.film)
 
     def close(load):
@@ -155,10 +156,10 @@ def response_of(model, speed: float, contact, balance: Balance) -> Response:
     return respond(scene.bodies.width, balance, slopes, at_split)
 
 
-def _grid(model, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
+def _grid(prepared, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
     """Pieces on finer cells, until what they scatter by is a small part of the sampling tolerance; those of a
     neighbouring speed where the contact carries as much."""
-    lines, numerics, balance = lines_of_model(model), model.scene.numerics, found.balance.lubricated
+    lines, numerics, balance = lines_of_model(prepared), prepared.scene.numerics, found.balance.lubricated
     if lines.cells.factors == (1, 1) or balance is None:
         return ()
     load = balance.contact_load
@@ -170,7 +171,7 @@ def _grid(model, speed: float, found: Solved, response: Response, before) -> tup
         PAIR_SHARE * numerics.sampling_tolerance / per_gap,
     )
     steps: list[GridStep] = []
-    point = at(model, speed, found.contact, balance)
+    point = at(prepared, speed, found.contact, balance)
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
         if len(steps) == FEWEST and not math.isfinite(steps[0].error.error):
             break

@@ -6,9 +6,9 @@ One place for scene files and for `Scene.with_`: `resolve` takes what was given 
 
 from __future__ import annotations
 
-from . import bodies, lubricant, motion
+from . import bodies, lubricant, motion, numerics
 
-SECTIONS = {"bodies": bodies, "lubricant": lubricant, "motion": motion}
+SECTIONS = {"bodies": bodies, "lubricant": lubricant, "motion": motion, "numerics": numerics}
 
 
 def short_keys(section: str) -> tuple[str, ...]:

@@ -29,9 +29,9 @@ COLUMNS = {
 }
 
 
-def report_page(model, curve, record: dict, images: dict[str, bytes]) -> bytes:
+def report_page(prepared, curve, record: dict, images: dict[str, bytes]) -> bytes:
     """The page of a curve. ``record``: what result.json holds; ``images``: PNG files by their captions."""
-    scene = model.scene
+    scene = prepared.scene
     sections = [
         f"<h1>{escape(scene.name)}: friction of a mixed-lubricated line contact</h1>",
         f"<p>{escape(_in_words(curve))}</p>",
@@ -47,8 +47,8 @@ def report_page(model, curve, record: dict, images: dict[str, bytes]) -> bytes:
         "<h2>Inputs</h2>",
         f'<div class="inputs">{"".join(_inputs(scene))}</div>',
         "<h2>Height map</h2>",
-        f"<p>{escape(model.surface.describe())}</p>",
-        _list(model.surface.notes, "", ""),
+        f"<p>{escape(prepared.surface.describe())}</p>",
+        _list(prepared.surface.notes, "", ""),
         "<h2>Provenance</h2>",
         _table([*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}")]),
     ]

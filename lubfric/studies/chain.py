@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..errors import LubfricError, ValidityError
-from ..model import Model
+from ..prepared import Prepared
 from ..result import FrictionResult
 from ..steady import friction
 from ..store import digest
@@ -44,7 +44,7 @@ def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
 
 
 def run_chain(
-    model: Model, chain: Chain, journal: Journal | None = None, done: int = 0
+    prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0
 ) -> Iterator[tuple[int, object]]:
     """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in
     ``journal`` first.
@@ -54,12 +54,12 @@ def run_chain(
     """
     start, parent = None, os.getppid()
     if journal is not None and done:
-        start, caught_up = resumed(model, chain, journal, done)
+        start, caught_up = resumed(prepared, chain, journal, done)
         if caught_up is not None:
             yield done, caught_up if chain.fields[done] else without_fields(caught_up)
             done += 1
     for index in range(done, len(chain.speeds)):
-        outcome = solved(model, chain, index, start)
+        outcome = solved(prepared, chain, index, start)
         start = start_from(outcome)
         if os.getppid() != parent:  # who asked for it is dead, and may have been started again
             return
@@ -76,15 +76,20 @@ def start_from(outcome) -> FrictionResult | None:
     return result if isinstance(result, FrictionResult) and result.starts else None
 
 
-def solved(model: Model, chain: Chain, index: int, start: FrictionResult | None):
+def solved(prepared: Prepared, chain: Chain, index: int, start: FrictionResult | None):
+    """The result or error of one point of a chain."""
+    return solved_at(prepared, chain.speeds[index], start, chain.fields[index])
+
+
+def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool):
     """The result or error of one point."""
     try:
-        return friction(model, chain.speeds[index], start=start, fields=chain.fields[index])
+        return friction(prepared, speed, start=start, fields=fields)
     except LubfricError as error:
         return error
 
 
-def resumed(model: Model, chain: Chain, journal: Journal, done: int):
+def resumed(prepared: Prepared, chain: Chain, journal: Journal, done: int):
     """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done``
     points."""
     key, outcome = journal.state(chain.name)
@@ -94,5 +99,5 @@ def resumed(model: Model, chain: Chain, journal: Journal, done: int):
     if key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
         outcome = None
         for index in range(done):
-            outcome = solved(model, chain, index, start_from(outcome))
+            outcome = solved(prepared, chain, index, start_from(outcome))
     return start_from(outcome), None

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from ..model import scene_of
+from ..prepared import scene_of
 from ..scene import Scene
 from ..store import fingerprint
 from .chain import Chain, make_chain
@@ -30,7 +30,8 @@ class Curve:
 
 @dataclass(frozen=True)
 class Batch:
-    """Curves that one process solves on one height map. ``leader``: the scene whose model the others are made like."""
+    """Curves that one process solves on one height map. ``leader``: the scene that the others are prepared
+    like."""
 
     leader: Scene
     curves: tuple[Curve, ...]
@@ -80,7 +81,9 @@ class StudyPlan:
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """The `StudyPlan` of `lubfric.study`, with its arguments; nothing is solved."""
     if scene_of(scene) is not scene:
-        raise InputError("a study varies a scene; allowed: what lubfric.load_scene returned, not a model of it")
+        raise InputError(
+            "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
+        )
     axes = axes_of(scene, {} if vary is None else vary)
     if isinstance(speeds, str):
         raise InputError(f"speeds = {speeds!r} of a study; allowed: speeds in m/s (lubfric.stribeck takes 'auto')")

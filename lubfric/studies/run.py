@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 
 from ..errors import InputError, LubfricError
-from ..model import prepare
+from ..prepared import prepare
 from ..scene import Scene
 from ..store import FolderLock, write_whole
 from ..store.whole import clear_parts
@@ -123,13 +123,13 @@ def run_piece(piece: Piece) -> dict[str, dict]:
                 continue
             try:
                 leader = leader or prepare(piece.batch.leader)
-                model = leader if curve.scene == piece.batch.leader else prepare(curve.scene, like=leader)
+                prepared = leader if curve.scene == piece.batch.leader else prepare(curve.scene, like=leader)
             except LubfricError as error:
                 for chain in chains:
                     rows |= _all_failed(chain, error, journal, piece.done.get(chain.name, 0))
                 continue
             for chain in chains:
-                for index, outcome in run_chain(model, chain, journal, piece.done.get(chain.name, 0)):
+                for index, outcome in run_chain(prepared, chain, journal, piece.done.get(chain.name, 0)):
                     rows[chain.keys[index]] = row_of(record_of(outcome))
         if journal is not None:
             journal.finish(name)

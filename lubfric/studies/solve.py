@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from ..model import Model
+from ..prepared import Prepared
 from .chain import Chain, run_chain
 from .journal import Journal, outcome_of
 from .spread import spread
@@ -21,7 +21,7 @@ class Part:
     done: int
 
 
-def solve_chains(model: Model, chains: list, executor, store, keep: Callable) -> None:
+def solve_chains(prepared: Prepared, chains: list, executor, store, keep: Callable) -> None:
     """Solve ``chains``, pairs of a `Chain` and the indices of its speeds; ``keep(index, outcome)`` for every point as
     it ends.
 
@@ -42,10 +42,10 @@ def solve_chains(model: Model, chains: list, executor, store, keep: Callable) ->
     parts = [part for part in parts if part.done < len(part.chain.keys)]
     if executor is None:
         for part in parts:
-            for at, outcome in _points(model, part):
+            for at, outcome in _points(prepared, part):
                 keep(int(indices[part.chain.name][at]), outcome)
         return
-    for name, outcomes in spread(executor, partial(_solved, model), parts, lambda part: found(part.chain)):
+    for name, outcomes in spread(executor, partial(_solved, prepared), parts, lambda part: found(part.chain)):
         for at, outcome in outcomes:
             keep(int(indices[name][at]), outcome)
 
@@ -66,14 +66,14 @@ def _finished(folder: str, chain: Chain) -> list:
     return outcomes
 
 
-def _points(model: Model, part: Part):
+def _points(prepared: Prepared, part: Part):
     journal = None if part.folder is None else Journal(part.folder)
     try:
-        yield from run_chain(model, part.chain, journal, part.done)
+        yield from run_chain(prepared, part.chain, journal, part.done)
     finally:
         if journal is not None:
             journal.close()
 
 
-def _solved(model: Model, part: Part) -> tuple[str, list]:
-    return part.chain.name, list(_points(model, part))
+def _solved(prepared: Prepared, part: Part) -> tuple[str, list]:
+    return part.chain.name, list(_points(prepared, part))

@@ -25,8 +25,8 @@ STATE, ROWS, FIELDS = "state.bin", "rows.bin", "fields.bin"
 class Checkpoint:
     """A folder that holds the state of one run.
 
-    ``description``: a list of everything that decides the result, for `lubfric.store.fingerprint`: the model with its
-    heights and spacing, the histories, the output times.
+    ``description``: a list of everything that decides the result, for `lubfric.store.fingerprint`: the prepared scene
+    with its heights and spacing, the histories, the output times.
     """
 
     def __init__(self, folder, description):

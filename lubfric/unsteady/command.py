@@ -11,8 +11,8 @@ import numpy as np
 from .. import __version__
 from ..console import keeping, say
 from ..errors import ConvergenceError
-from ..model import prepare
 from ..output import npz_bytes, plain, read_csv, table_bytes
+from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene, scene_as_dict
 from ..store import fingerprint
@@ -34,24 +34,24 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
     """
     begun, reached = time.perf_counter(), [0.0]
     say(f"{scene.name}: preparing the height map and the contact")
-    model = prepare(scene)
-    say(model.surface.describe())
+    prepared = prepare(scene)
+    say(prepared.surface.describe())
 
     def kept() -> str:
         return f"interrupted; the state at t = {reached[0]:.5g} s is kept in {out}: the same command goes on from there"
 
-    with keeping(kept), run_folder(out, fingerprint(model)) as folder:
+    with keeping(kept), run_folder(out, fingerprint(prepared)) as folder:
         checkpoint, failure = out / CHECKPOINT, None
         if (checkpoint / STATE).is_file():
             say(f"going on from {checkpoint}")
         try:
-            result = transient(model, checkpoint=checkpoint, on_step=_progress(reached))
+            result = transient(prepared, checkpoint=checkpoint, on_step=_progress(reached))
         except ConvergenceError as error:
             if error.result is None:
                 raise
             result, failure = error.result, error
         _write(folder, scene, result, animation)
-        folder.finish(_record(scene, model, result, time.perf_counter() - begun))
+        folder.finish(_record(scene, prepared, result, time.perf_counter() - begun))
     say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
     if failure:
         raise failure
@@ -101,16 +101,16 @@ def _progress(reached: list[float]):
     return on_step
 
 
-def _record(scene: Scene, model, result: TransientResult, seconds: float) -> dict:
+def _record(scene: Scene, prepared, result: TransientResult, seconds: float) -> dict:
     import scipy
 
     record = {
         "scene": scene_as_dict(scene),
         "surface": {
-            "shape": model.surface.heights.shape,
-            "spacing": model.surface.spacing,
-            "sq": model.surface.sq,
-            "notes": list(model.surface.notes),
+            "shape": prepared.surface.heights.shape,
+            "spacing": prepared.surface.spacing,
+            "sq": prepared.surface.sq,
+            "notes": list(prepared.surface.notes),
         },
         "versions": {
             "lubfric": __version__,

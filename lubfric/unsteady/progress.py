@@ -24,7 +24,7 @@ class Outputs:
 
 def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
     """Add the output at the time of ``now``: its row and its fields."""
-    boundary = run.model.scene.bodies.boundary_friction_coefficient
+    boundary = run.prepared.scene.bodies.boundary_friction_coefficient
     row = moment(run.sharing, now.time, run.sliding_speed(now.time), boundary, solution, now)
     outputs.rows.append(np.array(list(row.values()), dtype=float))
     outputs.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))

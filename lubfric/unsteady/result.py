@@ -88,7 +88,7 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / run.sharing.tolerance,
     }
     if not np.isnan(run.grid_error):
-        worst["grid"] = run.grid_error / run.model.scene.numerics.film_tolerance
+        worst["grid"] = run.grid_error / run.prepared.scene.numerics.tolerances.film
     return TransientResult(
         columns,
         setting.grid.x * p.length_unit,

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..history.plan import Transient
 from ..march.course import checked_times, steps
-from ..model import Model, scene_of
+from ..prepared import Prepared, scene_of
 from ..scene import Scene
 from .checkpoint import Checkpoint
 from .progress import Outputs, keep, resume, state_of
@@ -19,7 +19,7 @@ from .setup import Run, begin
 
 
 def transient(
-    scene: Scene | Model, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
+    scene: Scene | Prepared, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
 ) -> TransientResult:
     """Film, load sharing and friction of ``scene`` while speed, load, radius or viscosity change in time.
 
@@ -52,7 +52,7 @@ def transient(
     base = scene_of(scene)
     plan, times = _plan(base, times)
     run = begin(scene, plan)
-    store = None if checkpoint is None else Checkpoint(checkpoint, [run.model, plan, times])
+    store = None if checkpoint is None else Checkpoint(checkpoint, [run.prepared, plan, times])
     result = _run(run, times, store, on_step)
     if raise_on_failure:
         result.report.raise_if_failed(result)

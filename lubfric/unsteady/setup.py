@@ -15,7 +15,7 @@ from ..history import Constant, History
 from ..history.plan import Transient
 from ..march.bdf import March, Memory
 from ..march.course import Plan, Progress, plan_of
-from ..model import Model, prepare
+from ..prepared import Prepared, prepare
 from ..sampling.patch_error import correlation_along_y
 from ..scene import Scene
 from .sharing import Contact, Sharing, make_sharing, share_step
@@ -29,7 +29,7 @@ class Run:
     grid_error: relative error of the films of the steady start from the grid (NaN from another start).
     """
 
-    model: Model
+    prepared: Prepared
     plan: Transient
     sharing: Sharing
     sliding: History | None
@@ -40,7 +40,7 @@ class Run:
         """The march with outputs at ``times`` [s]."""
         setting = self.sharing.setting
         histories = (*setting.histories, self.sliding) if self.sliding is not None else setting.histories
-        tolerance = self.plan.tolerance or TIME_SHARE * self.model.scene.numerics.film_tolerance
+        tolerance = self.plan.tolerance or TIME_SHARE * self.prepared.scene.numerics.tolerances.film
         return plan_of(times, histories, setting.first_step, tolerance)
 
     def begun(self) -> Progress:
@@ -52,7 +52,7 @@ class Run:
         """u2 - u1 just before ``time`` [m/s]."""
         if self.sliding is not None:
             return self.sliding.before(time)
-        return self.model.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
+        return self.prepared.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
         """Film and contact at ``time`` (`lubfric.march.bdf.Solver`)."""
@@ -63,9 +63,9 @@ class Run:
         return self.sharing.setting.error_of(solution, difference)
 
 
-def begin(scene: Scene | Model, plan: Transient) -> Run:
+def begin(scene: Scene | Prepared, plan: Transient) -> Run:
     """Check the scene, make it ready, find its first state."""
-    base = scene.scene if isinstance(scene, Model) else scene
+    base = scene.scene if isinstance(scene, Prepared) else scene
     if base.numerics.model == "deterministic":
         raise InputError("numerics.model = 'deterministic' is steady; allowed for a transient: 'auto', 'full'")
     if base.numerics.closure == "one-way":
@@ -83,17 +83,17 @@ def begin(scene: Scene | Model, plan: Transient) -> Run:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
-    model = scene if isinstance(scene, Model) else prepare(scene)
-    tolerance = base.numerics.film_tolerance
+    prepared = scene if isinstance(scene, Prepared) else prepare(scene)
+    tolerance = base.numerics.tolerances.film
     for finer in FINER:
-        setting = _setting(model, plan, load, finer)
+        setting = _setting(prepared, plan, load, finer)
         sharing = make_sharing(
-            setting, model.contact, base.bodies.width, _volume_tolerance(base), correlation_along_y(model)
+            setting, prepared.contact, base.bodies.width, _volume_tolerance(base), correlation_along_y(prepared)
         )
-        start, grid_error = first_state(model, plan, sharing)
+        start, grid_error = first_state(prepared, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
-    return Run(model, plan, sharing, plan.sliding, start, grid_error)
+    return Run(prepared, plan, sharing, plan.sliding, start, grid_error)
 
 
 def _refuse_steady_only(scene: Scene) -> None:
@@ -109,11 +109,11 @@ def _refuse_steady_only(scene: Scene) -> None:
 
 
 def _volume_tolerance(scene: Scene) -> float:
-    return min(scene.numerics.volume_tolerance, 1e-4)
+    return min(scene.numerics.tolerances.balance, 1e-4)
 
 
-def _setting(model: Model, plan: Transient, load: History, finer: float) -> Setting:
-    scene = model.scene
+def _setting(prepared: Prepared, plan: Transient, load: History, finer: float) -> Setting:
+    scene = prepared.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = ContactHistory(
         _per_width(load, bodies.width),
@@ -125,17 +125,17 @@ def _setting(model: Model, plan: Transient, load: History, finer: float) -> Sett
         plan.duration,
         plan.initial_film,
     )
-    rough = model.surface.sq > 0.0
-    sigma = max(model.surface.sq, 0.0)
+    rough = prepared.surface.sq > 0.0
+    sigma = max(prepared.surface.sq, 0.0)
     if not rough and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
         raise InputError(
             "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
             "an entrainment speed before t = 0"
         )
-    reach = float(np.max(np.abs(model.contact.x))) if rough else 0.0
+    reach = float(np.max(np.abs(prepared.contact.x))) if rough else 0.0
     return make_setting(
         contact,
-        scene.numerics.film_tolerance,
+        scene.numerics.tolerances.film,
         shared=rough,
         reach=reach,
         film_range=(sigma, 2.0 * sigma) if rough else (math.inf, 0.0),

@@ -11,20 +11,20 @@ from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import discretisation, parabola, steady, steady_start
 from ..errors import ConvergenceError, InputError
 from ..history.plan import Transient
-from ..model import Model
+from ..prepared import Prepared
 from ..report import CONVERGED
 from ..steady import friction
 from .sharing import Contact, Sharing, share_step
 
 
-def first_state(model: Model, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+def first_state(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
     """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
     still = sharing.setting.contact.speed.before(0.0) == 0.0
     if plan.initial_film is not None:
         return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(sharing), math.nan
-    return _steady(model, sharing)
+    return _steady(prepared, sharing)
 
 
 def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
@@ -63,9 +63,9 @@ def _resting(sharing: Sharing) -> StepSolution:
     return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
 
 
-def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
+def _steady(prepared: Prepared, sharing: Sharing) -> tuple[StepSolution, float]:
     """Balance of the steady state, then the same on the grid of the run."""
-    setting, scene = sharing.setting, model.scene
+    setting, scene = sharing.setting, prepared.scene
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
         raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
@@ -73,7 +73,7 @@ def _steady(model: Model, sharing: Sharing) -> tuple[StepSolution, float]:
         bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
         lubricant={"viscosity": c.viscosity.before(0.0)},
     )
-    point = friction(replace(model, scene=values), speed, fields=True)
+    point = friction(replace(prepared, scene=values), speed, fields=True)
     film = steady_start(setting, point.film_load / sharing.width)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")

@@ -7,12 +7,12 @@ import numpy as np
 from ..analytic import hertz
 from ..film.shear import ShearForce
 from ..line_contact import LineContact
-from ..lubricant import shear_stress
+from ..lubricant import carried_stress, shear_stress
 from .beforehand import beforehand
 from .bodies import of_motion
 from .entry import Validity
 from .film import of_pressure
-from .stress import carried_stress, of_shear
+from .stress import of_shear
 
 NODES = 201
 

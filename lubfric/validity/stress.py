@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 from .entry import Validity
 
-CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
 SHARE = 0.2  # of f: excess above which f is no answer
 FRICTION = 0.2  # of the film
-
-
-def carried_stress(pressure):
-    """What an oil carries at most [Pa] at ``pressure`` [Pa]: 5 MPa + 0.12 p."""
-    return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)
 
 
 def meaningless(shear) -> bool:
@@ -26,7 +20,7 @@ def of_shear(shear, film_load: float, friction_force: float, tolerance: float, n
     above ``tolerance`` that no oil carries is told, above 0.2 refused."""
     if not friction_force > 0:
         return []
-    share = shear.excess / friction_force if shear.excess < np.inf else 1.0
+    share = shear.excess / friction_force if shear.excess < math.inf else 1.0
     found, friction = [], abs(shear.couette) / max(film_load, 1e-300)
     law = "Newtonian shear" if newtonian else "the shear law"
     remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"

@@ -57,7 +57,7 @@ def test_a_sweep_starts_from_neighbours_and_keeps_fields_only_where_asked():
 
 
 def test_a_result_can_be_stored_and_started_from_again():
-    again = decode(encode(POINT))
+    again = decode(b"".join(encode(POINT)))
     assert np.array_equal(again.deterministic.result.pressure, POINT.deterministic.result.pressure)
     assert lubfric.friction(MODEL, 0.008, start=again).coefficient == pytest.approx(
         lubfric.friction(MODEL, 0.008, start=POINT).coefficient, rel=1e-12

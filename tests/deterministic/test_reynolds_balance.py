@@ -183,4 +183,4 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
 
     begin = brentq(mean_slope, 40e-6, narrowest)
     assert x[second[0]] == pytest.approx(begin, abs=3 * step) and x[second[-1]] == pytest.approx(end, abs=3 * step)
-    assert (fill[second[0] - 20 : second[0] - 2] < 1).all() and fill.min() > 0
+    assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0

@@ -217,3 +217,17 @@ def test_command_lists_and_shows(capsys):
     assert "99.14" in shown and "10.95" in shown and "So" not in shown.splitlines()[0]
     assert main(["oils", "show", "mineral"]) == 2
     assert "did you mean" in capsys.readouterr().err
+
+
+def test_an_array_of_temperatures_gives_the_values_of_each():
+    sample = oil.from_viscosities(68e-6, 8.6e-6)
+    temperatures = np.array([[313.15, 343.15], [353.15, 373.15]])
+    for quantity in (sample.kinematic_viscosity, sample.density_at, sample.viscosity):
+        assert quantity(temperatures).tolist() == [[quantity(t) for t in row] for row in temperatures.tolist()]
+    assert sample.kinematic_viscosity([313.15, 373.15]) == pytest.approx([68e-6, 8.6e-6], rel=1e-9)
+
+
+@pytest.mark.parametrize("bad", ([313.15, 40.0], [], [np.nan], ["300"]))
+def test_an_array_with_one_bad_temperature_is_refused(bad):
+    with pytest.raises(InputError, match="temperature"):
+        oil.from_viscosities(68e-6, 8.6e-6).kinematic_viscosity(bad)

@@ -17,12 +17,12 @@ from lubfric.point.one_grid import Stage, needed_settings, on_grid
 from lubfric.point.operating_point import OperatingPoint, Settings
 from lubfric.point.tolerances import (
     allowed_left_out,
+    balance_tolerance,
     contact_tolerance,
     film_alone_tolerance,
     film_tolerance,
     first_film_tolerance,
     least_cells,
-    volume_tolerance,
 )
 from lubfric.rough.contract import Grid
 
@@ -61,7 +61,7 @@ def model(contact=None, levels=(FILM,), **numerics):
 
 
 def point(made, speed=0.1, **settings):
-    given = {"level": made.film_levels[0], "film_tolerance": 0.03, "volume_tolerance": 1e-4} | settings
+    given = {"level": made.film_levels[0], "film_tolerance": 0.03, "balance_tolerance": 1e-4} | settings
     return OperatingPoint(made, speed, made.contact, Settings(**given))
 
 
@@ -78,18 +78,18 @@ def stage(at, **changes):
 def test_tolerances_are_shares_of_that_on_f_by_what_reaches_it(tolerance, sensitivity):
     n = replace(N, tolerance=tolerance)
     assert film_tolerance(n, sensitivity) == pytest.approx(np.clip(0.3 * tolerance / sensitivity, 2e-4, 0.03))
-    assert volume_tolerance(n, sensitivity) == pytest.approx(np.clip(0.05 * tolerance / sensitivity, 1e-7, 0.02))
+    assert balance_tolerance(n, sensitivity) == pytest.approx(np.clip(0.05 * tolerance / sensitivity, 1e-7, 0.02))
     assert allowed_left_out(n, sensitivity) == pytest.approx(min(0.2 * tolerance / sensitivity, 0.3))
     assert film_alone_tolerance(n) == pytest.approx(min(0.6 * tolerance, 0.03))
 
 
 def test_a_tolerance_that_is_given_is_taken():
-    n = replace(N, ehl_tolerance=7e-4, balance_tolerance=3e-5)
+    n = replace(N, film_tolerance=7e-4, balance_tolerance=3e-5)
     assert film_tolerance(n, 0.1) == film_alone_tolerance(n) == first_film_tolerance(n) == 7e-4
-    assert volume_tolerance(n, 0.1) == 3e-5
+    assert balance_tolerance(n, 0.1) == 3e-5
     imposed = replace(N, closure="separation")  # an error of the load itself: not divided
-    assert volume_tolerance(imposed, 1e-3) == imposed.volume_tolerance
-    assert film_alone_tolerance(replace(N, model="full")) == N.film_tolerance
+    assert balance_tolerance(imposed, 1e-3) == imposed.tolerances.balance
+    assert film_alone_tolerance(replace(N, model="full")) == N.tolerances.film
 
 
 def test_a_gap_that_is_a_small_part_of_sq_asks_for_a_tighter_contact():
@@ -112,7 +112,7 @@ def test_cells_are_doubled_where_the_sum_of_the_shear_stress_is_off():
     assert least_cells(N, at.settings, gridded) == 384
     assert least_cells(N, at.settings, replace(gridded, film=replace(found.film, cells=4000))) == budget.MOST_CELLS
     assert least_cells(N, at.settings, stage(at, quadrature=0.9 * 0.3 * N.tolerance).balance) == 0
-    assert least_cells(replace(N, ehl_tolerance=1e-3), at.settings, gridded) == 0
+    assert least_cells(replace(N, film_tolerance=1e-3), at.settings, gridded) == 0
     assert least_cells(N, replace(at.settings, level=FILM), gridded) == 0
 
 
@@ -120,7 +120,7 @@ def test_cells_are_doubled_where_the_sum_of_the_shear_stress_is_off():
 
 
 def test_settings_that_do_are_left_alone():
-    at = point(model(), volume_tolerance=1e-6)
+    at = point(model(), balance_tolerance=1e-6)
     assert needed_settings(stage(at)) is None
 
 
@@ -129,15 +129,15 @@ def test_a_level_that_leaves_out_too_much_is_raised_and_nothing_else():
     made = model(levels=(rough, FILM))
     at = point(made)
     raised = needed_settings(replace(stage(at), left_out=LeftOut({"a": 0.1})))
-    assert raised.level is FILM and raised.volume_tolerance == at.settings.volume_tolerance
+    assert raised.level is FILM and raised.balance_tolerance == at.settings.balance_tolerance
     assert needed_settings(replace(stage(at, sensitivity=1e-4), left_out=LeftOut({"a": 0.1}))) is None
     assert on_grid(at, made.contact, None).point.settings.level is FILM
 
 
 def test_a_balance_looser_than_f_needs_is_found_again():
-    at = point(model(tolerance=1e-4), volume_tolerance=0.02)
+    at = point(model(tolerance=1e-4), balance_tolerance=0.02)
     found = on_grid(at, at.contact, None)
-    allowed = volume_tolerance(at.scene.numerics, found.balance.forces.sensitivity)
+    allowed = balance_tolerance(at.scene.numerics, found.balance.forces.sensitivity)
     assert abs(found.balance.contact.volume_residual) <= budget.SLACK * allowed < 0.02
 
 
@@ -186,7 +186,7 @@ def test_no_finer_grid_than_the_tolerance_needs(tolerance):
     spring = GriddedSpring(300e-9, 250e-9, 4.0, error=0.05e-9)
     made = model(spring, tolerance=tolerance)
     found, index, error = on_enough_cells(point(made), coarser_grids(spring, 1e-7), None)
-    exact = balanced(point(model(replace(spring, error=0.0), tolerance=1e-4), volume_tolerance=1e-7))
+    exact = balanced(point(model(replace(spring, error=0.0), tolerance=1e-4), balance_tolerance=1e-7))
     miss = abs(found.balance.forces.coefficient / exact.forces.coefficient - 1)
     assert index == 3 or error <= budget.CONTACT_GRID * tolerance
     assert miss <= tolerance or index == 3

@@ -26,7 +26,7 @@ ROUGH = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=3e-
 def point(speed, stiffness=1.0, *, tolerance=1e-6, guess=0.0, level=None, closure="load"):
     """film = speed/F_H [m], gap = 3 - (F_C/stiffness)^(2/3) [m], of 1 N."""
     scene = SCENE.with_(numerics={"closure": closure})
-    model = lubfric.Model(scene, ROUGH, Spring(3.0, 1.0, stiffness))
+    model = lubfric.Prepared(scene, ROUGH, Spring(3.0, 1.0, stiffness))
     return Guessed(model, speed, model.contact, Settings(level or EvenFilmLevel(), 1e-3, tolerance), guess)
 
 

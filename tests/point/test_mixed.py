@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -60,7 +60,7 @@ def test_both_balances_recomputed_from_the_fields():
     gap = (share @ contact.gap.mean(axis=1)) / share.sum()
     smooth = (share @ film.film_at(x)) / share.sum()
     assert gap == pytest.approx(smooth, rel=3e-4)
-    assert abs(point.volume_residual) <= SCENE.numerics.volume_tolerance
+    assert abs(point.volume_residual) <= SCENE.numerics.tolerances.balance
     assert point.coefficient == pytest.approx((0.09 * carried + point.shear_force) / b.load, rel=1e-4)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.asperity import contact_law
-from lubfric.model import prepare
+from lubfric.asperity import find_asperities
+from lubfric.prepared import prepare
 from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
 from lubfric.rough.contact_curve import contact_curve
@@ -88,7 +88,7 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     paper = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed, fields=True)
     assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
     assert paper.film_load == pytest.approx(load.film_load, rel=2e-3)
-    assert abs(paper.load_residual) <= 2 * scene.numerics.volume_tolerance and abs(paper.volume_residual) < 1e-4
+    assert abs(paper.load_residual) <= 2 * scene.numerics.tolerances.balance and abs(paper.volume_residual) < 1e-4
     assert paper.balance.contact.fields.report.solver == "single loop, consistent"
 
 
@@ -102,7 +102,7 @@ def test_the_flat_contact_closes_both_ways():
 @pytest.mark.parametrize("model", MODELS)
 def test_the_curve_is_the_law(model):
     z = lubfric.generate_surface((128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
-    law = contact_law(z, 2e-6, E, definition=model)
+    law = find_asperities(z, 2e-6, E, definition=model).at
     separation = 2.2e-7
     curve = asperity_curve(z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume")
     for level in (2.5e-7, 3.5e-7):

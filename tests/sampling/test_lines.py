@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sampling.cells import cells_of_a_box, choose_cells
-from lubfric.sampling.generated import generated_lines, seed_of
-from lubfric.sampling.length import next_length
-from lubfric.sampling.pieces import thinned
-from lubfric.sampling.windows import measured_lines, spread, stack
+from lubfric.lines.cells import cells_of_a_box, choose_cells
+from lubfric.lines.generated import generated_lines, seed_of
+from lubfric.lines.length import next_length
+from lubfric.lines.pieces import thinned
+from lubfric.lines.windows import measured_lines, spread, stack
 
 PAPER = lubfric.load_scene("paper")
 

@@ -1,13 +1,16 @@
 """Bad input of every kind is refused in words; a sample of what ``python -m verification stability`` runs in full."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import lubfric
-from verification.hostile import scenes
+from verification.hostile import scenes, soak
 from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, SLOW, Case, judge
 from verification.hostile.command import COUNTS, GROUPS, cases, outcomes, table
-from verification.hostile.soak import soak
+from verification.hostile.soak_judge import verdict
+from verification.hostile.soak_scenes import random_scene
 
 
 def test_the_scene_that_is_damaged_is_a_good_one(tmp_path):
@@ -61,8 +64,25 @@ def validated(name):
     raise lubfric.InputError(f"{name} = -1 N is out of range")
 
 
-def test_a_sample_of_the_soak():
-    """Random scenes, one in five closed again by the independent judge."""
-    run = soak(12, 7, 0.2)
-    assert run.answered >= 8 and run.judged >= 1 and (run.raw, run.wrong) == (0, 0), run
-    assert run.worst < 1
+def test_a_sample_of_the_soak_is_kept_and_goes_on(tmp_path, monkeypatch):
+    """Random scenes, each closed again by the independent judge; what is done is read back, not done again."""
+    chunks = soak.soak(8, 7, tmp_path)
+    assert sum(c.answered for c in chunks) >= 6 and sum(c.judged for c in chunks) >= 5
+    assert [w for c in chunks for w in c.wrong] == [] and chunks[0].worst < 1
+    monkeypatch.setattr(soak, "_one", lambda found, seeds: pytest.fail("done before"))
+    assert soak.soak(8, 7, tmp_path) == chunks
+
+
+def test_the_judge_of_the_soak_sees_a_wrong_answer():
+    """f, the loads, and both by the answer to another speed."""
+    scene = random_scene(np.random.default_rng((1, 105)))
+    prepared = lubfric.prepare(scene)
+    result = lubfric.friction(prepared)
+    assert max(verdict(prepared, result).values()) < 1
+    assert 0.05 < result.contact_load / scene.bodies.load < 0.95
+    spoilt = dataclasses.replace(result, coefficient=1.03 * result.coefficient)
+    assert verdict(prepared, spoilt)["friction sum"] > 1 and verdict(prepared, spoilt)["friction"] > 1
+    moved = dataclasses.replace(result, contact_load=0.95 * result.contact_load)
+    assert verdict(prepared, moved)["load"] > 1 and verdict(prepared, moved)["contact share"] > 1
+    thinner = lubfric.friction(prepared, 0.7 * result.speed)
+    assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1

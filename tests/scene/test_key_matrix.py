@@ -427,7 +427,7 @@ def test_speeds_are_those_of_the_sweep():
         {"film_level": "ehl"},
         {"grid": "given"},
         {"contact_level": "flat"},
-        {"ehl_tolerance": 1e-3},
+        {"film_tolerance": 1e-3},
         {"contact_tolerance": 1e-6},
         {"balance_tolerance": 1e-5},
         {"tolerance": 1e-3},
@@ -525,7 +525,7 @@ ORACLES = {
         "asperity_separation": "tests/rough/test_asperity_patch.py::test_carry_is_the_inverse_of_close",
     },
     "numerics": {
-        **dict.fromkeys(("tolerance", "ehl_tolerance", "contact_tolerance", "balance_tolerance", "workers"), SOLVED),
+        **dict.fromkeys(("tolerance", "film_tolerance", "contact_tolerance", "balance_tolerance", "workers"), SOLVED),
         **dict.fromkeys(("closure", "model", "film_level", "contact_level", "grid"), SOLVED),
         "cavitated_shear": "tests/ehl/test_shear.py::",
         "film_deflection": "tests/point/test_deflection_level.py::test_boundary_limit_at_heavy_load",

@@ -11,7 +11,7 @@ import lubfric
 from lubfric.cli import main
 from lubfric.rough.height_map import contact_map
 from lubfric.roughness import Roughness
-from lubfric.scene import Patch
+from lubfric.scene import ContactDomain
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
@@ -154,7 +154,7 @@ def test_counterface_on_the_command_line(maps, capsys):
 
 def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
     shape, spacing, speeds = [64, 64], [2e-6, 2e-6], [0.01, 0.02]
-    patch = Patch(geometry="flat", shape=shape, spacing=spacing)
+    patch = ContactDomain(geometry="flat", shape=shape, spacing=spacing)
     scene = lubfric.load_scene("flat").with_(contact=patch, surface={"correlation_length": 8e-6})
     scene = scene.with_(motion={"speeds": speeds})
     shape[0], spacing[0], speeds[0] = 1, 1.0, 9.0

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.store import digest
 from lubfric.studies import chain
 from lubfric.sweep import QUANTITIES
@@ -35,7 +35,7 @@ def test_the_curve_has_the_shape_of_stribeck(curve):
     assert np.all(np.diff(f[: low + 1]) < 0) and np.all(np.diff(f[low:]) > 0)
     assert np.all(np.diff(curve.contact_load) <= 0) and curve.contact_load[-1] == 0
     assert np.all(np.abs(curve.load_residual) < 1e-12)
-    assert np.all(np.abs(curve.volume_residual[curve.contact_load > 0]) <= SCENE.numerics.volume_tolerance)
+    assert np.all(np.abs(curve.volume_residual[curve.contact_load > 0]) <= SCENE.numerics.tolerances.balance)
     assert curve.report.converged and not curve.errors
 
 

@@ -15,7 +15,7 @@ import lubfric
 from lubfric.cli import main
 from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
 

@@ -93,7 +93,7 @@ SWEEP = (
     START
     + """
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 model = prepare(lubfric.load_scene("paper").with_(
     numerics={"sampling": "patch"}, contact={"shape": (50, 50), "spacing": 1.8e-6}
 ))

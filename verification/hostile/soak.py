@@ -1,118 +1,142 @@
-"""Thousands of friction calls over random scenes in one process, judged by an independent balance."""
+"""Thousands of friction calls over random scenes, each answer closed again by an independent judge.
+
+They come in chunks of scenes that hang on nothing but their number: a chunk that is done is a file in the folder given,
+and a run that was stopped goes on behind the last of them.
+"""
 
 from __future__ import annotations
 
+import json
 import math
+import os
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 import lubfric
 
-from ..stability.sharing_map import checked
 from .case import resident_memory
+from .soak_judge import verdict
+from .soak_scenes import random_scene
 
-MOST_GROWTH = 256.0  # MiB from the first quarter of the run to its end: what the allocator keeps of the largest film
-RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
-    "load_per_width": (1e2, 5e5),
-    "speed": (1e-5, 10.0),
-    "radius": (1e-3, 5e-2),
-    "viscosity": (5e-3, 1.0),
-    "alpha": (5e-9, 2.5e-8),
-    "sq": (1e-8, 1e-6),
-    "ratio": (0.02, 2.0),
-}
-WIDTH, E_PRIME, EYRING = 1e-2, 231e9, 5e6
+CHUNK = 50  # scenes
+MOST_GROWTH = 256.0  # MiB from the first quarter of a process's chunks to its last: what the allocator keeps
+WORDS = 60  # of why a scene was refused
 
 
 @dataclass
-class Run:
-    """What became of the calls: numbers of them, the worst error over what is allowed, why scenes were refused."""
+class Chunk:
+    """What became of the calls: numbers of them; the scenes answered wrongly; the worst error over what is allowed; why
+    scenes were refused; which features they had. memory [MiB], resident at its end, of ``process``."""
 
+    number: int
     answered: int = 0
     refused: int = 0
     judged: int = 0
     raw: int = 0
-    wrong: int = 0
+    wrong: list[str] = field(default_factory=list)
     worst: float = 0.0
-    growth: float = 0.0
-    first_bad: str = ""
     worst_case: str = ""
-    reasons: Counter = field(default_factory=Counter)
+    memory: float = 0.0
+    process: int = 0
+    reasons: dict[str, int] = field(default_factory=dict)
+    features: dict[str, int] = field(default_factory=dict)
 
 
-def random_scene(rng: np.random.Generator) -> lubfric.Scene:
-    """Loads, speeds, sizes and oils of machines, flat or under a cylinder, with or without a plastic limit."""
-    v = {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in RANGES.items()}
-    flat = bool(rng.random() < 0.5)
-    scene = lubfric.load_scene("flat" if flat else "paper").with_(
-        bodies={
-            "radius": v["radius"],
-            "width": WIDTH,
-            "load": v["load_per_width"] * WIDTH,
-            "e_prime": E_PRIME,
-            "hardness": None,
-            "boundary_friction_coefficient": float(rng.uniform(0.05, 0.15)),
-        },
-        lubricant={"viscosity": v["viscosity"], "pressure_viscosity_coefficient": v["alpha"], "eyring_stress": EYRING},
-        motion={
-            "entrainment_speed": v["speed"] * rng.choice((-1.0, 1.0)),
-            "slide_roll_ratio": v["ratio"],
-            "speeds": (),
-        },
-        numerics={"accept": True},
-    )
-    half_width, nx = scene.bodies.half_width, int(rng.choice((32, 48, 64)))
-    spacing = (6 * half_width if not flat else 2e-4) / nx
-    return scene.with_(
-        surface={
-            "sq": min(v["sq"], 0.05 * spacing),
-            "correlation_length": spacing * float(rng.uniform(2.5, nx / 12)),
-            "acf": str(rng.choice(("gaussian", "exponential"))),
-            "seed": int(rng.integers(2**31)),
-        },
-        contact={"shape": (nx, 32 if not flat else nx), "spacing": spacing},
-    )
+def soak(count: int, seed: int, folder: Path | None = None, workers: int = 1) -> list[Chunk]:
+    """``count`` scenes of ``seed`` in chunks; finished ones are kept in ``folder`` (None: nowhere)."""
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    jobs = [(k, min(CHUNK, count - CHUNK * k), seed, folder) for k in range(-(-count // CHUNK))]
+    if workers == 1:
+        return [chunk(*job) for job in jobs]
+    with ProcessPoolExecutor(workers) as pool:
+        return list(pool.map(chunk, *zip(*jobs)))
 
 
-def soak(count: int, seed: int, judged_share: float) -> Run:
-    """``count`` scenes of ``seed``; about ``judged_share`` of the answers are closed again."""
-    rng, run, early = np.random.default_rng(seed), Run(), 0
-    for i in range(count):
-        if i == count // 4:
-            early = resident_memory()
-        scene = random_scene(rng)
-        _one(scene, run, bool(rng.random() < judged_share))
-    run.growth = (resident_memory() - early) / 2**20
-    return run
+def chunk(number: int, count: int, seed: int, folder: Path | None) -> Chunk:
+    """Scenes ``number`` x `CHUNK` and on; read from ``folder`` where they were done before."""
+    path = None if folder is None else folder / f"seed-{seed}-chunk-{number:04d}.json"
+    if path is not None and path.exists():
+        return Chunk(**json.loads(path.read_text(encoding="utf-8")))
+    found = Chunk(number, process=os.getpid())
+    for index in range(number * CHUNK, number * CHUNK + count):
+        _one(found, (seed, index))
+    found.memory = resident_memory() / 2**20
+    if path is not None:
+        part = path.with_suffix(".part")
+        part.write_text(json.dumps(asdict(found)), encoding="utf-8")
+        part.replace(path)
+    return found
 
 
-def _one(scene: lubfric.Scene, run: Run, judge_it: bool) -> None:
-    speed = scene.motion.entrainment_speed
+def _one(found: Chunk, seeds: tuple[int, int]) -> None:
+    scene = random_scene(np.random.default_rng(seeds))
     try:
-        model = lubfric.prepare(scene)
-        result = lubfric.friction(model)
+        prepared = lubfric.prepare(scene)
+        result = lubfric.friction(prepared)
     except lubfric.LubfricError as error:
-        run.refused += 1
-        run.reasons[str(error).split("=")[0].split(":")[0][:60]] += 1
+        found.refused += 1
+        _count(found.reasons, f"{type(error).__name__}: {str(error).split('=')[0].split(':')[0][:WORDS]}")
         return
     except Exception as error:  # what must never happen
-        run.raw += 1
-        run.first_bad = run.first_bad or f"{type(error).__name__}: {error} of {scene}"[:300]
+        found.raw += 1
+        found.wrong.append(f"{seeds}: {type(error).__name__}: {error}"[:300])
         return
-    run.answered += 1
-    if not (
-        math.isfinite(result.coefficient)
-        and math.isclose(result.contact_load + result.film_load, scene.bodies.load, rel_tol=1e-2)
-    ):
-        run.wrong += 1
-    if not judge_it:
-        return
-    ratios = checked(model, speed)(result)
-    run.judged += 1
+    found.answered += 1
+    for feature in _features(prepared, result):
+        _count(found.features, feature)
+    ratios = verdict(prepared, result)
+    found.judged += "friction" in ratios
     worst = max(ratios, key=lambda name: ratios[name])
-    run.wrong += not ratios[worst] <= 1
-    if not ratios[worst] <= run.worst:
-        run.worst = ratios[worst]
-        run.worst_case = f"{worst} {ratios[worst]:.3g} of {scene}"[:400]
+    said = f"{seeds}: {worst} {ratios[worst]:.3g} of what is allowed, f = {result.coefficient:.4g}"
+    if not ratios[worst] <= 1 or not math.isfinite(result.coefficient):
+        found.wrong.append(said)
+    if not ratios[worst] <= found.worst:
+        found.worst, found.worst_case = ratios[worst], said
+
+
+def _count(counts: dict[str, int], word: str) -> None:
+    counts[word] = counts.get(word, 0) + 1
+
+
+def _features(prepared, result) -> Iterator[str]:
+    """What a soak should have had of everything, by name."""
+    scene, share = prepared.scene, result.contact_load / prepared.scene.bodies.load
+    yield scene.contact.geometry
+    yield "line" if prepared.lines is not None else "patch"
+    yield "asperities" if scene.contact.model != "half-space" else "height map"
+    yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
+    yield from (["plastic limit"] if scene.bodies.hardness else [])
+    yield from (["cells yielded"] if result.plastic_area_fraction > 0 else [])
+    yield from (["two rough bodies"] if scene.counterface else [])
+    yield from (["oil by grade"] if scene.lubricant.oil else [])
+    yield from (["heat of the inlet"] if result.inlet_film_factor < 1 else [])
+    yield from (["heat of film and surfaces"] if result.film_temperature_rise > 0 else [])
+    yield from (["deflected by the whole load"] if "whole load" in result.decision.deflection else [])
+    yield from (["pure rolling"] if scene.motion.slide_roll_ratio == 0 else [])
+    yield from (["more than one line"] if result.line is not None and result.line.used else [])
+    yield from (["finer pieces of the line"] if result.line is not None and result.line.grid else [])
+
+
+def growth(chunks: list[Chunk]) -> float:
+    """Largest rise of the memory of a process [MiB], from the mean of its second quarter to that of its last."""
+    rises = [0.0]
+    for process in {c.process for c in chunks}:
+        sizes = [c.memory for c in chunks if c.process == process]
+        if len(sizes) >= 4:
+            quarter = len(sizes) // 4
+            rises.append(float(np.mean(sizes[-quarter:]) - np.mean(sizes[quarter : 2 * quarter])))
+    return max(rises)
+
+
+def total(chunks: list[Chunk], name: str) -> Counter:
+    """Counts by word of all chunks."""
+    counted: Counter = Counter()
+    for one in chunks:
+        counted.update(getattr(one, name))
+    return counted

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 from ..check import AT_MOST, Check, Item, Table
 from . import soak as soaking
@@ -28,14 +29,28 @@ def bad_inputs(level: str) -> Iterator[Item]:
     yield Table("bad-inputs", f"{len(found)} bad inputs by how they ended", ("input", *GOOD, *BAD), rows)
 
 
-def soak(level: str) -> Iterator[Item]:
-    """Friction of random scenes one after the other in one process: each answered, or refused in words; a part of the
-    answers closed again by a judge that shares neither film solver nor root finder; memory flat."""
-    count, judged_share = (150, 0.2) if level == "quick" else (10_000, 0.02)
-    run = soaking.soak(count, SEED, judged_share)
-    yield Check("raw errors", run.raw, 0, 0, "none is allowed", AT_MOST, note=run.first_bad)
-    yield Check("silently wrong", run.wrong, 0, 0, "independent balance", AT_MOST, note=run.worst_case)
-    yield Check("worst error / allowed", run.worst, 1, 0, "independent balance", AT_MOST)
-    yield Check("growth of memory", run.growth, soaking.MOST_GROWTH, 0, "flat", AT_MOST, unit="MiB")
-    words = f"{count} scenes: {run.answered} answered, {run.refused} refused, {run.judged} judged"
-    yield Table("soak", words, ("why", "refused"), tuple(run.reasons.most_common(12)))
+def soak(level: str, folder: Path | None = None, workers: int = 1) -> Iterator[Item]:
+    """Friction of random scenes one after the other in one process: each answered, or refused in words; each answer
+    closed again by a judge that shares neither film solver nor root finder nor sums; memory flat.
+
+    ``folder`` keeps every fifty scenes that are done, so that a run that was stopped goes on."""
+    count = 100 if level == "quick" else 10_000
+    chunks = soaking.soak(count, SEED, folder, workers)
+    wrong, raw = [w for c in chunks for w in c.wrong], sum(c.raw for c in chunks)
+    worst = max(chunks, key=lambda c: c.worst)
+    yield Check("raw errors", raw, 0, 0, "none is allowed", AT_MOST)
+    note = "; ".join(wrong[:3]) or worst.worst_case
+    yield Check("silently wrong", len(wrong), 0, 0, "independent balance", AT_MOST, note=note)
+    yield Check("worst error / allowed", worst.worst, 1, 0, "independent balance", AT_MOST, note=worst.worst_case)
+    yield Check("growth of memory", soaking.growth(chunks), soaking.MOST_GROWTH, 0, "flat", AT_MOST, unit="MiB")
+    answered, refused, judged = (sum(getattr(c, name) for c in chunks) for name in ("answered", "refused", "judged"))
+    words = f"{count} scenes: {answered} answered, {refused} refused, {judged} closed again"
+    yield Table("soak", words, ("why", "refused"), tuple(soaking.total(chunks, "reasons").most_common(12)))
+    yield Table("soak-features", "What the answered scenes had", ("feature", "scenes"), _sorted(chunks))
+    sizes = chunks[:: max(1, len(chunks) // 12)]
+    rows = tuple((c.number * soaking.CHUNK, c.process, round(c.memory, 1)) for c in sizes)
+    yield Table("soak-memory", "Resident memory of the process", ("scenes before", "process", "MiB"), rows)
+
+
+def _sorted(chunks) -> tuple[tuple[str, int], ...]:
+    return tuple(soaking.total(chunks, "features").most_common())

@@ -12,7 +12,7 @@ import numpy as np
 
 import lubfric
 from lubfric.errors import LubfricError
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from ..check import Check
 from ..report import finite
@@ -123,6 +123,6 @@ def finer_reference(index: int, values: dict) -> tuple[float, float]:
     coarse = lubfric.friction(model, tolerance=REFERENCE, model="full").coefficient
     fine = model.surface.resampled(shape=tuple(2 * n for n in model.surface.shape))
     tight = problem.with_(
-        numerics={"ehl_tolerance": 3e-5, "tolerance": 2e-4}, contact={"shape": fine.shape, "spacing": fine.spacing}
+        numerics={"film_tolerance": 3e-5, "tolerance": 2e-4}, contact={"shape": fine.shape, "spacing": fine.spacing}
     )
     return coarse, lubfric.friction(prepare(tight, replace(fine)), model="full").coefficient

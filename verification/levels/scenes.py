@@ -23,7 +23,7 @@ import numpy as np
 
 from lubfric.analytic import hertz
 from lubfric.lubricant import Lubricant
-from lubfric.scene import Bodies, Motion, Numerics, Patch, Roughness, Scene
+from lubfric.scene import Bodies, ContactDomain, Motion, Numerics, Roughness, Scene
 
 E_PRIME, WIDTH, EYRING, LIMITING = 231e9, 10e-3, 5e6, 0.05
 CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 24, 12, 1.33
@@ -74,7 +74,7 @@ def scene(values: dict, index: int) -> Scene:
         lubricant,
         Motion(values["speed"]),
         Roughness(sq=sq, correlation_length=length, acf="gaussian", seed=index),
-        Patch(shape=shape, spacing=(across, cell)),
+        ContactDomain(shape=shape, spacing=(across, cell)),
         Numerics(film_deflection="hydrodynamic", sampling="patch"),
         name=f"scene {index}",
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from ..check import Check
 

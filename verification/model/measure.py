@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 
 import lubfric
-from lubfric.model import Model
+from lubfric.prepared import Prepared
 from lubfric.scene import Scene
 
 WIDTH = 90e-6  # of the patch, both ways
@@ -98,7 +98,7 @@ def points(setting: Setting, methods=tuple(METHODS)) -> list[Point]:
     return found
 
 
-def _sweep(setting: Setting, method: str, model: Model) -> list[Point]:
+def _sweep(setting: Setting, method: str, model: Prepared) -> list[Point]:
     found, start = [], None
     for speed in setting.speeds:
         begun = time.process_time()

@@ -6,8 +6,10 @@ refused in words, or one of many random scenes was answered wrongly.
 
 from __future__ import annotations
 
+import argparse
 import importlib
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..check import Item
 from ..frame import Command
@@ -33,7 +35,15 @@ def main(argv: list[str]) -> int:
         Study("bad-inputs", "verification.hostile.study:bad_inputs", "Bad input", LEVELS),
         Study("soak", "verification.hostile.study:soak", "Random scenes in one process", LEVELS),
     )
-    return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1), argv)
+    return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1, prepared=_kept), argv)
+
+
+def _kept(study: Study, options: argparse.Namespace) -> Study:
+    """The soak keeps what is done in the folder of the report; alone, it has all the processes."""
+    if study.name != "soak":
+        return study
+    workers = options.workers if options.only == ["soak"] else 1
+    return replace(study, options={"folder": options.out / f"soak-{options.level}", "workers": workers})
 
 
 def stability_map(level: str, name: str) -> Iterator[Item]:

@@ -21,7 +21,7 @@ from lubfric import (
     solve_differential_deflection,
     solve_ehl,
 )
-from lubfric.model import Model, prepare
+from lubfric.prepared import Prepared, prepare
 
 from ..check import Check
 from .cell import Condition, judged
@@ -38,7 +38,7 @@ def cells(level: str) -> Iterator[Check]:
     yield from special_speeds(quick)
 
 
-def model_of(name: str, sq: float, shape: int, **sections) -> Model:
+def model_of(name: str, sq: float, shape: int, **sections) -> Prepared:
     """A built-in scene with another roughness on a small grid."""
     scene = load_scene(name)
     if name == "flat":
@@ -76,7 +76,7 @@ def film_case(scene, load: float, speed: float) -> dict:
     }
 
 
-def checked(model: Model, speed: float):
+def checked(model: Prepared, speed: float):
     """check(result) for `judged`: sums of the result itself, and friction and contact load against `judge`."""
 
     def check(result) -> dict[str, float]:
@@ -95,13 +95,13 @@ def checked(model: Model, speed: float):
             coefficient, split = judge(model, result, speed)
         found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
-        allowed = ALLOWED | {"load": 2 * scene.numerics.volume_tolerance}  # what one closure balances, the other keeps
+        allowed = ALLOWED | {"load": 2 * scene.numerics.tolerances.balance}  # one closure balances it
         return {name: value / allowed[name] for name, value in found.items()}
 
     return check
 
 
-def judge(model: Model, result, speed: float) -> tuple[float, float]:
+def judge(model: Prepared, result, speed: float) -> tuple[float, float]:
     """(friction coefficient, F_C/F_T) from another film solver and fresh dry contacts: the split closed again."""
     from scipy.optimize import brentq
 
@@ -152,7 +152,7 @@ def judge_film(scene, load: float, speed: float):
         return solve_ehl(**case, tolerance=1e-4)
 
 
-def judge_contact(model: Model, load: float, film) -> Sides:
+def judge_contact(model: Prepared, load: float, film) -> Sides:
     """A dry contact solved afresh at ``load`` [N]."""
     patch, scene = model.contact, model.scene
     heights, spacing = model.surface.heights - model.surface.heights.mean(), model.surface.spacing
@@ -254,7 +254,7 @@ def special_speeds(quick: bool) -> Iterator[Check]:
         yield from shares(model, name, quick)
 
 
-def shares(model: Model, name: str, quick: bool) -> Iterator[Check]:
+def shares(model: Prepared, name: str, quick: bool) -> Iterator[Check]:
     """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
     total = model.scene.bodies.load
     for share in (

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.model import Model, prepare
+from lubfric.prepared import Prepared, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
@@ -24,7 +24,7 @@ WIDTHS = (45e-6, 60e-6, 90e-6, 120e-6, 180e-6)
 TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
 TIGHT = {
     "tolerance": 1e-3,
-    "ehl_tolerance": 1e-4,
+    "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "contact_tolerance": 1e-6,
     "model": "full",
@@ -60,7 +60,7 @@ def surface(shape: tuple[int, int], spacing: float, seed: int = 1, acf: str = "g
     return lubfric.generate_surface(shape, spacing, sq=100e-9, correlation_length=LENGTH, acf=acf, seed=seed).heights
 
 
-def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Model:
+def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Prepared:
     """The scene made ready for given heights."""
     return prepare(scene(region, **numerics), lubfric.Surface(heights, (spacing, spacing)))
 
@@ -192,7 +192,7 @@ def tolerance_of_the_job():
     """Error of f against the tolerance asked, when `lubfric` chooses levels, grids and inner tolerances by it."""
     heights, spacing = surface((256, 256), PATCH / 256), PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
-    free = dict.fromkeys(("ehl_tolerance", "balance_tolerance", "contact_tolerance"))
+    free = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
     errors, seconds = [], []
     for tolerance in TOLERANCES:
         made = model(heights, spacing, **free | {"tolerance": tolerance, "model": "auto"})

@@ -13,7 +13,7 @@ import lubfric
 from lubfric.halfspace import HalfSpace
 from lubfric.halfspace.operator import _even_transform
 from lubfric.halfspace.semiperiodic import semiperiodic_coefficients
-from lubfric.model import Model, prepare
+from lubfric.prepared import Prepared, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, Check, Field, Table
@@ -28,7 +28,7 @@ LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
 TIGHT = {  # the model of the finite elements: no more and no less
-    "ehl_tolerance": 1e-4,
+    "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "model": "full",
     "film_deflection": "hydrodynamic",
@@ -152,7 +152,7 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) 
     return Point(heights.shape[0], speed, found, lubfric.friction(model, speed, fields=True))
 
 
-def averaged(model: Model) -> Model:
+def averaged(model: Prepared) -> Prepared:
     """The model with displacements that are means over cells along x, as those of the finite elements are."""
     return replace(model, contact=replace(model.contact, operator=cell_mean(model.contact.operator)))
 

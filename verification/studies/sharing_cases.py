@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.model import Model, prepare
+from lubfric.prepared import Prepared, prepare
 from lubfric.scene import Roughness
 
 from ..check import AT_LEAST, Check
@@ -94,7 +94,7 @@ def strip(across: float) -> Compliance:
     return compliance(Strip((CELLS, CELLS), (LENGTH / CELLS, across), elastic(), fineness=1))
 
 
-def line_contact(model: Model, case: Case) -> LineContact:
+def line_contact(model: Prepared, case: Case) -> LineContact:
     """The smooth contact under the whole load."""
     b, oil = model.scene.bodies, model.scene.lubricant
     law = {
@@ -104,7 +104,7 @@ def line_contact(model: Model, case: Case) -> LineContact:
     return LineContact(b.load / b.width, b.radius, b.e_prime, case.speed, Fluid(oil.viscosity, **law))
 
 
-def cylinder(model: Model, body: Compliance, heights: np.ndarray, case: Case) -> Bodies:
+def cylinder(model: Prepared, body: Compliance, heights: np.ndarray, case: Case) -> Bodies:
     """The same for the finite elements; nothing of ``model`` but numbers of its scene."""
     b = model.scene.bodies
     sliding = model.scene.motion.slide_roll_ratio * case.speed
@@ -124,7 +124,7 @@ def compared(name: str, found: Shared, main: lubfric.FrictionResult, allowed: tu
         yield Check(f"{name}: {what}", measured, expected, tolerance, SOURCE, unit=unit)
 
 
-def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model: Model):
+def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
     """Cells at the hardness, on both sides."""
     weight = model.contact.weight / model.contact.weight.sum()
     share = float(weight @ found.pressed.yielded.mean(axis=1))

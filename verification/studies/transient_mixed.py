@@ -11,7 +11,7 @@ import lubfric
 from lubfric.history import Harmonic, Ramp
 from lubfric.history import Table as History
 from lubfric.history.plan import Transient
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check
@@ -200,7 +200,7 @@ def errors(model):
     tight = {"balance_tolerance": 1e-5, "contact_tolerance": 1e-5}
 
     def friction(film, step):
-        found = run(model, Transient(0.01, speed=wave, tolerance=step), times, ehl_tolerance=film, **tight)
+        found = run(model, Transient(0.01, speed=wave, tolerance=step), times, film_tolerance=film, **tight)
         return found.coefficient, found.report.iterations, int(found.report.notes[0].split()[0])
 
     best = friction(1e-3, 1e-6)[0]

@@ -8,28 +8,32 @@ beneath.
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
-import platform
 import re
 import sys
 import time
 from pathlib import Path
 
-from .measured import TABLES, Table
+from . import measured, studies
+from .measured import Table
+from .source import source
 
+TABLES = measured.TABLES | studies.TABLES
 BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
 
 
 def main(argv: list[str]) -> int:
     """Exit code 0: every table asked for was measured and written."""
     options = parser().parse_args(argv)
+    if options.list:
+        print("\n".join(options.only or TABLES))
+        return 0
     wanted = set(options.only or TABLES)
     for page in sorted(options.docs.glob("*.md")):
         text = page.read_text(encoding="utf-8")
         names = [match["name"] for match in BLOCK.finditer(text) if match["name"] in wanted]
         for name in names:
             begun = time.perf_counter()
-            text = replaced(text, name, body(name, TABLES[name](), time.strftime("%Y-%m-%d")))
+            text = replaced(text, name, body(name, TABLES[name]()))
             print(f"{page.name}: {name} ({time.perf_counter() - begun:.1f} s)", file=sys.stderr, flush=True)
             page.write_text(text, encoding="utf-8")
     return 0
@@ -44,13 +48,11 @@ def replaced(text: str, name: str, new: str) -> str:
     return BLOCK.sub(put, text)
 
 
-def body(name: str, table: Table, date: str) -> str:
+def body(name: str, table: Table) -> str:
     """A table as Markdown, and the line beneath that says where it comes from."""
     rows = [table.columns, ["---"] * len(table.columns), *table.rows]
     lines = ["| " + " | ".join(row) + " |" for row in rows]
-    version = importlib.metadata.version("lubfric")
-    source = f"`python -m verification tables --only {name}`, {date}, lubfric {version}, {platform.machine()}"
-    return "\n" + "\n".join(lines) + f"\n\n*{source}, Python {platform.python_version()}.*\n\n"
+    return "\n" + "\n".join(lines) + f"\n\n{source(f'tables --only {name}')}\n\n"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -58,4 +60,5 @@ def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser("python -m verification tables", description=__doc__)
     p.add_argument("--only", nargs="+", choices=list(TABLES), metavar="TABLE", help=f"of {', '.join(TABLES)}")
     p.add_argument("--docs", type=Path, default=Path("docs"), metavar="DIR", help="folder of the documents")
+    p.add_argument("--list", action="store_true", help="name the tables and stop")
     return p

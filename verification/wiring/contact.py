@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.rough.contract import ContactState
 
 from ..check import AT_LEAST, Check

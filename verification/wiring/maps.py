@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.model import prepare
+from lubfric.prepared import prepare
 from lubfric.scene import Roughness
 
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check

@@ -19,7 +19,7 @@ OILS = {
     "Dowson-Higginson": {"density_law": "dowson-higginson"},
     "Barus": {"viscosity_law": "barus"},
 }
-TIGHT = {"ehl_tolerance": 1e-3}
+TIGHT = {"film_tolerance": 1e-3}
 
 
 def wiring_time(level: str) -> Iterator[Check]:

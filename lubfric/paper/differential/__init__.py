@@ -5,5 +5,6 @@
 """
 
 from .solve import solve_differential_deflection
+from .transient import solve_differential_transient
 
-__all__ = ["solve_differential_deflection"]
+__all__ = ["solve_differential_deflection", "solve_differential_transient"]

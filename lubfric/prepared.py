@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from .deterministic.takes import check_scene, whole
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.ladder import LEVELS
+from .lines.contract import Lines
+from .lines.make import lines_of, pilot, takes_line
 from .plausible import told_doubts
 from .rough.contract import RoughContact
 from .rough.height_map import check_grid, contact_map
 from .rough.make import rough_contact
-from .sampling.lines import Lines
-from .sampling.make import lines_of, pilot, takes_line
 from .scene import Scene
+from .scene.resolved_gap import check_resolved_gap, resolves_gap
 from .show import Shown
 from .surface import Surface
 from .validate import instance
@@ -24,7 +24,7 @@ from .validity.entry import Validity
 
 
 @dataclass(frozen=True, repr=False)
-class Model(Shown):
+class Prepared(Shown):
     """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
 
     Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
@@ -49,24 +49,24 @@ def prepare(
     scene: Scene,
     surface: Surface | None = None,
     *,
-    like: Model | None = None,
+    like: Prepared | None = None,
     contact: RoughContact | None = None,
     film_levels: Sequence[FilmLevel] = LEVELS,
-) -> Model:
+) -> Prepared:
     """Build what does not depend on the speed: the height map and the rough contact.
 
     ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
     along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so). Without one, a scene with
     ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md).
-    ``like``: a model of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
+    ``like``: one of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
     load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
     ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
-    if whole(scene):
-        check_scene(scene)
+    if resolves_gap(scene):
+        check_resolved_gap(scene)
     if like is not None:
-        instance("like", like, Model, "what lubfric.prepare returned")
+        instance("like", like, Prepared, "what lubfric.prepare returned")
     levels = tuple(film_levels) if like is None else like.film_levels
     _check_levels(scene, levels)
     if like is not None:
@@ -78,10 +78,10 @@ def prepare(
             return _on_a_line(scene, levels)
         surface = contact_map(scene, surface)
         contact = rough_contact(scene, surface) if contact is None else contact
-        return Model(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+        return Prepared(scene, surface, contact, levels, beforehand(scene, surface), given=given)
 
 
-def _another(scene: Scene, like: Model) -> Model:
+def _another(scene: Scene, like: Prepared) -> Prepared:
     """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other
     cells."""
     lines = None
@@ -93,31 +93,31 @@ def _another(scene: Scene, like: Model) -> Model:
     return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
 
 
-def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Model:
+def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Prepared:
     lines = lines_of(scene)
     surface, contact = pilot(scene, lines)
     check_grid(scene, surface)
-    return Model(scene, surface, contact, levels, beforehand(scene, surface), lines)
+    return Prepared(scene, surface, contact, levels, beforehand(scene, surface), lines)
 
 
-def scene_of(scene: Scene | Model) -> Scene:
-    """The scene of a model, or the scene itself; anything else is an `InputError`."""
-    if isinstance(scene, Model):
+def scene_of(scene: Scene | Prepared) -> Scene:
+    """The scene that was prepared, or the scene itself; anything else is an `InputError`."""
+    if isinstance(scene, Prepared):
         return scene.scene
     instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
     return scene
 
 
-def at_tolerance(scene: Scene | Model, tolerance: float | None, model: str | None) -> Model:
+def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
     """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Model) else None
+    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Prepared) else None
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 
 def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
     if surface is not None or contact is not None:
-        raise InputError("like = a model brings its own surface and contact; allowed: like, or surface and contact")
+        raise InputError("like brings its own surface and contact; allowed: like, or surface and contact")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("counterface", scene.counterface, old.counterface),
@@ -126,7 +126,7 @@ def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
         ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),
     ):
         if a != b:
-            raise InputError(f"{name} = {a!r} is not that of the model to be used again; allowed: {b!r}")
+            raise InputError(f"{name} = {a!r} is not that of the prepared scene to be used again; allowed: {b!r}")
 
 
 def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
@@ -135,6 +135,6 @@ def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
         raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")
     if scene.numerics.film_level not in ("auto", "none", *names):
         raise InputError(
-            f"numerics.film_level = {scene.numerics.film_level!r} is none of the levels of this model; allowed: "
+            f"numerics.film_level = {scene.numerics.film_level!r} is none of the levels there are; allowed: "
             f"{', '.join(map(repr, names))}"
         )

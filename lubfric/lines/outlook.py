@@ -6,8 +6,8 @@ import math
 
 from ..line_contact import LineContact
 from ..scene import Scene
+from .contract import Lines
 from .length import MOST, PILOT, SAFETY
-from .lines import Lines
 
 CELL_SECONDS = 2.5e-6  # processor time of a cell of a line in balance, about
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about

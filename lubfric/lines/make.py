@@ -6,9 +6,9 @@ from ..rough.half_space import HalfSpaceContact
 from ..rough.height_map import measured, rough_bodies, whole_map
 from ..scene import Scene
 from ..surface import Surface
+from .contract import Lines
 from .generated import generated_lines
 from .length import MOST_CELLS, PILOT
-from .lines import Lines
 from .pieces import line_contact
 from .windows import measured_lines
 

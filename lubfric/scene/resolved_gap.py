@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..scene import Scene
+from .scene import Scene
 
 TAKEN = (
     ("contact", "geometry", "cylinder"),
@@ -27,12 +27,12 @@ WHY = {
 HEAT = ("auto", "off")
 
 
-def whole(scene: Scene) -> bool:
+def resolves_gap(scene: Scene) -> bool:
     """The gap is resolved: one pressure in it, or one-way load sharing."""
     return scene.numerics.model == "deterministic" or scene.numerics.closure == "one-way"
 
 
-def check_scene(scene: Scene) -> None:
+def check_resolved_gap(scene: Scene) -> None:
     """Raise `InputError` for what a film in a resolved gap does not take."""
     one_way = scene.numerics.model != "deterministic"
     asked = "numerics.closure = 'one-way'" if one_way else "numerics.model = 'deterministic'"

@@ -1,0 +1,105 @@
+"""The numbers of one gap with one pressure as a `FrictionResult`, and what a reader has to know of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..deterministic.point import deterministic_point
+from ..deterministic.refine import Refined
+from ..prepared import Prepared
+from ..result import FrictionResult
+from ..sampling.uncertainty import field_errors_of, not_sampled
+from ..validity.bodies import of_motion
+from ..validity.entry import Validity
+from ..validity.film import of_pressure, of_thickness
+from .resolved import Resolved, resolved_result
+
+NO_PLACES = "not estimated for one pressure of film and contact"
+DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
+
+
+def deterministic_answer(
+    prepared: Prepared, speed: float, start: FrictionResult | None, begun: float
+) -> FrictionResult:
+    """``prepared`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
+    scene, surface = prepared.scene, prepared.surface
+    found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
+    known = {} if found.error is None else {"coefficient": found.error}
+    return replace(
+        resolved_result(prepared, speed, _numbers(prepared, speed, found), begun),
+        deterministic=found,
+        uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
+        errors=field_errors_of(known, NO_PLACES),
+    )
+
+
+def _numbers(prepared: Prepared, speed: float, found: Refined) -> Resolved:
+    bodies, result = prepared.scene.bodies, found.result
+    dx, dy = result.spacing
+    return Resolved(
+        film="deterministic",
+        contact="asperity spots",
+        film_words=_words(found),
+        notes=_notes(found),
+        coefficient=result.coefficient,
+        contact_load=result.split.spots,
+        film_load=bodies.load / bodies.width - result.split.spots,
+        boundary=result.boundary,
+        couette=result.couette,
+        rolling=result.rolling,
+        contact_fraction=result.spot_fraction,
+        contact_area=float(result.spots.sum()) * dx * dy,
+        plastic_fraction=result.plastic_fraction,
+        min_gap=result.min_gap,
+        central_gap=result.central_gap,
+        mean_gap=result.mean_gap,
+        load_residual=result.report.residuals["load"],
+        report=result.report,
+        entries=_entries(prepared, speed, found),
+    )
+
+
+def _words(found: Refined) -> str:
+    """The film of ``found`` in one phrase: its grids and their estimated error."""
+    shapes = " and ".join(f"{r.pressure.shape[0]} x {r.pressure.shape[1]}" for r in found.results[-2:])
+    error = "" if found.error is None else f", estimated error {100 * found.error:.2g} % of f"
+    return f"one pressure with the contact on {shapes} cells{error}"
+
+
+def _notes(found: Refined) -> tuple[str, ...]:
+    """How the load divides by each rule, and how the finest grid was solved."""
+    result = found.result
+    split, load = result.split, result.load
+    return (
+        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots "
+        f"{100 * split.spots / load:.3g} %, "
+        f"where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
+        *result.report.notes,
+    )
+
+
+def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity, ...]:
+    """Entries for all that does not hold; those of bodies and map first."""
+    scene, result = prepared.scene, found.result
+    entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
+    entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
+    entries += of_thickness(scene.bodies, result.central_gap)
+    lubricant = scene.lubricant
+    newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
+    cut = (result.split.saturated - result.split.spots) / result.load
+    if newtonian and cut > CUT:
+        consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"
+        remedy = "choose lubricant.eyring_stress or a limiting stress"
+        entries.append(Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy))
+    if result.drawn > DRAWN:
+        consequence = "the film behind them is fed too well"
+        remedy = "finer cells (contact.spacing)"
+        entries.append(
+            Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
+        )
+    error, tolerance = found.error, scene.numerics.tolerance
+    if error is not None and error > tolerance:
+        consequence = "the finest grid leaves more than the tolerance"
+        remedy = "a finer contact.spacing, a larger tolerance"
+        entries.append(Validity("estimated error of the grid in f", error, tolerance, "", consequence, remedy))
+    return tuple(entries)

@@ -1,0 +1,100 @@
+"""The numbers of one operating point with what is known of their error, on a long line or on one patch."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+
+from ..line_contact import LineContact
+from ..oil.describe import estimate_in_words
+from ..point.adapt import Solved
+from ..point.deflection import solved_as_deflected
+from ..point.judge import judged_validity
+from ..prepared import Prepared
+from ..result import FrictionResult
+from ..sampling.estimate import of_line
+from ..sampling.line_friction import line_friction
+from ..sampling.other_cells import by_half_cells, too_coarse
+from ..sampling.patch_error import of_patch
+from ..scene import Scene
+from ..validity.model_form import load_sharing_error
+
+
+def load_sharing_answer(
+    prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool, begun: float
+) -> FrictionResult:
+    """``prepared`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
+    speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
+    foretell_ends(prepared, speed)
+    if prepared.lines is not None:
+        chosen, line = line_friction(prepared, speed, None if start is None else start.line)
+        result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
+        result = replace(result, line=line.start)
+        change = line.by_half_cells
+    else:
+        balance = None if start is None else start.balance
+        chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
+        result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point)
+        change = by_half_cells(chosen, speed, point)
+    cautions = too_coarse(change, prepared.scene.numerics.tolerance)
+    result = replace(result, validity=(*result.validity, *cautions))
+    uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
+    report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
+    return replace(result, uncertainty=uncertainty, errors=errors, report=report)
+
+
+def foretell_ends(prepared: Prepared, speed: float) -> None:
+    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s]."""
+    bodies, film = prepared.scene.bodies, 0.0
+    if speed != 0:
+        line_load = bodies.load / bodies.width
+        film = LineContact(line_load, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant).moes_film
+    prepared.contact.foretell(bodies, film)
+
+
+def _model_form(scene: Scene, result: FrictionResult) -> float:
+    """Known for a cylinder and the half-space contact, which were studied."""
+    if scene.contact.geometry != "cylinder" or scene.contact.model != "half-space":
+        return math.nan
+    return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)
+
+
+def _numbers(prepared: Prepared, speed: float, point: Solved, begun: float) -> FrictionResult:
+    """Of ``point``, beside what is known of their error."""
+    scene, balance = prepared.scene, point.balance
+    contact, film, found = balance.contact, balance.film, balance.forces
+    central = film.central_film if film is not None else math.nan
+    separated = balance.contact_load == 0
+    passed = judged_validity(prepared, speed, balance)
+    oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
+    known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
+    notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))
+    sq = prepared.surface.sq
+    return FrictionResult(
+        speed=speed,
+        coefficient=found.coefficient,
+        contact_load=balance.contact_load,
+        film_load=balance.film_load,
+        shear_force=found.shear.total,
+        couette_force=found.shear.couette,
+        rolling_force=found.shear.rolling,
+        boundary_force=found.boundary,
+        real_contact_area_fraction=contact.real_contact_area_fraction,
+        real_contact_area=float(contact.contact_fraction.sum() * (contact.x[1] - contact.x[0]) * scene.bodies.width),
+        plastic_area_fraction=contact.plastic_area_fraction,
+        min_film=film.min_film if film is not None else math.nan,
+        central_film=central,
+        mean_gap=contact.mean_film if separated else contact.mean_gap,
+        film_to_roughness_ratio=central / sq if sq > 0 else math.inf,
+        inlet_film_factor=found.heat.film_factor,
+        flash_temperature_rise=found.heat.flash,
+        film_temperature_rise=found.heat.film,
+        load_residual=(balance.contact_load + balance.film_load - scene.bodies.load) / scene.bodies.load,
+        volume_residual=0.0 if film is None or separated else contact.volume_residual,
+        seconds=time.perf_counter() - begun,
+        report=replace(balance.report, notes=notes),
+        balance=balance,
+        decision=point.decision,
+        validity=passed,
+    )

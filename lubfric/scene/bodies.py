@@ -1,0 +1,69 @@
+"""The line contact: two bodies, pressed together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .. import validate
+from ..analytic import hertz
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The line contact: a cylinder on a plane, or the nominally flat strip under it.
+
+    radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
+    e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
+    contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
+    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away
+    (steel).
+    """
+
+    radius: float
+    width: float
+    load: float
+    e_prime: float
+    boundary_friction_coefficient: float
+    hardness: float | None = None
+    conductivity: tuple[float, float] = (46.0, 46.0)
+    volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
+
+    def __post_init__(self):
+        validate.positive("bodies.radius", self.radius, "m", minimum=1e-9, maximum=1e3)
+        validate.positive("bodies.width", self.width, "m", minimum=1e-9, maximum=1e3)
+        validate.positive("bodies.load", self.load, "N", minimum=1e-12, maximum=1e12)
+        validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
+        validate.nonnegative(
+            "bodies.boundary_friction_coefficient", self.boundary_friction_coefficient, "(-)", maximum=10.0
+        )
+        if self.hardness is not None:
+            validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
+            if self.mean_hertz_pressure >= self.hardness:
+                raise InputError(
+                    f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
+                    f"{self.hardness * 2 * self.half_width * self.width:g} N"
+                )
+
+        for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
+            both = getattr(self, name)
+            if not isinstance(both, (tuple, list)) or len(both) != 2:
+                raise InputError(f"bodies.{name} = {both!r} must be a pair, one value a body [{unit}]")
+            object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
+
+    @property
+    def effusivity(self) -> tuple[float, float]:
+        """sqrt(k rho c) of both bodies [J/(m^2 K s^0.5)]."""
+        first, second = (math.sqrt(k * c) for k, c in zip(self.conductivity, self.volumetric_heat))
+        return first, second
+
+    @property
+    def half_width(self) -> float:
+        """Hertz half-width b [m] of the total load, b = sqrt(8 w R/(pi E'))."""
+        return hertz.line_half_width(self.load / self.width, self.radius, self.e_prime)
+
+    @property
+    def mean_hertz_pressure(self) -> float:
+        """F_T / (2 b B) [Pa]."""
+        return hertz.line_mean_pressure(self.load / self.width, self.radius, self.e_prime)

@@ -1,0 +1,60 @@
+"""The part of the contact that is resolved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .. import validate
+from ..errors import InputError
+
+GEOMETRIES = ("cylinder", "flat")
+REGIONS = ("hertz", "box")
+LARGEST = 2**26  # cells of a contact grid
+CONTACT_MODELS = ("half-space", "summits", "patches")
+ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+
+
+@dataclass(frozen=True)
+class ContactDomain:
+    """The part of the contact that is resolved, and how the two models meet on it.
+
+    geometry "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2);
+    "flat": nominally flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1).
+    region: area A of the volume balance, Eq. (8): "hertz" (the strip |x| <= b of the total load)
+    or "box" (the whole patch). shape (nx, ny) and spacing (dx, dy) [m] of the contact grid; a
+    measured map keeps its own grid where they are left out.
+    model: "half-space" (every point of the surface, with interaction), or independent Hertz contacts of
+    "summits" or "patches" (`lubfric.asperity`); asperity_separation: how the film sets the separation of
+    these, "volume" (Eq. 8 without deflection) or "mean-plane" (the mean film itself).
+    """
+
+    geometry: str = "cylinder"
+    region: str = "hertz"
+    shape: tuple[int, int] | None = None
+    spacing: float | tuple[float, float] | None = None
+    model: str = "half-space"
+    asperity_separation: str = "volume"
+
+    def __post_init__(self):
+        validate.choice("contact.model", self.model, CONTACT_MODELS)
+        validate.choice("contact.asperity_separation", self.asperity_separation, ASPERITY_SEPARATIONS)
+        validate.choice("contact.geometry", self.geometry, GEOMETRIES)
+        validate.choice("contact.region", self.region, REGIONS)
+        if self.shape is not None:
+            if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
+                raise InputError(
+                    f"contact.shape = {validate.shown(self.shape)} must be a pair (nx, ny) of whole numbers >= 1"
+                )
+            object.__setattr__(
+                self, "shape", tuple(validate.integer("contact.shape", n, minimum=1) for n in self.shape)
+            )
+            cells = math.prod(self.shape)
+            if cells > LARGEST:
+                raise InputError(
+                    f"contact.shape = {validate.shown(self.shape)} has {float(min(cells, 10**300)):.3g} cells; "
+                    f"allowed: up to {LARGEST:.3g}"
+                )
+        if self.spacing is not None:
+            pair = validate.spacing("contact.spacing", self.spacing)
+            object.__setattr__(self, "spacing", pair if isinstance(self.spacing, (list, tuple)) else pair[0])

@@ -1,0 +1,33 @@
+"""How the two surfaces move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import validate
+
+FASTEST = 1e6  # m/s
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Speeds of the two surfaces.
+
+    entrainment_speed U = (u1 + u2)/2 [m/s]; slide_roll_ratio (u2 - u1)/U [-], kept while the
+    entrainment speed varies along a Stribeck curve. Surface 2 is the upper one, on which the shear
+    is taken (paper, Eq. 12). 2: surface 1 stands still, 0: pure rolling. speeds [m/s]: the entrainment
+    speeds of the Stribeck curve.
+    """
+
+    entrainment_speed: float
+    slide_roll_ratio: float = 2.0
+    speeds: tuple[float, ...] = ()
+
+    def __post_init__(self):
+        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", 1e6)):
+            value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
+            object.__setattr__(self, name, value)
+        speeds = () if len(self.speeds) == 0 else validate.array("motion.speeds", self.speeds, "m/s", ndim=1)
+        limits = {"minimum": -FASTEST, "maximum": FASTEST}
+        checked = tuple(validate.number("motion.speeds", u, "m/s", **limits) for u in speeds)
+        object.__setattr__(self, "speeds", checked)

@@ -1,0 +1,112 @@
+"""How exactly a scene is solved, and with what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import validate
+from ..errors import InputError
+
+MOST_THREADS = 1024
+CAVITATED_SHEAR = ("none", "striated")
+HEATS = ("auto", "on", "off")
+CLOSURES = ("load", "separation", "one-way")
+FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
+MODELS = ("auto", "full", "deterministic")
+FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
+CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
+GRIDS = ("auto", "given")
+SAMPLINGS = ("line", "patch")
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Relative: of the EHL film, whose error enters F_H, and so f, about one to one; of the contact solve; of the
+    closing of load and volume."""
+
+    film: float
+    contact: float
+    balance: float
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Relative tolerances. ``tolerance`` is the one on the friction coefficient; those of film, contact and balance
+    follow from it where they are left out (`tolerances`).
+
+    closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
+    on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
+    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total");
+    "auto": the first where that changes f by less than its share of the tolerance, else the second.
+
+    What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
+    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md).
+    film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
+    matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
+    the range of the model are returned, marked, instead of refused.
+
+    What surface it is modelled with: sampling "line", a line of the scene's roughness as long as the standard error
+    ``sampling_tolerance`` of f asks, relative (docs/uncertainty.md); "patch", the one patch of ``contact.shape``.
+    """
+
+    tolerance: float = 0.01
+    film_tolerance: float | None = None
+    contact_tolerance: float | None = None
+    balance_tolerance: float | None = None
+    cavitated_shear: str = "none"
+    workers: int = 1
+    closure: str = "load"
+    film_deflection: str = "auto"
+    model: str = "auto"
+    film_level: str = "auto"
+    contact_level: str = "auto"
+    grid: str = "auto"
+    sampling: str = "line"
+    sampling_tolerance: float = 0.02
+    heat: str = "auto"
+    accept: bool = False
+
+    def __post_init__(self):
+        for name, options in (
+            ("model", MODELS),
+            ("film_level", FILM_LEVELS),
+            ("contact_level", CONTACT_LEVELS),
+            ("grid", GRIDS),
+            ("sampling", SAMPLINGS),
+            ("heat", HEATS),
+        ):
+            validate.choice(f"numerics.{name}", getattr(self, name), options)
+        validate.choice("numerics.closure", self.closure, CLOSURES)
+        validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
+        if self.film_deflection == "total":
+            for name, allowed in (("closure", ("load",)), ("film_level", ("auto", "none", "ehl"))):
+                if getattr(self, name) not in allowed:
+                    raise InputError(
+                        f"numerics.{name} = {getattr(self, name)!r} does not go with film_deflection = 'total'; "
+                        f"allowed: {', '.join(map(repr, allowed))}"
+                    )
+        validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
+        validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
+        for name in ("film_tolerance", "contact_tolerance", "balance_tolerance"):
+            if getattr(self, name) is not None:
+                validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
+        validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
+        validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
+        validate.boolean("numerics.accept", self.accept)
+
+    @property
+    def forced_film_level(self) -> str:
+        """Film level given by name, by ``model = "full"`` or by the total deflection, which rigid films have none of;
+        "auto" where it is to be chosen."""
+        numerical = self.model == "full" or self.film_deflection == "total"
+        return "ehl" if numerical and self.film_level == "auto" else self.film_level
+
+    @property
+    def tolerances(self) -> Tolerances:
+        """As given, or as they follow from ``tolerance``."""
+        asked = self.tolerance
+        return Tolerances(
+            film=self.film_tolerance or min(0.3 * asked, 0.01),
+            contact=self.contact_tolerance or min(1e-2 * asked, 1e-4),
+            balance=self.balance_tolerance or min(5e-2 * asked, 1e-3),
+        )

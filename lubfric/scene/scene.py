@@ -1,0 +1,68 @@
+"""One problem, complete: `Scene`."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field, replace
+
+from .. import validate
+from ..errors import InputError
+from ..history.plan import Transient
+from ..lubricant import Lubricant
+from ..roughness import Roughness
+from .bodies import Bodies
+from .change import changed_section
+from .contact import ContactDomain
+from .motion import Motion
+from .numerics import Numerics
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
+
+    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in
+    contact.
+    """
+
+    bodies: Bodies
+    lubricant: Lubricant
+    motion: Motion
+    surface: Roughness
+    contact: ContactDomain = field(default_factory=ContactDomain)
+    numerics: Numerics = field(default_factory=Numerics)
+    name: str = "unnamed"
+    transient: Transient | None = None
+    counterface: Roughness | None = None
+
+    def __post_init__(self):
+        if self.numerics.heat == "on" and not self.lubricant.heats:
+            raise InputError(
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an "
+                "oil (lubricant.grade, "
+                "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
+            )
+
+    def with_(self, **sections) -> Scene:
+        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``.
+
+        The short forms of scene files serve as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
+        """
+        changed = {}
+        for section, values in sections.items():
+            if section not in self.__dataclass_fields__:
+                raise InputError(
+                    f"scene has no section {section!r}{validate.nearest(section, self.__dataclass_fields__)}"
+                )
+            changed[section] = changed_section(section, getattr(self, section), values)
+        return replace(self, **changed)
+
+    def to_toml(self) -> str:
+        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
+        from ..scene_text import scene_as_toml
+
+        return scene_as_toml(self)
+
+
+def scene_as_dict(scene: Scene) -> dict:
+    """The resolved scene as plain data (for ``result.json``)."""
+    return asdict(scene)

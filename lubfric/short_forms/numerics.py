@@ -1,0 +1,15 @@
+"""[numerics]: names that keys had before."""
+
+from __future__ import annotations
+
+from .pairs import only_one
+
+BEFORE = {"ehl_tolerance": "film_tolerance"}
+KEYS = tuple(BEFORE)
+
+
+def resolve(given: dict, old) -> dict:
+    """A key by its name of today."""
+    for before, today in BEFORE.items():
+        only_one("numerics", given, before, today)
+    return {BEFORE.get(key, key): value for key, value in given.items()}

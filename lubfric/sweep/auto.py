@@ -1,0 +1,51 @@
+"""A Stribeck curve at speeds of its own choice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..curve.choose import next_speed
+from ..errors import InputError
+from ..prepared import Prepared
+from ..report import ITERATION_LIMIT, Report
+from ..store import fingerprint
+from ..studies.adaptive import FEWEST, run_adaptive, samples_of, search_of
+from ..studies.journal import Journal
+from .result import FAILED_SPEEDS, StribeckResult, collected
+
+
+def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
+    """Arguments of `lubfric.stribeck`; where speeds failed it says so."""
+    if fields is True:
+        raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
+    wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
+    search = search_of(prepared, fingerprint(prepared), wanted)
+    journal, found = (None if store is None else Journal(store)), {}
+    try:
+        for speed, outcome in run_adaptive(prepared, search, journal):
+            found[speed] = outcome
+            if on_point:
+                on_point(len(found), len(found), speed, outcome)
+    finally:
+        if journal is not None:
+            journal.close()
+    speeds = np.array(sorted(found))
+    outcomes = dict(enumerate(found[u] for u in speeds))
+    errors = {i: o for i, o in outcomes.items() if isinstance(o, Exception)}
+    result = collected(speeds, [None if i in errors else o for i, o in outcomes.items()], errors)
+    if len(speeds) - len(errors) >= FEWEST:
+        result = replace(result, report=_with_interpolation(result, search.tolerance))
+    return result
+
+
+def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
+    """The report of an adaptive curve: its residual is the estimated error between the points."""
+    error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
+    status = result.report.status if error <= tolerance else ITERATION_LIMIT
+    residuals = {"interpolation": error, "points": result.report.residual}
+    advice = FAILED_SPEEDS if result.errors else "solve more speeds of your own, or loosen numerics.tolerance"
+    return replace(
+        result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals, advice=advice
+    )

@@ -1,0 +1,101 @@
+"""Stribeck curves: friction over speed, neighbours warm-started, nothing lost to a failing point."""
+
+from __future__ import annotations
+
+from numbers import Real
+
+import numpy as np
+
+from .. import validate
+from ..errors import ConvergenceError, InputError, ValidityError
+from ..prepared import Prepared, at_tolerance, scene_of
+from ..result import FrictionResult
+from ..scene import Scene
+from ..store import fingerprint
+from ..studies.adaptive import AUTO
+from ..studies.chain import Chain, make_chain
+from ..studies.solve import solve_chains
+from .auto import auto_curve
+from .result import StribeckResult, collected
+
+
+def stribeck(
+    scene: Scene | Prepared,
+    speeds=None,
+    executor=None,
+    *,
+    tolerance: float | None = None,
+    model: str | None = None,
+    fields=False,
+    store=None,
+    on_point=None,
+    raise_on_failure: bool = True,
+) -> StribeckResult:
+    """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
+
+    ``speeds="auto"`` chooses them (`lubfric.curve`), mostly 9 to 13, at most 25, so that ``curve.at(speed)`` is within
+    the tolerance on f (on a line of a surface: and the sampling tolerance, root sum of squares) everywhere between the
+    slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication to a full film; the
+    knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other, each started from the
+    nearest. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
+    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
+    solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
+    or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
+    scene's own contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every
+    point as it ends; the same call goes on from there, to the same bits (the folder is the caller's to remove).
+    A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
+    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the
+    whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes
+    through as it is, with the points so far as its ``result``.
+    """
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
+    motion = scene_of(scene).motion
+    if isinstance(speeds, str) and speeds == AUTO:
+        found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
+        return _judged(found, raise_on_failure)
+    if speeds is None:
+        speeds = motion.speeds or (motion.entrainment_speed,)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
+    prepared = at_tolerance(scene, tolerance, model)
+    kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
+    points: list[FrictionResult | None] = [None] * speeds.size
+    errors: dict[int, Exception] = {}
+
+    def keep(index, outcome):
+        if isinstance(outcome, Exception):
+            errors[index] = outcome
+        else:
+            points[index] = outcome
+        if on_point:
+            on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
+
+    try:
+        solve_chains(prepared, sweep_chains(prepared, speeds, kept, executor is not None), executor, store, keep)
+    except BaseException as fault:
+        fault.result = collected(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
+        raise
+    return _judged(collected(speeds, points, errors), raise_on_failure)
+
+
+def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
+    """``result``, or the exception that says what failed in it."""
+    errors = result.errors
+    refused = [error for error in errors.values() if isinstance(error, ValidityError)]
+    if raise_on_failure and errors and len(refused) == len(errors):
+        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
+    if raise_on_failure and errors:
+        raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def sweep_chains(prepared: Prepared, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
+    """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
+    order = np.argsort(-np.abs(speeds), kind="stable")
+    runs = np.array_split(order, min(order.size, 8)) if spread else [order]
+    whole = fingerprint(prepared)
+    return [(make_chain(whole, speeds[run], np.isin(speeds[run], kept)), run) for run in runs]

@@ -1,0 +1,114 @@
+"""Every code block of the pages runs, as it stands, in the order of its page.
+
+Python blocks of a page share one namespace, and a folder of their own. Command lines are run as a shell would run them,
+but in this process; installing and testing is what the CI does, and is only looked at here.
+"""
+
+import shlex
+import shutil
+import tomllib
+
+import matplotlib.pyplot
+import pytest
+from pages import PAGES, ROOT, blocks
+
+import lubfric
+from lubfric.cli import _parser as parser
+from lubfric.cli import main
+from verification.__main__ import main as verification
+
+PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]
+SHELL = [page for page in PAGES if any(b.language == "sh" for b in blocks(page))]
+LONG = {"studies.md", "transient.md", "deterministic.md", "curves.md"}  # more than a second or two
+RIG = "U [mm/s];mu\n1;0.118\n3;0.114\n10;0.094\n30;0.055\n100;0.032\n300;0.052\n"  # what a rig may have measured
+LANGUAGES = ("python", "sh", "toml", "text")
+LEFT_TO_THE_CI = ("python3 -m venv", "pip install", "git clone", "-m pytest", "bash .ci/run", "sphinx-build", "apt-get")
+
+
+def cases(pages):
+    return [pytest.param(p, id=p.name, marks=[pytest.mark.slow] * (p.name in LONG)) for p in pages]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def test_every_block_says_what_it_is(page):
+    """A block without a language would be run by nobody."""
+    for block in blocks(page):
+        assert block.language.startswith("{") or block.language in LANGUAGES, f"{page.name}:{block.line}"
+
+
+@pytest.mark.parametrize("page", cases(PYTHON))
+def test_python_blocks_run(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    matplotlib.use("Agg")
+    (tmp_path / "rig.csv").write_text(RIG, encoding="utf-8")
+    namespace = {"__name__": "__main__"}
+    for block in blocks(page):
+        if block.language == "python":
+            exec(compile("\n" * block.line + block.body, str(page), "exec"), namespace)
+    matplotlib.pyplot.close("all")
+
+
+def command_lines(page):
+    """The command lines of a page as lists of words, comments taken off."""
+    for block in blocks(page):
+        for line in block.body.splitlines() if block.language == "sh" else ():
+            words = shlex.split(line, comments=True)
+            if words and not any(known in line for known in LEFT_TO_THE_CI):
+                yield words
+
+
+def is_for(words, program) -> bool:
+    return words[0].removeprefix(".venv/bin/") == program
+
+
+@pytest.mark.parametrize("page", SHELL, ids=lambda p: p.name)
+def test_command_lines_are_understood(page):
+    for words in command_lines(page):
+        if is_for(words, "lubfric"):
+            parser().parse_args(words[1:])
+        elif is_for(words, "python"):
+            assert words[1:3] == ["-m", "verification"], words
+            assert verification([*words[3:], "--list"]) == 0
+        else:
+            assert is_for(words, "cp") or is_for(words, "mpiexec"), words
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", SHELL, ids=lambda p: p.name)
+def test_lubfric_command_lines_run(page, tmp_path, monkeypatch):
+    """In one folder with the checkout's scenes and examples, one after the other, as the page tells them."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
+    for words in command_lines(page):
+        if is_for(words, "lubfric"):
+            assert main(words[1:]) == 0, words
+
+
+def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
+    """`lubfric init`, the oil and the map of the page put in by hand: f with an interval."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs" / "start.md"
+    oil, surface = (tomllib.loads(b.body) for b in blocks(page) if b.language == "text")
+    exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {})
+    assert main(["init", "my_contact.toml"]) == 0
+    written = tomllib.loads((tmp_path / "my_contact.toml").read_text(encoding="utf-8"))
+    scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}})
+    point = lubfric.friction(scene, 0.1)
+    low, high = point.uncertainty.interval
+    assert 0 < low < point.coefficient < high < 0.12
+    assert scene.lubricant.oil is not None and point.uncertainty.area_needed >= 1
+
+
+@pytest.mark.parametrize(
+    "page", [p for p in PAGES if any(b.language == "toml" for b in blocks(p))], ids=lambda p: p.name
+)
+def test_files_of_the_pages_are_read(page, tmp_path):
+    """A TOML block is a whole scene or a whole study."""
+    from lubfric.studies.file import load_study
+
+    for block in blocks(page):
+        if block.language == "toml":
+            path = tmp_path / "file.toml"
+            path.write_text(block.body, encoding="utf-8")
+            read = tomllib.loads(block.body)
+            assert load_study(path).points if "scene" in read else lubfric.load_scene(path).bodies.load > 0

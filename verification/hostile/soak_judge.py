@@ -1,0 +1,222 @@
+"""Closes the balance of a result anew: another film solver, fresh dry contacts, its own sums of the friction forces.
+
+Nothing of `lubfric` is used but the surface, the dry contact of one pressed map and the film by differential
+deflection; what they are joined by is written here. Two divisions of the load, the result's own and one beside it, give
+the one that balances by a secant; where that is far off, a bracketed root does.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric.prepared import Prepared
+
+from .soak_force import friction_force
+from .soak_heat import inlet_viscosity
+
+ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
+LOOSE, TIGHT, CANCELS = 2e-3, 3e-4, 0.2  # of a film; f over its parts below which they cancel
+BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Heights [m] of a piece of the surface, less their mean, its spacing and x [m], its length [m] along y."""
+
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+
+    @property
+    def length(self) -> float:
+        return self.heights.shape[1] * self.spacing[1]
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Film, mean gap and mean film over A [m], and the share of the width in contact at each x [m]."""
+
+    film: object
+    gap: float
+    mean_film: float
+    x: np.ndarray
+    touching: np.ndarray
+
+
+@dataclass(frozen=True)
+class Judge:
+    """A prepared scene at one speed [m/s], its film deflected by its own pressure or, ``scaled``, by the whole load;
+    its strips, and pairs of fine and coarse ones whose difference is added."""
+
+    prepared: Prepared
+    speed: float
+    scaled: bool
+    strips: tuple[Strip, ...]
+    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    film_tolerance: float = LOOSE
+
+    def sides(self, split: float) -> Sides:
+        """Film and contacts at ln(F_H/F_C)."""
+        load = self.prepared.scene.bodies.load
+        film_load = load / (1 + math.exp(-split))
+        film = self.film(film_load, film_load / load if self.scaled else 1.0)
+        found = [self.pressed(strip, film, load - film_load) for strip in self.strips]
+        share = np.array([strip.length for strip in self.strips]) / sum(strip.length for strip in self.strips)
+        gap = float(share @ [gap for gap, _, _ in found])
+        for fine, coarse in self.pairs:
+            change = self.pressed(fine, film, load - film_load)[0] - self.pressed(coarse, film, load - film_load)[0]
+            gap += change / len(self.pairs)
+        touching = sum(s * touched for s, (_, _, touched) in zip(share, found))
+        return Sides(film, gap, found[0][1], self.strips[0].x, touching)
+
+    def film(self, film_load: float, modulus: float):
+        """By differential deflection, or if that does not converge by the tightest Newton solution."""
+        bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
+        case = {
+            "load_per_width": film_load / bodies.width,
+            "radius": bodies.radius,
+            "e_prime": bodies.e_prime * modulus,
+            "entrainment_speed": self.speed,
+            "viscosity": inlet_viscosity(self.prepared.scene, self.speed),
+            "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
+            "viscosity_law": oil.viscosity_law,
+            "density": oil.density_law,
+        }
+        try:
+            return solve_differential_deflection(**case, tolerance=self.film_tolerance)
+        except LubfricError:
+            return solve_ehl(**case, tolerance=1e-4)
+
+    def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
+        """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
+        scene, x = self.prepared.scene, strip.x
+        smooth, flat, bodies = film.film_at(x), scene.contact.geometry == "flat", scene.bodies
+        half = bodies.half_width
+        if flat:
+            pressure, gap0, weight = load / (2 * half * bodies.width), -strip.heights, np.ones(x.size)
+            inner = np.linspace(-half, half, 801)
+            mean_film = float(np.trapezoid(film.film_at(inner), inner)) / (2 * half)
+        else:
+            parabola, share = x**2 / (2 * bodies.radius), film.e_prime / bodies.e_prime if self.scaled else 1.0
+            pressure = load / (bodies.width * x.size * strip.spacing[0])
+            gap0, weight = (parabola + share * (smooth - parabola))[:, None] - strip.heights, self._weight(strip)
+            mean_film = float(smooth @ weight / weight.sum())
+        if load <= 1e-9 * bodies.load:
+            return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
+        dry = solve_contact(
+            gap0,
+            strip.spacing,
+            bodies.e_prime,
+            mean_pressure=pressure,
+            hardness=bodies.hardness,
+            boundary=("periodic" if flat else "free", "periodic"),
+            tolerance=1e-6,
+        )
+        gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
+        columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
+        return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
+
+    def _weight(self, strip: Strip) -> np.ndarray:
+        half, dx = self.prepared.scene.bodies.half_width, strip.spacing[0]
+        if self.prepared.scene.contact.region == "box":
+            return np.ones(strip.x.size)
+        inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
+        return np.clip(inside / dx, 0, 1)
+
+    def coefficient(self, split: float, sides: Sides) -> float:
+        """f at a division of the load."""
+        scene = self.prepared.scene
+        contact_load = scene.bodies.load / (1 + math.exp(split))
+        return friction_force(scene, sides, contact_load, self.speed) / scene.bodies.load
+
+
+def judge_of(prepared: Prepared, result) -> Judge:
+    """What is needed to close ``result`` of ``prepared`` anew."""
+    scaled = "by the whole load" in (result.decision.deflection or "")
+    n = prepared.surface.shape[0]
+    x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
+    parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
+    cancels = abs(result.coefficient) * prepared.scene.bodies.load < CANCELS * parts
+    tolerance = TIGHT if cancels or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
+    if prepared.lines is None:
+        return Judge(prepared, result.speed, scaled, (_strip(prepared.surface, x),), (), tolerance)
+    more = [prepared.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]
+    strips = tuple(_strip(surface, x) for surface in (prepared.surface, *more))
+    pairs = tuple(_pair(prepared.lines, i) for i in range(len(result.line.grid)))
+    return Judge(prepared, result.speed, scaled, strips, pairs, tolerance)
+
+
+def _strip(surface, x) -> Strip:
+    return Strip(surface.heights - surface.heights.mean(), surface.spacing, x)
+
+
+def _pair(lines, index: int) -> tuple[Strip, Strip]:
+    """A piece on its own cells and on every so-manieth of them."""
+    from lubfric.sampling.sample import PAIR
+
+    surface, (fx, fy) = lines.pair(index, PAIR * lines.lengths[1]), lines.cells.factors
+    z, (dx, dy) = surface.heights, surface.spacing
+    x = lines.cells.axis()[0] + (np.arange(z.shape[0]) - fx // 2) * dx
+    kept = z[fx // 2 :: fx, fy // 2 :: fy]
+    return Strip(z - z.mean(), (dx, dy), x), Strip(kept - kept.mean(), (dx * fx, dy * fy), x[fx // 2 :: fx])
+
+
+def verdict(prepared: Prepared, result) -> dict[str, float]:
+    """Deviations of ``result`` by name, over what is allowed."""
+    scene, load = prepared.scene, prepared.scene.bodies.load
+    share, forces = result.contact_load / load, result.boundary_force + result.shear_force
+    found = {
+        "load": abs((result.contact_load + result.film_load) / load - 1),
+        "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
+        "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
+    }
+    if scene.contact.model == "half-space" and scene.surface.sq:
+        coefficient, split = closed_again(judge_of(prepared, result), share)
+        found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
+        found["contact share"] = abs(share - split) / scene.numerics.tolerance
+    return {name: value / ALLOWED[name] for name, value in found.items()}
+
+
+def closed_again(judge: Judge, share: float) -> tuple[float, float]:
+    """(f, F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load."""
+    if share == 0:
+        sides = judge.sides(40.0)
+        if sides.gap <= sides.mean_film:
+            return judge.coefficient(40.0, sides), 0.0
+        share = 1e-3
+    inside = min(max(share, 1e-13), 1 - 1e-13)
+    here = math.log((1 - inside) / inside)
+    beside = here + BESIDE
+    first, second = judge.sides(here), judge.sides(beside)
+    off, off_beside = (math.log(s.gap / s.mean_film) for s in (first, second))
+    f, f_beside = judge.coefficient(here, first), judge.coefficient(beside, second)
+    slope = (off_beside - off) / BESIDE
+    moved = -off / slope if slope > 0 else math.inf
+    if abs(moved) > NEAR:
+        return _bracketed(judge, here)
+    split = here + moved
+    return f + (f_beside - f) * moved / BESIDE, 1 / (1 + math.exp(split))
+
+
+def _bracketed(judge: Judge, here: float) -> tuple[float, float]:
+    from scipy.optimize import brentq
+
+    def surplus(split):
+        sides = judge.sides(split)
+        return math.log(sides.gap / sides.mean_film)
+
+    if surplus(40.0) <= 0:
+        return judge.coefficient(40.0, judge.sides(40.0)), 0.0
+    low = high = here
+    step = 0.1
+    while surplus(low) > 0:
+        low, step = low - step, 3 * step
+    step = 0.1
+    while surplus(high) < 0 and high < 40:
+        high, step = high + step, 3 * step
+    split = brentq(surplus, low, high, xtol=2e-3) if high > low else low
+    return judge.coefficient(split, judge.sides(split)), 1 / (1 + math.exp(split))
