@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from ..lines.pieces import line_contact
@@ -65,6 +66,13 @@ class LineFound:
     missed: float = 0.0
     map_ends: bool = False
     used: tuple[Used, ...] = ()
+
+    @property
+    def by_half_cells(self) -> float:
+        """Estimated relative change of f on cells half as long as the scene's own; NaN where they were not reached."""
+        if self.response is None or not self.grid:
+            return math.nan
+        return self.response.relative("coefficient", mean_of(self.grid, "beyond", math.nan))
 
     @property
     def start(self) -> LineStart:
