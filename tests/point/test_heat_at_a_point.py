@@ -116,3 +116,11 @@ def test_the_result_tells_oil_and_ranges(model):
 def test_heat_needs_to_know_the_oil():
     with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
         lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(numerics={"heat": "on"})
+
+
+def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():
+    hot = BASE.with_(numerics={"heat": "on"})
+    for speed in (1e-9, 1e-7):
+        assert lubfric.friction(hot, speed).inlet_film_factor == pytest.approx(1, abs=1e-8)
+    with pytest.raises(lubfric.InputError, match="thermal number.*numerics.heat = 'off'"):
+        lubfric.friction(hot, 1e4)
