@@ -4,6 +4,7 @@ tolerance."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,6 @@ from .flash import FAST
 from .inlet import LARGEST, InletHeat, inlet_heat
 from .stress import heated_stress
 
-
 NOTHING = 1e-9  # of the film: less heat than that is none
 
 
@@ -29,7 +29,7 @@ class WarmFilm:
     """
 
     inlet_viscosity: float
-    stress: object = None
+    stress: Callable | None = None
 
 
 @dataclass(frozen=True)

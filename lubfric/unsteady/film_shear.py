@@ -52,10 +52,10 @@ def film_shear(
     heat, warm = point_heat(scene, balance, abs(boundary + isothermal.total), isothermal)
     if warm is None or warm.stress is None:
         return isothermal, heat
-    along = math.copysign(1.0, balance.film.entrainment_speed)
+    along, heated = math.copysign(1.0, balance.film.entrainment_speed), warm.stress
 
     def stress(x, pressure, thickness):
-        return math.copysign(1.0, sliding) * np.abs(warm.stress(x * along, pressure, thickness))
+        return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
 
     return _shear(sharing, scene, time, sliding, solution, stress), heat
 
