@@ -38,6 +38,7 @@ UNITS = {
     "seconds": "s",
     "line_length": "m",
 }
+IN_WORDS = ("validity", "uncertainty")  # columns of a table
 
 
 def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
@@ -68,12 +69,13 @@ def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> d
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading; the last column says what does not hold
-    there."""
+    """One row a speed, one column a quantity, the unit in the heading; the last columns say what does not hold
+    there, and how sure f is."""
     columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
     columns |= {f"{name} [{UNITS.get(name, '-')}]": v for name, v in uncertainty_columns(curve.uncertainty).items()}
     texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
-    return table_bytes(columns | {"validity": np.array(texts, dtype=object)})
+    words = {"validity": texts, "uncertainty": curve.uncertainty.text}
+    return table_bytes(columns | {name: np.array(words[name], dtype=object) for name in IN_WORDS})
 
 
 def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
@@ -111,7 +113,7 @@ def read_csv(path: Path) -> Columns:
         with Path(path).open(encoding="utf-8", newline="") as file:
             heading, *rows = list(csv.reader(file))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-        return Columns({n: np.array(c, str if n == "validity" else float) for n, c in columns.items()})
+        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:
         raise InputError(
             f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"

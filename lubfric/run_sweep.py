@@ -62,7 +62,7 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
         record = curve_record(prepared, curve, time.perf_counter() - begun)
         _write_more(folder, prepared, curve, record, more)
         folder.finish(record)
-    for text in curve.validity:
+    for text in (*curve.validity, *_doubts(curve)):
         say(text)
     if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
         say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
@@ -70,6 +70,14 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     if curve.errors:
         raise _unsolved(curve)
     return 0
+
+
+def _doubts(curve) -> tuple[str, ...]:
+    """What the errors of f say beside numbers: at how many speeds, and at the first of them in full."""
+    told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
+    if not told:
+        return ()
+    return (f"at {told[0][0]:g} m/s and {len(told) - 1} other speeds, how sure f is: {'; '.join(told[0][1])}",)
 
 
 def _unsolved(curve) -> ConvergenceError:

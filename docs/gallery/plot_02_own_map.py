@@ -15,25 +15,31 @@ import numpy as np
 import lubfric
 
 rng = np.random.default_rng(5)
-ridges = np.sin(0.9 * np.arange(180))[:, None] + 0.3 * rng.standard_normal((180, 160))
+ridges = np.sin(0.9 * np.arange(240))[:, None] + 0.3 * rng.standard_normal((240, 640))
 path = Path(tempfile.mkdtemp()) / "map.npy"
-np.save(path, 60e-9 * ridges)
+np.save(path, 60e-9 * ridges)  # m; a text file, or a file of the instrument, does as well
 
 surface = lubfric.read_surface(path, spacing=0.5e-6)
 print(surface.describe())
 
 # %%
-# The scene takes the file in place of its generated surface, and keeps the map's own grid.
+# The scene takes the file in place of its generated surface, and keeps the map's own grid. Where few summits touch, the
+# map is too small for an interval of 2 %. The result says so, and how much more area it would take.
 
 scene = lubfric.load_scene("paper").with_(
     surface={"file": str(path), "spacing": 0.5e-6, "sq": None, "correlation_length": None},
     contact={"shape": None, "spacing": None},
 )
 curve = lubfric.stribeck(scene, np.geomspace(1e-3, 1.0, 7))
+low, high = curve.uncertainty.interval.T
+for speed, words in zip(curve.speed, curve.uncertainty.text):
+    print(f"{speed:6.3f} m/s: {words}")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
-image = left.imshow(1e9 * surface.heights.T, origin="lower", extent=(0, 90, 0, 80), cmap="viridis")
-left.set(title="heights (nm)", xlabel="x, along the motion (µm)", ylabel="y (µm)")
+image = left.imshow(1e9 * surface.heights[:120, :120].T, origin="lower", extent=(0, 60, 0, 60), cmap="viridis")
+left.set(title="heights (nm), a part of the map", xlabel="x, along the motion (µm)", ylabel="y (µm)")
 figure.colorbar(image, ax=left)
+right.fill_between(curve.speed, low, high, color="#1f5a94", alpha=0.2, label="95 % interval")
 right.semilogx(curve.speed, curve.coefficient, "o-", color="#1f5a94")
+right.legend(frameon=False, loc="lower left")
 right.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)", ylim=(0, None))

@@ -2,8 +2,9 @@
 How sure is a friction coefficient?
 ===================================
 
-A finite piece of a rough surface is a sample. Around lift-off few summits carry the load, and one small patch
-can be far off. The library takes a line as long as the asked error needs, and says what is left.
+A finite piece of a rough surface is a sample. Where film and summits share the load, few summits carry their part, and
+one small patch can be far off. The library takes a line of the surface as long as the asked error needs, and says what
+error is left.
 """
 
 import matplotlib.pyplot as plt
@@ -16,8 +17,7 @@ point = lubfric.friction(scene, 0.03)
 print(point.uncertainty.text)
 
 # %%
-# Ten patches of the paper's size, 90 µm wide, scatter by a quarter. The long line lies where their scatter
-# cannot tell.
+# Ten patches of the paper's size, 90 µm wide, scatter widely about the line. No single one tells where it is.
 
 patches = []
 for seed in range(10):

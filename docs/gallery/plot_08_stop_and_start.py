@@ -2,8 +2,9 @@
 A contact that stops and starts
 ===============================
 
-The speed falls to zero and rises again within 20 ms. Friction on the way down and on the way up is not the
-same: the film that is left between the surfaces has to be squeezed out first.
+The speed falls to zero and rises again within 20 ms. While the bodies stand still nothing slides, and the coefficient
+is zero. Friction on the way down and on the way up is not the same: the film that is left between the surfaces is
+squeezed out during the stop. Drawn over the speed, the two ways make a loop.
 """
 
 import matplotlib.pyplot as plt
@@ -36,8 +37,18 @@ scene = lubfric.load_scene(
 )
 history = lubfric.transient(scene)
 
-figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.2), layout="constrained")
+figure, panels = plt.subplot_mosaic([["speed", "loop"], ["friction", "loop"]], figsize=(9, 4.6), layout="constrained")
+upper, lower, loop = panels["speed"], panels["friction"], panels["loop"]
 upper.plot(1e3 * history.time, history.entrainment_speed, color="#555555")
 upper.set(ylabel="entrainment speed (m/s)")
 lower.plot(1e3 * history.time, history.coefficient, color="#1f5a94")
 lower.set(xlabel="time (ms)", ylabel="friction coefficient (-)", ylim=(0, None))
+moving = history.entrainment_speed > 1e-4
+for way, words, colour in (
+    (history.time < 0.0075, "slowing down", "#1f5a94"),
+    (history.time > 0.0075, "starting", "#b3392f"),
+):
+    part = moving & way
+    loop.plot(history.entrainment_speed[part], history.coefficient[part], ".-", color=colour, label=words)
+loop.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)", ylim=(0, None))
+loop.legend(frameon=False)

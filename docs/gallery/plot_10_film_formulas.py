@@ -23,13 +23,16 @@ loads = np.geomspace(1e3, 3e5, 9)  # N/m
 
 numerical = np.array([lubfric.solve_ehl(load_per_width=w, **CONTACT).flow_film for w in loads])
 formula = np.array([moes_flow_film(load_per_width=w, **CONTACT) for w in loads])
+fine = np.geomspace(loads[0], loads[-1], 100)
+drawn = np.array([moes_flow_film(load_per_width=w, **CONTACT) for w in fine])
 error = 100 * (formula / numerical - 1)
 print(f"the formula is off by {error.min():+.1f} to {error.max():+.1f} %")
 
 figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.2), layout="constrained")
 upper.loglog(loads, 1e6 * numerical, "o", color="#1f5a94", label="numerical")
-upper.loglog(loads, 1e6 * formula, color="#555555", label="Moes")
-upper.set(ylabel="film (µm)")
+upper.loglog(fine, 1e6 * drawn, color="#555555", label="Moes' formula")
+upper.set(ylabel="film (µm)", yticks=[0.3, 0.5, 1, 2], yticklabels=["0.3", "0.5", "1", "2"])
+upper.minorticks_off()
 upper.legend(frameon=False)
 lower.semilogx(loads, error, "o-", color="#b3392f")
 lower.axhline(0, color="0.7", lw=1)

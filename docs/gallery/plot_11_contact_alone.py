@@ -19,7 +19,8 @@ for p, contact in zip(pressures, solved):
     print(f"{p / 1e6:5.0f} MPa: {100 * contact.contact_area_fraction:.2f} % in contact, {contact.report.message}")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
-left.imshow(solved[-1].pressure.T / 1e9, origin="lower", cmap="magma", extent=(0, 128, 0, 128))
+image = left.imshow(solved[-1].pressure.T / 1e9, origin="lower", cmap="magma", extent=(0, 128, 0, 128))
+figure.colorbar(image, ax=left, label="pressure (GPa)")
 left.set(title="contact pressure at 300 MPa", xlabel="x (µm)", ylabel="y (µm)")
 right.loglog(pressures / 1e6, [100 * c.contact_area_fraction for c in solved], "o-", color="#1f5a94")
 right.set(xlabel="mean pressure (MPa)", ylabel="real contact area (%)")

@@ -15,6 +15,7 @@ from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.estimate import of_line
 from ..sampling.line_friction import line_friction
+from ..sampling.other_cells import by_half_cells, too_coarse
 from ..sampling.patch_error import of_patch
 from ..scene import Scene
 from ..validity.model_form import load_sharing_error
@@ -30,12 +31,16 @@ def load_sharing_answer(
         chosen, line = line_friction(prepared, speed, None if start is None else start.line)
         result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
         result = replace(result, line=line.start)
+        change = line.by_half_cells
     else:
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
         result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point)
+        change = by_half_cells(chosen, speed, point)
+    cautions = too_coarse(change, prepared.scene.numerics.tolerance)
+    result = replace(result, validity=(*result.validity, *cautions))
     uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
-    report = replace(result.report, notes=(*result.report.notes, uncertainty.text))
+    report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
 
 

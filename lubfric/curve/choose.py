@@ -6,17 +6,11 @@ import numpy as np
 
 from .interpolate import Interpolant, Samples, knee_of
 
-FIRST = 5  # speeds at first, evenly spread in their logarithm, from the fastest down
 CLOSE = 1.06  # ratio of the slowest film without contact to lift-off that pins the knee down
 ENOUGH = 4  # speeds within a tenth of the knee: more would not tell it better
 APART = 1.015  # least ratio of neighbouring speeds
-SHARE = 0.8  # of the tolerance that the estimate of the error may reach
+SHARE = 0.7  # of the tolerance that the estimate of the error may reach
 GRID = 400
-
-
-def first_speeds(low: float, high: float) -> np.ndarray:
-    """The speeds [m/s] to begin with, fastest first."""
-    return np.geomspace(high, low, FIRST)
 
 
 def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | None, float]:
@@ -25,7 +19,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     ``tried``: speeds that failed, which are left alone.
 
     First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which
-    the error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
+    the error is estimated to be largest, until that is below ``tolerance`` times 0.7 everywhere.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

@@ -1,4 +1,4 @@
-"""The speeds between which a contact passes from boundary lubrication to a full film."""
+"""The speeds between which a contact passes from boundary lubrication to a full film, and where to look first."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from ..line_contact import LineContact
 from ..prepared import Prepared
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
+MIXED = (0.4, 1.2, 2.5, 4.5)  # the same where the contact carries about 0.9, 0.6, 0.2 and nothing of the load
+FEWEST = 5  # speeds to begin with
 SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
@@ -28,17 +30,41 @@ def span(prepared: Prepared) -> tuple[float, float]:
         raise InputError(
             "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
         )
-
-    bodies, lubricant = prepared.scene.bodies, prepared.scene.lubricant
-
-    def excess(log_speed: float, ratio: float) -> float:
-        line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, math.exp(log_speed), lubricant)
-        return math.log(line.moes_film / (ratio * sq))
-
-    ends = math.log(SLOWEST), math.log(FASTEST)
-    if excess(ends[0], THIN) > 0 or excess(ends[1], THICK) < 0:
+    if _ratio(prepared, SLOWEST) > THIN or _ratio(prepared, FASTEST) < THICK:
         raise InputError(
             "speeds = 'auto' finds no range from boundary lubrication to a full film; allowed: motion.speed_range"
         )
-    low, high = (math.exp(brentq(excess, *ends, args=(ratio,), xtol=1e-6)) for ratio in (THIN, THICK))
-    return low, high
+    return _speed_of(prepared, THIN, SLOWEST, FASTEST), _speed_of(prepared, THICK, SLOWEST, FASTEST)
+
+
+def first_speeds(prepared: Prepared) -> tuple[float, ...]:
+    """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.4,
+    1.2, 2.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
+    low, high = span(prepared)
+    found = [low, high]
+    if prepared.surface.sq > 0:
+        inside = [
+            ratio for ratio in MIXED if _ratio(prepared, low) < 0.9 * ratio and 1.1 * ratio < _ratio(prepared, high)
+        ]
+        found += [_speed_of(prepared, ratio, low, high) for ratio in inside]
+    while len(found) < FEWEST:
+        found.sort()
+        _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(found, found[1:])))
+        found.append(math.sqrt(found[at] * found[at + 1]))
+    return tuple(sorted(found, reverse=True))
+
+
+def _ratio(prepared: Prepared, speed: float) -> float:
+    """Moes' film of the whole load over Sq."""
+    bodies = prepared.scene.bodies
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
+    return line.moes_film / prepared.surface.sq
+
+
+def _speed_of(prepared: Prepared, ratio: float, low: float, high: float) -> float:
+    """The speed [m/s] between ``low`` and ``high`` at which `_ratio` is ``ratio``."""
+
+    def excess(log_speed: float) -> float:
+        return math.log(_ratio(prepared, math.exp(log_speed)) / ratio)
+
+    return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-6))

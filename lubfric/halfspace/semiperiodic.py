@@ -28,30 +28,35 @@ def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
     kernel = np.zeros((nx, ny // 2 + 1))
     kernel[:, 0] = line_coefficients(nx, dx, e_prime, reference_length=nx * dx)
     step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx  # k_y dx
-    for column, k in enumerate(step, start=1):
-        count = min(nx, int(FAR / k) + 2)
-        kernel[:count, column] = 4 / (np.pi * e_prime) * dx * bessel_cells(count, k)
+    counts = np.minimum(nx, (FAR / step).astype(int) + 2)
+    columns = np.repeat(np.arange(step.size), counts)
+    rows = np.arange(columns.size) - np.repeat(np.cumsum(counts) - counts, counts)
+    kernel[rows, 1 + columns] = 4 / (np.pi * e_prime) * dx * bessel_cells(rows, step[columns])
     return kernel
 
 
-def bessel_cells(count: int, k: float) -> np.ndarray:
-    """∫ K0(k|s|) ds over the unit cells around s = 0, 1, ..., count - 1; absolute error about 1e-15.
+def bessel_cells(cell: np.ndarray, k: np.ndarray) -> np.ndarray:
+    """∫ K0(k|s|) ds over the unit cells around s = ``cell`` = 0, 1, ...; absolute error about 1e-15.
 
     The cell around zero, with the logarithm, from ∫_0^z K0; the others by Gauss-Legendre points,
     more of them close to the logarithm and where the exponential falls fast.
     """
     from scipy.special import iti0k0
 
-    cells = np.empty(count)
-    cells[0] = 2 / k * iti0k0(k / 2)[1]
-    near = count if k > LONG_CELL else min(count, NEAR_CELLS)
-    cells[1:near] = _gauss_cells(np.arange(1, near), k, NEAR_RULE)
-    cells[near:] = _gauss_cells(np.arange(near, count), k, FAR_RULE)
-    return cells
+    found = np.empty(cell.shape)
+    zero = cell == 0
+    found[zero] = 2 / k[zero] * iti0k0(k[zero] / 2)[1]
+    near = ~zero & ((cell < NEAR_CELLS) | (k > LONG_CELL))
+    far = ~zero & ~near
+    found[near] = _gauss_cells(cell[near], k[near], NEAR_RULE)
+    found[far] = _gauss_cells(cell[far], k[far], FAR_RULE)
+    return found
 
 
-def _gauss_cells(centres: np.ndarray, k: float, rule) -> np.ndarray:
+def _gauss_cells(cell: np.ndarray, k: np.ndarray, rule) -> np.ndarray:
     from scipy.special import k0
 
-    node, weight = rule
-    return k0(k * (centres[:, None] + node / 2)) @ (weight / 2)
+    total = np.zeros(cell.shape)
+    for node, weight in zip(*rule):
+        total += 0.5 * weight * k0(k * (cell + 0.5 * node))
+    return total

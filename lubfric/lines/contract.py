@@ -13,9 +13,9 @@ class Lines(Protocol):
     """Lines of one rough surface, each a `Surface` periodic along y; see `generated` and `windows`.
 
     scene: whose they are; cells: of every line; lengths: correlation lengths [m] at 1/e along x and y; available [m]:
-    the longest line
-    there is (infinite where more can be made); nested: a longer line holds the shorter ones, so that it takes their
-    place, or is another place of the surface, so that it joins them.
+    the longest line there is (infinite where more can be made); nested: a longer line holds the shorter ones, so that
+    it takes their place, or is another place of the surface, so that it joins them; exact_sq: every line has exactly
+    the Sq of the surface.
     """
 
     @property
@@ -28,6 +28,8 @@ class Lines(Protocol):
     def available(self) -> float: ...
     @property
     def nested(self) -> bool: ...
+    @property
+    def exact_sq(self) -> bool: ...
 
     def line(self, index: int, length: float) -> Surface:
         """Line number ``index``, about ``length`` [m] long."""

@@ -28,6 +28,11 @@ class GeneratedLines:
     available: float = math.inf
     nested: bool = False
 
+    @property
+    def exact_sq(self) -> bool:
+        """That of one body; two are added as they fall."""
+        return len(rough_bodies(self.scene)) == 1
+
     def windows(self, length: float) -> int:
         """A generated line is one piece."""
         return 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -11,9 +12,12 @@ from ..surface import Surface
 from .cells import Cells
 
 
-def line_contact(scene, surface: Surface) -> HalfSpaceContact:
-    """The contact of ``surface`` under the cylinder of ``scene``."""
-    return half_space_contact(scene, surface.heights - surface.heights.mean(), surface.spacing)
+def line_contact(scene, surface: Surface, others: Iterable[HalfSpaceContact] = ()) -> HalfSpaceContact:
+    """The contact of ``surface`` under the cylinder of ``scene``, with the operator of one of ``others`` where that has
+    its grid."""
+    grid = surface.shape, tuple(surface.spacing)
+    operator = next((c.operator for c in others if (c.heights.shape, tuple(c.spacing)) == grid), None)
+    return half_space_contact(scene, surface.heights - surface.heights.mean(), surface.spacing, operator)
 
 
 def thinned(scene, surface: Surface, cells: Cells, factors: tuple[int, int]) -> HalfSpaceContact:

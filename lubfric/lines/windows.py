@@ -15,6 +15,7 @@ from .cells import Cells, choose_cells, reach_of
 
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 BLEND = 2.0  # correlation lengths along y over which one window passes into the next
+ENOUGH = 8  # windows for an honest standard error
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,8 @@ class MeasuredLines:
     """Lines of a measured ``surface``, on its own cells or every so-manieth of them.
 
     starts: first columns of the windows that the map holds independently, in the order in which they are used: any
-    number of them is spread over the map. A longer line holds the shorter ones.
+    number of them is spread over the map. A longer line holds the shorter ones. Beyond its ends the map is continued by
+    its mirror image (`measured_lines`).
     """
 
     scene: Scene
@@ -31,6 +33,7 @@ class MeasuredLines:
     lengths: tuple[float, float]
     starts: tuple[int, ...]
     nested: bool = True
+    exact_sq: bool = False
 
     @property
     def window(self) -> float:
@@ -84,7 +87,9 @@ class MeasuredLines:
         return min(max(1, round(BLEND * self.lengths[1] / self.surface.spacing[1])), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
-        return self.surface.heights[start : start + self.cells.count * self.cells.factors[0]]
+        columns = start + np.arange(self.cells.count * self.cells.factors[0])
+        last = self.surface.shape[0] - 1
+        return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
     def _made(self, heights, spacing, note) -> Surface:
         return replace(
@@ -112,7 +117,11 @@ def stack(pieces, blend: int) -> np.ndarray:
 
 def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredLines:
     """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``; its correlation
-    ``lengths`` [m] along x and y, where they are known."""
+    ``lengths`` [m] along x and y, where they are known.
+
+    A map that holds fewer than eight windows whole gives some that reach over its ends, continued by its mirror image,
+    as far as their Hertz strip lies on the map itself: only single high summits touch beyond the strip.
+    """
     if scene.contact.spacing is not None:
         surface = surface.resampled(spacing=scene.contact.spacing)
     reach = reach_of(scene, surface.sq)
@@ -130,10 +139,18 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
     if cells.count < 1:
         raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
-    room = surface.shape[0] - fine
-    count = room // step + 1
-    starts = (room - (count - 1) * step) // 2 + step * np.arange(count)
-    return MeasuredLines(scene, surface, cells, lengths, tuple(int(starts[i]) for i in spread(len(starts))))
+    beyond = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
+    starts = _starts(surface.shape[0], fine, step, 0)
+    if len(starts) < ENOUGH:
+        starts = _starts(surface.shape[0], fine, step, beyond)
+    return MeasuredLines(scene, surface, cells, lengths, tuple(starts[i] for i in spread(len(starts))))
+
+
+def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:
+    """First columns of windows ``step`` apart on a map of ``count`` columns, ``beyond`` of them over either end."""
+    room = count + 2 * beyond - window
+    most = room // step
+    return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
 
 
 def length_or_half(surface: Surface, axis: int) -> float:

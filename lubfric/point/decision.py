@@ -20,9 +20,9 @@ class Decision:
     friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form).
     clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
     coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
-    (None: the map's own grid); tolerance: asked, on f; deflection:
-    what deflects the film, heat: what of it was modelled, in words ("": not chosen, not known); forced: what was not
-    chosen but given.
+    (None: the map's own grid); own_error: on the map's own grid, the same of the last step to it (infinite: nothing to
+    compare it with); tolerance: asked, on f; deflection: what deflects the film, heat: what of it was modelled, in
+    words ("": not chosen, not known); forced: what was not chosen but given.
     """
 
     film: str
@@ -36,6 +36,7 @@ class Decision:
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
+    own_error: float = math.inf
     deflection: str = ""
     heat: str = ""
     forced: tuple[str, ...] = ()
@@ -83,6 +84,7 @@ class Decision:
             )
         else:
             text += ", the map's own"
+            text += "" if math.isfinite(self.own_error) or "grid" in self.forced else ", compared with no other"
         return text + (" (forced)" if "grid" in self.forced else "")
 
 
@@ -112,14 +114,11 @@ def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
     """Of film and contact, on a grid of estimated ``error`` of f; ``finest``: the map's own."""
     prepared, grid, own = stage.point.prepared, stage.point.contact.grid, stage.point.prepared.contact.grid
     decision = replace(_film(stage), contact=prepared.contact.name, grid_error=None if finest else error)
+    if finest:
+        decision = replace(decision, own_error=error)
     if grid is not None and own is not None:
         dx, dy = (round(a / b) for a, b in zip(grid.spacing, own.spacing))
         decision = replace(decision, shape=grid.cells, coarsening=(dx, dy))
-    if finest and decision.tolerance < error < math.inf:
-        note = (
-            f"the map is too coarse for its roughness: cells half as long would change f by about {100 * error:.1g} %"
-        )
-        decision = replace(decision, notes=(*decision.notes, note))
     return decision
 
 

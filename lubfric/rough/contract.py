@@ -122,6 +122,10 @@ class RoughContact:
         """The same on cells twice as long and wide, heights averaged; None where that cannot be."""
         return None
 
+    def thinned(self, every: int) -> RoughContact | None:
+        """Every ``every``-th of its cells each way, with the heights they have; None where that cannot be."""
+        return None
+
     @property
     def sq(self) -> float:
         """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""

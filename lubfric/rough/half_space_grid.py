@@ -62,6 +62,17 @@ class HalfSpaceGrid(RoughContact):
         weight = np.ones(x.size) if half_width is None else strip_weight(x, coarse.spacing[0], half_width)
         return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
 
+    def thinned(self, every: int) -> Self | None:
+        """Every ``every``-th cell; None where their number or the area A does not allow it."""
+        operator, half_width = self.operator, self.half_width
+        wide = half_width is not None and every * self.spacing[0] > half_width
+        if wide or any(kept % every or padded % (2 * every) for kept, padded in zip(operator.shape, operator.padded)):
+            return None
+        coarse, x = operator.coarsened((every, every)), self.x[::every]
+        weight = np.ones(x.size) if half_width is None else strip_weight(x, coarse.spacing[0], half_width)
+        heights = self.heights[::every, ::every]
+        return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
+
     def cut(self, state: ContactState, found_on: RoughContact) -> Self:
         """The columns where contact may be: those touched and those of the area A, and a margin; all of them where the
         mean over the whole patch counts."""

@@ -13,6 +13,7 @@ from ..lines.pieces import thinned
 from ..point.operating_point import OperatingPoint
 from ..rough.contract import ContactState
 from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
+from .other_cells import half_again
 
 SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
 FEWEST = 3  # pieces too short for blocks
@@ -26,9 +27,8 @@ class GridStep:
     gap [m]: of the mean gap; error: its standard error; rest [m]: estimated change still to come on the scene's own
     cells
     (0: they were reached). area: factor on the contact area, area_error: its relative standard error and the rest;
-    plastic: to be added
-    to the plastic area fraction. beyond [m]: estimated change on cells half as long as the scene's own (NaN: own
-    cells not reached).
+    plastic: to be added to the plastic area fraction. beyond [m]: estimated change on cells half as long as the
+    scene's own (`lubfric.sampling.other_cells`; NaN: own cells not reached).
     """
 
     gap: float
@@ -95,7 +95,7 @@ def grid_step(
         gap=float(difference.mean()),
         error=block_error(difference, step, correlation),
         rest=0.0 if own else rest,
-        beyond=rest if own else math.nan,
+        beyond=half_again(changes[-1:-3:-1]) if own else math.nan,
         area=area,
         area_error=area_error
         if own

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MOST_BLOCKS, LEAST_BLOCKS = 32, 8
-BLOCK = 5.0  # correlation lengths of the surface along y in a block, at least
+MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
+WIDE, BLOCK = 9.0, 5.0  # correlation lengths of the surface along y in a block: wanted, and at least
 SPOT = 1.75  # correlation lengths along y in a block over which the participation is counted
 
 
@@ -42,18 +42,32 @@ def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
     return strip_gap - slope * (line_load - line_load.mean())
 
 
-def block_error(values, step: float, correlation_length: float) -> BlockError:
+def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
     """Standard error of the mean of ``values`` (ny,), cells of ``step`` [m], from block means.
 
-    s/sqrt(n) of n = 8 to 32 blocks of at least five correlation lengths [m]; a rest of less than a block is left out.
-    Infinite, with no degree of freedom, where the line is shorter than eight such blocks.
+    s/sqrt(n) of n = 8 to 32 blocks of nine correlation lengths [m] or more, or of 5 to 8 of five where nine do not give
+    eight; a rest of less than a block is left out. Infinite, with no degree of freedom, where the line is shorter.
+    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly: what the blocks scatter by
+    with it is no error, s is then that of the residuals of a straight line through the blocks.
     """
-    count = min(MOST_BLOCKS, int(values.size * step / (BLOCK * correlation_length)))
+    count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
+    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
     if count < LEAST_BLOCKS:
         return BlockError(math.inf, 0)
+    means = _means(values, count)
+    freedom = count - 1
+    if exact is not None:
+        known = _means(exact, count)
+        known -= known.mean()
+        if (square := float(known @ known)) > 0:
+            means, freedom = means - known * (float(known @ means) / square), count - 2
+    square = float(np.sum((means - means.mean()) ** 2))
+    return BlockError(math.sqrt(square / (freedom * count)), freedom)
+
+
+def _means(values, count: int) -> np.ndarray:
     size = values.size // count
-    means = values[: size * count].reshape(count, size).mean(axis=1)
-    return BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+    return values[: size * count].reshape(count, size).mean(axis=1)
 
 
 def spot_loads(line_load, step: float, correlation_length: float) -> np.ndarray:

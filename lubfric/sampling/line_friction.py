@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from ..lines.pieces import line_contact
@@ -67,6 +68,13 @@ class LineFound:
     used: tuple[Used, ...] = ()
 
     @property
+    def by_half_cells(self) -> float:
+        """Estimated relative change of f on cells half as long as the scene's own; NaN where they were not reached."""
+        if self.response is None or not self.grid:
+            return math.nan
+        return self.response.relative("coefficient", mean_of(self.grid, "beyond", math.nan))
+
+    @property
     def start(self) -> LineStart:
         """For a neighbouring speed."""
         return LineStart(self.first, self.used, self.grid)
@@ -81,7 +89,7 @@ def line_friction(prepared: Prepared, speed: float, start: LineStart | None = No
     sample = Sample(prepared, speed, first).with_line(prepared.contact, first, before)
     used: tuple[Used, ...] = ()
     while (length := sample.wanted()) > 0:
-        length, contact, state = _next_line(sample, length, len(used), start)
+        length, contact, state = _next_line(sample, length, used, start)
         if sample.anchor is None:
             found = solved(
                 replace(prepared, contact=contact), speed, replace(first.balance, contact=state), given_grid=True
@@ -93,18 +101,20 @@ def line_friction(prepared: Prepared, speed: float, start: LineStart | None = No
     return prepared, replace(_found(sample), used=used)
 
 
-def _next_line(sample: Sample, length: float, index: int, start: LineStart | None):
-    """Line number ``index`` + 1, the length [m] asked of it, and a state to start from: that of the neighbouring
-    speed, if it is long enough, or a new one of ``length``."""
+def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
+    """The length [m] asked of the line after those ``used``, the line, and a state to start from: that of the
+    neighbouring speed, if it is long enough, or a new one of ``length``."""
+    index, before = len(used), start.used if start is not None else ()
+    known = [line.contact for line in (*used, *before) if line.contact is not None]
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
         there = start.used[index]
-        return there.length, there.contact or _line(sample.prepared, index, there.length), there.state
+        return there.length, there.contact or _line(sample.prepared, index, there.length, known), there.state
     state = replace(sample.first.balance.contact, fields=None, pressure=None)
-    return length, _line(sample.prepared, index, length), state
+    return length, _line(sample.prepared, index, length, known), state
 
 
-def _line(prepared: Prepared, index: int, length: float) -> HalfSpaceContact:
-    return line_contact(prepared.scene, lines_of_model(prepared).line(index + 1, length))
+def _line(prepared: Prepared, index: int, length: float, known: list[HalfSpaceContact]) -> HalfSpaceContact:
+    return line_contact(prepared.scene, lines_of_model(prepared).line(index + 1, length), known)
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:

@@ -55,9 +55,11 @@ def record(
     correlation_length: float,
     windows: int = 1,
     rows: slice = slice(None),
+    exact_sq: bool = False,
 ) -> LineRecord:
     """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map
-    that follow each other along y; ``rows`` along y that count, where others only mirror them.
+    that follow each other along y; ``rows`` along y that count, where others only mirror them; ``exact_sq``: the line
+    was made with the Sq of the surface, so what its places scatter by with their own is no error.
 
     The standard error is the larger of those from blocks along y and, of three and more, from windows: a surface that
     differs from place to place shows it there.
@@ -66,9 +68,10 @@ def record(
     pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
     touching = pressure[:, rows] > 0
     touched = touching.sum(axis=0) * contact.spacing[0]
+    squares = np.square(contact.heights[:, rows]).mean(axis=0) if exact_sq else None
 
     def error(values, slope):
-        return _larger(gap_influence(values, by_place, slope), step, correlation_length, windows)
+        return _larger(gap_influence(values, by_place, slope), step, correlation_length, windows, squares)
 
     return LineRecord(
         by_place.size * step,
@@ -83,8 +86,8 @@ def record(
     )
 
 
-def _larger(values, step, correlation_length, windows) -> BlockError:
-    blocks = block_error(values, step, correlation_length)
+def _larger(values, step, correlation_length, windows, exact) -> BlockError:
+    blocks = block_error(values, step, correlation_length, exact)
     if windows < FEWEST_WINDOWS:
         return blocks
     size = values.size // windows

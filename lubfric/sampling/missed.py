@@ -8,6 +8,7 @@ import numpy as np
 
 from .influence import SPOT
 
+FEWEST = 14  # blocks: of 25 correlation lengths
 OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
@@ -42,7 +43,7 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
-    if blocks.size < 4:
+    if blocks.size < FEWEST:
         return math.nan
     scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi
     place = float(blocks.mean()) - EULER * scale

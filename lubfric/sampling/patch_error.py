@@ -53,7 +53,8 @@ def of_patch(prepared, speed: float, point: Solved) -> tuple[Uncertainty, FieldE
             why = UNKNOWN.format("this contact has no places along y to compare")
         elif not long_enough:
             why = UNKNOWN.format(
-                f"{length / correlation:.2g} correlation lengths along y, {LEAST_BLOCKS * BLOCK:g} are needed"
+                f"the patch holds {length / correlation:.2g} correlation lengths along y, an interval takes "
+                f"{LEAST_BLOCKS * BLOCK:g} (numerics.sampling = 'line', or a map that is longer across the motion)"
             )
         else:
             response = response_of(prepared, speed, point.contact, balance)

@@ -117,6 +117,7 @@ class Sample:
             anchor.response.slopes,
             lines.lengths[1],
             lines.windows(length),
+            exact_sq=lines.exact_sq,
         )
         return replace(self, records=(*kept, found), anchor=anchor)
 

@@ -1,13 +1,13 @@
 """Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
 
-A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": number}``, a number that is
-not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats keep
-every bit.
+A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": [dtype, shape, order,
+place]}``, a number that is not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts
+``{"dict": {...}}``. Floats keep every bit. Encoded, that tree stands first, its length in front, then the arrays, each
+once however often the tree names it.
 """
 
 from __future__ import annotations
 
-import io
 import json
 import math
 from dataclasses import fields, is_dataclass
@@ -17,26 +17,55 @@ import numpy as np
 
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
+LENGTH = 8  # bytes of the length of the tree
 
 
-def encode(value) -> bytes:
-    """``value``, a tree of dataclasses of this package, numbers, texts and arrays, as one ``.npz`` file in bytes."""
-    arrays: dict[str, np.ndarray] = {}
-    tree = to_plain(value, arrays)
-    buffer = io.BytesIO()
-    arrays["tree"] = np.array(json.dumps(tree, allow_nan=False))
-    np.savez(buffer, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
-    return buffer.getvalue()
+class Arrays:
+    """The arrays of one value, one behind the other. ``parts``: their bytes, not copied."""
+
+    def __init__(self) -> None:
+        self.parts: list[bytes | memoryview] = []
+        self._places: dict[int, list] = {}
+        self._kept: list[np.ndarray] = []  # so that no other array takes the identity of one of these
+        self._end = 0
+
+    def put(self, array: np.ndarray) -> list:
+        """[dtype, shape, order, place in bytes] of ``array``, which is added where it is not there yet."""
+        if id(array) not in self._places:
+            if array.dtype.hasobject:
+                raise TypeError(f"an array of {array.dtype} cannot be stored")
+            order = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
+            flat = np.ascontiguousarray(array.T if order == "F" else array).reshape(-1)
+            self._places[id(array)] = [array.dtype.str, array.shape, order, self._end]
+            self._kept.append(array)
+            self.parts.append(flat.view(np.uint8).data)
+            self._end += flat.nbytes
+        return self._places[id(array)]
+
+
+def encode(value) -> list:
+    """``value``, a tree of dataclasses of this package, numbers, texts and arrays, as bytes in pieces that follow each
+    other."""
+    arrays = Arrays()
+    tree = json.dumps(to_plain(value, arrays), allow_nan=False).encode()
+    return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays.parts]
 
 
 def decode(content: bytes):
-    """What `encode` was given."""
-    with np.load(io.BytesIO(content), allow_pickle=False) as file:
-        return from_plain(json.loads(str(file["tree"])), file)
+    """What `encode` was given, from its pieces joined."""
+    end = LENGTH + int.from_bytes(content[:LENGTH], "little")
+    return from_plain(json.loads(content[LENGTH:end]), memoryview(content)[end:])
 
 
-def to_plain(value, arrays: dict | None = None):
-    """JSON types for ``value``; its arrays are put into ``arrays`` by name."""
+def _array(placed, content: memoryview) -> np.ndarray:
+    kind, shape, order, place = placed
+    count = math.prod(shape)
+    flat = np.frombuffer(content, np.dtype(kind), count, place) if count else np.empty(0, np.dtype(kind))
+    return flat.copy().reshape(shape, order=order)
+
+
+def to_plain(value, arrays: Arrays | None = None):
+    """JSON types for ``value``; its arrays are put into ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value
     if isinstance(value, np.generic):
@@ -50,9 +79,7 @@ def to_plain(value, arrays: dict | None = None):
     if isinstance(value, dict):
         return {"dict": {_text(key): to_plain(item, arrays) for key, item in value.items()}}
     if isinstance(value, np.ndarray) and arrays is not None:
-        name = f"array_{len(arrays)}"
-        arrays[name] = value
-        return {"array": name}
+        return {"array": arrays.put(value)}
     kind = type(value)
     if is_dataclass(kind) and kind.__module__.startswith(HOME):
         parts = {f.name: to_plain(getattr(value, f.name), arrays) for f in fields(value)}
@@ -72,7 +99,7 @@ def from_plain(value, arrays=None):
     if mark == "float":
         return float(content)
     if mark == "array":
-        return arrays[content]
+        return _array(content, arrays)
     if mark == "list":
         return list(from_plain(content, arrays))
     if mark == "dict":

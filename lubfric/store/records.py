@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import socket
+import time
 import uuid
 from collections.abc import Iterator
 from contextlib import suppress
@@ -15,20 +16,24 @@ from pathlib import Path
 from .whole import saying, sync_folder
 
 CHECK = 16  # hexadecimal digits of the SHA-256 in front of a line
+SYNC = 1.0  # s between two forcings to the disk
 
 
 class Records:
     """Records by key in ``folder``: any number of processes may add, each to its own file, while others read.
 
-    A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added, each forced to the
-    disk before `add` returns. A line that was cut by a kill or overwritten since fails its checksum and counts as
-    absent; ``damaged`` tells how many the last `read` met.
+    A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added. When `add` returns,
+    the line is with the system, which keeps it whatever becomes of this process. Lines are forced to the disk with the
+    first one that is added a second or more after the last forcing, and by `close`: a loss of power can take those
+    since then. A line that was cut or overwritten fails its checksum and counts as absent; ``damaged`` tells how many
+    the last `read` met.
     """
 
     def __init__(self, folder):
         self.folder = Path(folder)
         self.damaged = 0
         self._file = None
+        self._synced = 0.0
 
     def add(self, key: str, value) -> None:
         """Add one record; ``value`` in plain JSON types. Raises `OutputError` when it cannot be kept."""
@@ -41,7 +46,8 @@ class Records:
             try:
                 if self._file.write(line) < len(line):
                     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-                os.fsync(self._file.fileno())
+                if time.monotonic() - self._synced > SYNC:
+                    self._sync(self._file)
             except OSError:
                 with suppress(OSError):
                     self._file.truncate(whole)
@@ -67,8 +73,14 @@ class Records:
     def close(self) -> None:
         """Close the file of this writer; the next `add` begins another."""
         if self._file is not None:
-            self._file.close()
+            with saying(f"records in {self.folder} were not forced to the disk"):
+                self._sync(self._file)
+                self._file.close()
             self._file = None
+
+    def _sync(self, file) -> None:
+        os.fsync(file.fileno())
+        self._synced = time.monotonic()
 
     def __enter__(self) -> Records:
         return self

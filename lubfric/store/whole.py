@@ -15,15 +15,24 @@ HEAD = len(MARK) + 65
 PART = ".part-"  # begins the name of a file that is being written
 
 
-def write_whole(path, content: bytes, *, sync: bool = True) -> None:
-    """Replace ``path`` by ``content``: a reader, or whoever finds the folder after a kill, sees the old file or the
-    new.
+def write_whole(path, *content, sync: bool = True) -> None:
+    """Replace ``path`` by ``content``, bytes in one or several pieces: a reader, or whoever finds the folder after a
+    kill, sees the old file or the new.
 
     ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as
     `whole_file`.
     """
     with whole_file(path, sync=sync) as part:
-        part.write_bytes(content)
+        with part.open("wb", buffering=0) as file:
+            for piece in content:
+                _write_all(file, piece)
+
+
+def _write_all(file, piece) -> None:
+    """All of ``piece``, of which the system may take less than it is given at once."""
+    rest = memoryview(piece)
+    while len(rest):
+        rest = rest[file.write(rest) :]
 
 
 @contextmanager
@@ -52,9 +61,12 @@ def whole_file(path, *, sync: bool = True):
             sync_folder(path.parent)
 
 
-def write_checked(path, content: bytes, *, sync: bool = True) -> None:
+def write_checked(path, *content, sync: bool = True) -> None:
     """`write_whole`, with a checksum in front that `read_checked` asks for."""
-    write_whole(path, MARK + hashlib.sha256(content).hexdigest().encode() + b"\n" + content, sync=sync)
+    found = hashlib.sha256()
+    for piece in content:
+        found.update(piece)
+    write_whole(path, MARK + found.hexdigest().encode() + b"\n", *content, sync=sync)
 
 
 def read_checked(path) -> bytes | None:

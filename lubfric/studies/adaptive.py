@@ -2,96 +2,132 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..curve.choose import first_speeds, next_speed
+from ..curve.choose import next_speed
 from ..curve.interpolate import Samples
+from ..curve.span import first_speeds
 from ..prepared import Prepared
-from ..steady import FrictionResult
+from ..result import FrictionResult
 from ..store import digest
-from .chain import Chain, resumed, solved, start_from
+from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
 
+AUTO = "auto"
 MOST = 25  # speeds at most
 FEWEST = 3  # solved speeds that an interpolation needs
 
 
 @dataclass(frozen=True)
 class Search:
-    """What to solve. ``low``, ``high``: ends of the curve [m/s]; ``tolerance``: relative, on f between the points;
-    ``wanted``: speeds [m/s] that must be among them, with their fields; ``name``: fingerprint of the prepared scene."""
+    """What to solve. ``first``: speeds [m/s] to begin with, those of both ends among them; ``tolerance``: relative, on
+    f between the points; ``wanted``: speeds [m/s] that must be among them, with their fields; ``name``: fingerprint of
+    all that they depend on."""
 
-    low: float
-    high: float
+    first: tuple[float, ...]
     tolerance: float
     wanted: tuple[float, ...]
     name: str
 
-    def chain(self, speeds: list[float]) -> Chain:
-        """The chain of the speeds so far. Its keys hold the range and the tolerance, which decide on what follows."""
-        keys, last = [], digest([self.name, self.low, self.high, self.tolerance, self.wanted])
-        for speed in speeds:
-            last = digest([last, speed])
-            keys.append(last)
-        return Chain(tuple(speeds), tuple(keys), tuple(speed in self.wanted for speed in speeds))
+    @property
+    def ahead(self) -> list[float]:
+        """The speeds [m/s] that do not depend on any result, fastest first."""
+        return sorted({*self.first, *self.wanted}, reverse=True)
+
+
+def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> Search:
+    """The search for the curve of ``prepared``, of that fingerprint ``name``.
+
+    The tolerance between the points is that on f, and on a line of a rough surface, where neighbouring points may be
+    solved on different lengths of it, its root sum of squares with the sampling tolerance.
+    """
+    numerics = prepared.scene.numerics
+    tolerance = numerics.tolerance
+    if prepared.lines is not None:
+        tolerance = math.hypot(tolerance, numerics.sampling_tolerance)
+    return Search(first_speeds(prepared), tolerance, wanted, name)
+
+
+def curve_key(name: str) -> str:
+    """Under which a store says that the curve of that fingerprint is complete."""
+    return digest([name, "complete"])
 
 
 def run_adaptive(prepared: Prepared, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
-    Each speed starts from the one before. Points that the ``journal`` knows are taken from there: the choices, and so
-    the rest, come out the same.
+    Each point starts from the nearest one before it. Points that the ``journal`` knows are taken from there: the
+    choices, and so the rest, come out the same.
     """
-    known = {} if journal is None else dict(journal.records.read())
-    speeds: list[float] = []
-    outcomes: list = []
-    last = None  # the whole outcome before, where it was solved by this run
-    ahead = sorted({*first_speeds(search.low, search.high).tolist(), *search.wanted}, reverse=True)
-    while len(speeds) < MOST:
-        speed = ahead.pop(0) if ahead else _next(speeds, outcomes, search)
+    trail = Trail(prepared, search, journal)
+    ahead = search.ahead
+    while len(trail.speeds) < MOST:
+        speed = ahead.pop(0) if ahead else _next(trail, search.tolerance)
         if speed is None:
             break
-        speeds.append(float(speed))
-        chain = search.chain(speeds)
-        if journal is not None and chain.keys[-1] in known:
-            outcome, last = _known(chain, journal, known), None
+        yield float(speed), trail.add(float(speed))
+    trail.end()
+
+
+class Trail:
+    """The points so far. ``speeds`` [m/s] and ``outcomes``, without fields where these are not wanted."""
+
+    def __init__(self, prepared: Prepared, search: Search, journal: Journal | None):
+        self.speeds: list[float] = []
+        self.outcomes: list = []
+        self._prepared, self._search, self._journal = prepared, search, journal
+        self._known = {} if journal is None else dict(journal.records.read())
+        self._keys: list[str] = []
+        self._whole: dict[int, object] = {}  # outcomes with all that a neighbour starts from
+
+    def add(self, speed: float):
+        """The outcome at ``speed``, from the journal or solved and kept there."""
+        search, journal = self._search, self._journal
+        last = self._keys[-1] if self._keys else digest([search.name, search.first, search.tolerance, search.wanted])
+        key, at, kept = digest([last, speed]), len(self.speeds), speed in search.wanted
+        self._keys.append(key)
+        self.speeds.append(speed)
+        if journal is not None and key in self._known:
+            outcome = outcome_of(self._known[key])
+            outcome = (journal.fields(key) or outcome) if kept else outcome
         else:
-            outcome = last = _continued(prepared, chain, journal, last)
-            outcome = outcome if chain.fields[-1] else without_fields(outcome)
-        outcomes.append(outcome)
-        yield speeds[-1], outcome
-    if journal is not None and speeds:
-        journal.end(search.chain(speeds).name)
+            outcome = self._start_of(at)
+            if journal is not None:
+                place = {"curve": curve_key(search.name), "place": at, "speed": speed}
+                journal.keep(key, key, outcome, kept, place)
+            outcome = outcome if kept else without_fields(outcome)
+        self.outcomes.append(outcome)
+        return outcome
+
+    def end(self) -> None:
+        """The curve is complete: no state is needed any more."""
+        if self._journal is not None:
+            for key in self._keys:
+                self._journal.end(key)
+
+    def _start_of(self, at: int):
+        """Outcome number ``at`` with all that a neighbour starts from: remembered, read, or solved from the nearest one
+        before it."""
+        if at not in self._whole:
+            key, found = ("", None) if self._journal is None else self._journal.state(self._keys[at])
+            if key != self._keys[at]:
+                near = min(range(at), key=lambda i: abs(math.log(self.speeds[i] / self.speeds[at])), default=None)
+                start = None if near is None else start_from(self._start_of(near))
+                found = solved_at(self._prepared, self.speeds[at], start, self.speeds[at] in self._search.wanted)
+            self._whole[at] = found
+        return self._whole[at]
 
 
-def _known(chain: Chain, journal: Journal, known: dict):
-    outcome = outcome_of(known[chain.keys[-1]])
-    return journal.fields(chain.keys[-1]) or outcome if chain.fields[-1] else outcome
-
-
-def _continued(prepared: Prepared, chain: Chain, journal: Journal | None, last):
-    """The last point of ``chain``, whole, solved from the one before and kept."""
-    at = len(chain.keys) - 1
-    start = start_from(last)
-    if journal is not None and last is None and at:
-        start, caught_up = resumed(prepared, chain, journal, at)
-        if caught_up is not None:
-            return caught_up
-    outcome = solved(prepared, chain, at, start)
-    if journal is not None:
-        journal.keep(chain.name, chain.keys[at], outcome, chain.fields[at])
-    return outcome
-
-
-def _next(speeds: list[float], outcomes: list, search: Search) -> float | None:
-    good = [(u, o) for u, o in zip(speeds, outcomes) if isinstance(o, FrictionResult)]
+def _next(trail: Trail, tolerance: float) -> float | None:
+    good = [o for o in trail.outcomes if isinstance(o, FrictionResult)]
     if len(good) < FEWEST:
         return None
-    tried = [u for u, o in zip(speeds, outcomes) if not isinstance(o, FrictionResult)]
-    return next_speed(samples_of([o for _, o in good]), search.tolerance, tried)[0]
+    tried = [u for u, o in zip(trail.speeds, trail.outcomes) if not isinstance(o, FrictionResult)]
+    return next_speed(samples_of(good), tolerance, tried)[0]
 
 
 def samples_of(points: list[FrictionResult]) -> Samples:

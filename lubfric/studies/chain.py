@@ -77,9 +77,14 @@ def start_from(outcome) -> FrictionResult | None:
 
 
 def solved(prepared: Prepared, chain: Chain, index: int, start: FrictionResult | None):
+    """The result or error of one point of a chain."""
+    return solved_at(prepared, chain.speeds[index], start, chain.fields[index])
+
+
+def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool):
     """The result or error of one point."""
     try:
-        return friction(prepared, chain.speeds[index], start=start, fields=chain.fields[index])
+        return friction(prepared, speed, start=start, fields=fields)
     except LubfricError as error:
         return error
 

@@ -13,6 +13,7 @@ from ..store.codec import from_plain, to_plain
 from ..validity.entry import Validity
 
 POINTS, STATES, FIELDS = "points", "states", "fields"
+PLACE = "place"  # in a record
 
 
 @dataclass(frozen=True)
@@ -38,13 +39,18 @@ class Journal:
         self.folder = Path(folder)
         self.records = Records(self.folder / POINTS)
 
-    def keep(self, chain: str, key: str, outcome, fields: bool = False) -> None:
-        """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too."""
+    def keep(self, chain: str, key: str, outcome, fields: bool = False, place: dict | None = None) -> None:
+        """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too.
+
+        ``place``: of a point whose speed was chosen on the way: its curve, its place on it, its speed [m/s]; put into
+        the record.
+        """
         state = encode({"key": key, "outcome": _storable(outcome)})
         if fields:
-            write_checked(self._path(FIELDS, key), state)
-        write_checked(self._path(STATES, chain), state, sync=False)
-        self.records.add(key, record_of(outcome))
+            write_checked(self._path(FIELDS, key), *state)
+        write_checked(self._path(STATES, chain), *state, sync=False)
+        record = record_of(outcome)
+        self.records.add(key, record if place is None else record | {PLACE: place})
 
     def state(self, chain: str) -> tuple[str, object]:
         """(key, outcome) of the last point of a chain; ("", None) where there is none that is whole."""

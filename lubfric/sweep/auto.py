@@ -7,12 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..curve.choose import next_speed
-from ..curve.span import span
 from ..errors import InputError
 from ..prepared import Prepared
 from ..report import ITERATION_LIMIT, Report
 from ..store import fingerprint
-from ..studies.adaptive import FEWEST, Search, run_adaptive, samples_of
+from ..studies.adaptive import FEWEST, run_adaptive, samples_of, search_of
 from ..studies.journal import Journal
 from .result import FAILED_SPEEDS, StribeckResult, collected
 
@@ -21,9 +20,8 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
     """Arguments of `lubfric.stribeck`; where speeds failed it says so."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
-    low, high = span(prepared)
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
-    search = Search(low, high, prepared.scene.numerics.tolerance, wanted, fingerprint(prepared))
+    search = search_of(prepared, fingerprint(prepared), wanted)
     journal, found = (None if store is None else Journal(store)), {}
     try:
         for speed, outcome in run_adaptive(prepared, search, journal):

@@ -23,20 +23,24 @@ MANY = 30  # blocks less one: of a line
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Arrays over time (nt,), one per name of `lubfric.unsteady.row.UNITS`, also as attributes:
-    ``result.coefficient``.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.row.UNITS`, also as attributes.
 
-    time [s]; x [m] (nx,); pressure [Pa] and film_thickness [m] (nt, nx): of the smooth film at the output
-    times. coefficient: tangential force on the upper surface in the direction in which it slides over the
-    lower one, over F_T; friction_force and its parts [N] along +x. mean_film, mean_gap: both sides of Eq.
-    (8). wet_from, wet_to [m]: ends of the pressurised film. net_inflow, stored, cavity_growth [m²/s]: the
-    lubricant's balance over the last step, per unit width. time_error: local error of the last step, of
-    the tolerance. sampling_error: relative standard error of f because the line of rough surface is finite
-    (`lubfric.sampling.moment_error`); it is the same surface at all times, so it rises and falls with f as one.
-    inlet_film_factor, flash_temperature_rise, film_temperature_rise [K]: as in `lubfric.FrictionResult`, of the steady
-    motion at the speeds of the moment; heat_change, relative, of f by the two rises; shear_error, relative: estimated,
-    of f by the sum of the film's shear stress. ``entries``: the assumptions that do not hold at each output
-    (`lubfric.Validity`), ``validity`` gathers them.
+    Attributes
+    ----------
+    columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
+        direction in which it slides over the lower one, over F_T; friction_force and its parts [N], along +x; mean_film
+        and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the pressurised film; net_inflow,
+        stored and cavity_growth [m²/s], the balance of the lubricant over the last step, per unit width; time_error
+        [-], the local error of the last step over the tolerance; sampling_error [-], the relative standard error of f
+        because the line of rough surface is finite (`lubfric.sampling.moment_error`). It is the same surface at all
+        times, so that error rises and falls with f as one; inlet_film_factor [-], flash_temperature_rise and
+        film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at the speeds of the moment;
+        heat_change [-], of f by the two rises, relative; shear_error [-], estimated, of f by the sum of the film's
+        shear stress, relative
+    x : (nx,) [m]
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
+    report : how the run ended
+    entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     """
 
     columns: dict[str, np.ndarray]

@@ -5,12 +5,16 @@ import pytest
 
 import lubfric
 from lubfric.curve import Interpolant, Samples, next_speed
-from lubfric.curve.choose import first_speeds
 from lubfric.curve.interpolate import knee_of
+from lubfric.curve.span import first_speeds, span
+from lubfric.ehl.solve import solve_line_contact
+from lubfric.line_contact import LineContact
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
+
+FIRST = np.geomspace(1e-4, 1.0, 5)
 
 
 class Made:
@@ -33,7 +37,7 @@ class Made:
 @pytest.mark.parametrize("exponent", [0.5, 0.8, 1.2])
 @pytest.mark.parametrize("tolerance", [0.01, 0.05])
 def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, exponent, tolerance):
-    curve, speeds = Made(lift_off, exponent), list(first_speeds(1e-4, 1.0))
+    curve, speeds = Made(lift_off, exponent), list(FIRST)
     while len(speeds) < 25:
         speed, error = next_speed(curve.samples(np.array(speeds)), tolerance)
         if speed is None:
@@ -51,7 +55,7 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
 
 @pytest.mark.parametrize("lift_off", [1e-6, 100.0])
 def test_curves_without_a_knee(lift_off):
-    curve, speeds = Made(lift_off, 0.8), list(first_speeds(1e-4, 1.0))
+    curve, speeds = Made(lift_off, 0.8), list(FIRST)
     while (speed := next_speed(curve.samples(np.array(speeds)), 0.01)[0]) is not None:
         speeds.append(speed)
     samples = curve.samples(np.array(speeds))
@@ -62,7 +66,7 @@ def test_curves_without_a_knee(lift_off):
 
 def test_speeds_that_failed_are_left_alone():
     curve = Made(0.05, 0.8)
-    samples = curve.samples(first_speeds(1e-4, 1.0))
+    samples = curve.samples(FIRST)
     speed, _ = next_speed(samples, 0.01)
     other, _ = next_speed(samples, 0.01, tried=[speed])
     assert abs(np.log(other / speed)) > 0.01
@@ -74,7 +78,7 @@ def auto():
 
 
 def test_an_adaptive_curve_is_that_of_many_solves(auto):
-    assert auto.report.converged and auto.speed.size <= 14 and auto.report.residual <= 0.01
+    assert auto.report.converged and auto.speed.size <= 12 and auto.report.residual <= 0.01
     assert auto.speed[0] == pytest.approx(SCENE.motion.speeds[0]) and auto.speed[-1] == pytest.approx(1.0)
     speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
     direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)
@@ -82,7 +86,10 @@ def test_an_adaptive_curve_is_that_of_many_solves(auto):
     assert direct.contact_load[speeds < auto.lift_off][-1] > 0 == direct.contact_load[speeds > auto.lift_off][0]
 
 
-def test_a_cut_adaptive_curve_goes_on_to_the_same_bits(auto, tmp_path):
+@pytest.mark.parametrize("lost", [0, 1, 8])
+def test_a_cut_adaptive_curve_goes_on_to_the_same_bits(auto, tmp_path, lost):
+    """Also where states of some points are lost: these are solved again, as starts alone."""
+
     class Cut(Exception):
         pass
 
@@ -92,7 +99,10 @@ def test_a_cut_adaptive_curve_goes_on_to_the_same_bits(auto, tmp_path):
 
     with pytest.raises(Cut):
         lubfric.stribeck(SCENE, "auto", store=tmp_path, on_point=cutting)
+    for path in sorted((tmp_path / "states").iterdir())[:lost]:
+        path.unlink()
     again = lubfric.stribeck(SCENE, "auto", store=tmp_path)
+    assert not list((tmp_path / "states").iterdir())
     np.testing.assert_array_equal(again.speed, auto.speed)
     np.testing.assert_array_equal(again.coefficient, auto.coefficient)
 
@@ -103,9 +113,21 @@ def test_fields_of_an_adaptive_curve():
     assert kept.speed == 0.02 and kept.balance.contact.pressure.shape == (64, 64)
 
 
-def test_the_range_where_a_scene_has_no_speeds():
-    from lubfric.curve.span import span
+def test_the_first_speeds_are_where_the_film_is_so_thick():
+    """Judged by solved films of the whole load, which the formula meets within a quarter."""
+    model = lubfric.prepare(SCENE)
+    bodies, found = SCENE.bodies, first_speeds(model)
+    assert found == tuple(sorted(found, reverse=True)) and found[0] == 1.0 and found[-1] == pytest.approx(1e-4)
+    contacts = [
+        LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, SCENE.lubricant) for u in found
+    ]
+    films = [solve_line_contact(contact).central_film for contact in contacts[1:-1]]
+    np.testing.assert_allclose(np.array(films) / model.surface.sq, [4.5, 2.5, 1.2, 0.4], rtol=0.25)
+    narrow = first_speeds(lubfric.prepare(SCENE.with_(motion={"speeds": (0.5, 1.0)})))
+    assert len(narrow) == 5 and narrow[0] == 1.0 and narrow[-1] == 0.5
 
+
+def test_the_range_where_a_scene_has_no_speeds():
     scene = SCENE.with_(motion={"speeds": ()})
     low, high = span(lubfric.prepare(scene))
     ends = lubfric.stribeck(scene, [low, high])

@@ -70,7 +70,7 @@ def test_bessel_cells_over_all_scales(cells_per_wavelength):
     from lubfric.halfspace.semiperiodic import bessel_cells
 
     k = 2 * np.pi / cells_per_wavelength
-    cells = bessel_cells(12, k)
+    cells = bessel_cells(np.arange(12), np.full(12, k))
     for i in range(1, 12):
         assert cells[i] == pytest.approx(quad(lambda s: k0(k * s), i - 0.5, i + 0.5, epsabs=1e-16)[0], abs=2e-14)
 

@@ -28,16 +28,34 @@ def test_block_error_is_that_of_the_mean_of_correlated_values():
     rng, count, length = np.random.default_rng(5), 3200, 10
     draws = [correlated(rng, count, length) for _ in range(400)]
     found = [block_error(d, 1.0, 2.0 * length) for d in draws]
-    assert found[0].freedom == 31
+    assert found[0].freedom == 16
     observed = np.std([d.mean() for d in draws])
     assert np.sqrt(np.mean([f.error**2 for f in found])) == pytest.approx(observed, rel=0.1)
     covered = np.mean([abs(d.mean()) <= student(f.freedom) * f.error for d, f in zip(draws, found)])
     assert 0.92 <= covered <= 0.98
 
 
-def test_a_line_too_short_for_eight_blocks_tells_nothing():
-    assert block_error(np.arange(300.0), 1.0, 10.0) == BlockError(math.inf, 0)
-    assert block_error(np.arange(400.0), 1.0, 10.0).freedom == 7
+def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
+    """Draws whose covariate is shifted to its known mean, as a line made with exactly its Sq is."""
+    rng, count, length = np.random.default_rng(6), 3200, 10
+    means, found, blind = [], [], []
+    for _ in range(300):
+        other = correlated(rng, count, length)
+        other -= other.mean()
+        values = 0.8 * other + 0.6 * correlated(rng, count, length)
+        means.append(values.mean())
+        found.append(block_error(values, 1.0, 2.0 * length, other))
+        blind.append(block_error(values, 1.0, 2.0 * length))
+    reported, unaware = (np.sqrt(np.mean([f.error**2 for f in each])) for each in (found, blind))
+    assert found[0].freedom == blind[0].freedom - 1
+    assert reported == pytest.approx(np.std(means), rel=0.1)
+    assert unaware == pytest.approx(np.std(means) / 0.6, rel=0.1)
+
+
+def test_a_line_too_short_for_five_blocks_tells_nothing():
+    assert block_error(np.arange(240.0), 1.0, 10.0) == BlockError(math.inf, 0)
+    lengths = (250.0, 300.0, 400.0, 800.0, 900.0, 1e4)
+    assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in lengths] == [4, 5, 7, 7, 9, 31]
 
 
 def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load():

@@ -240,7 +240,7 @@ def test_plain_values_come_back_the_same(value):
 def test_a_neighbour_started_from_a_stored_balance_is_the_same_to_the_last_bit(speed):
     model = prepare(SCENE)
     before = lubfric.friction(model, speed, fields=speed == 0.01)
-    again = decode(encode(before))
+    again = decode(b"".join(encode(before)))
     assert repr(again.report) == repr(before.report) and again.decision == before.decision
     if before.balance.film is not None:
         here, there = (lubfric.friction(model, 1.2 * speed, start=start) for start in (before, again))

@@ -3,8 +3,8 @@ agree."""
 
 import pytest
 
-from verification.tables import BLOCK, body, main, replaced
-from verification.tables.measured import TABLES, Table
+from verification.tables import BLOCK, TABLES, body, main, replaced
+from verification.tables.measured import Table
 
 TABLE = Table(["speed", "f"], [["0.1", "0.05"]])
 
@@ -19,10 +19,10 @@ def test_only_the_named_table_is_replaced_and_again_gives_the_same():
         f"<!-- table: {name} -->\n{text}\n<!-- end of table -->\n" for name, text in (("one", "old"), ("two", "kept"))
     )
     page = f"before\n{one}between\n{two}"
-    once = replaced(page, "one", body("one", TABLE, "2000-01-01"))
+    once = replaced(page, "one", body("one", TABLE))
     assert "old" not in once and "kept" in once and "| 0.1 | 0.05 |" in once
     assert once.startswith("before\n") and "\nbetween\n" in once
-    assert replaced(once, "one", body("one", TABLE, "2000-01-01")) == once
+    assert replaced(once, "one", body("one", TABLE)) == once
 
 
 def test_the_command_measures_what_is_marked(tmp_path, monkeypatch):

@@ -196,14 +196,11 @@ def _stribeck_verdict(speeds, curves, real, table) -> tuple[str, str]:
     )
     differs = (
         "The paper's asperity curve lies clearly above the other two. On generated surfaces its largest "
-        f"deviation from the elastic half-space is {lines}. "
-        "Which way it goes depends on the roughness: fine ripples (exponential) put the asperity model "
-        "above on the flat strip, "
-        "broad summits below. Under the cylinder independent asperities also miss the flattening by the "
-        "whole contact "
-        "load: they carry it on a shorter strip. The paper's surface and its asperity definition are not "
-        "published, nor are the measured "
-        "friction values in numbers, so neither is drawn."
+        f"deviation from the elastic half-space is {lines}. Which way it goes depends on the roughness. On the flat "
+        "strip, fine ripples (exponential) put the asperity model above, broad summits below. Under the cylinder, "
+        "independent asperities also miss the flattening by the whole contact load: they carry it on a shorter "
+        "strip. The paper's surface, its definition of an asperity and the measured friction in numbers are not "
+        "published. So none of them is drawn."
     )
     return agrees, differs
 
@@ -275,10 +272,9 @@ def pressure_map(quick: bool) -> PaperFigure:
             else ""
         ),
         "The paper's surface is not published. On the smooth (Gaussian) surrogate the highest pressure is "
-        f"{rows[0][5] / 1e9:.1f} GPa; it needs the sharper summits of the exponential one to yield. Dashed: "
-        "the Hertz strip, "
-        "over which Eq. (8) is balanced; contact reaches beyond it because summits stand up to three Sq "
-        "above the mean plane.",
+        f"{rows[0][5] / 1e9:.1f} GPa. Only the sharper summits of the exponential one yield. The dashed lines are the "
+        "Hertz strip, over which Eq. (8) is balanced. Contact reaches beyond it, because summits stand up to three "
+        "Sq above the mean plane.",
         png(canvas),
         {
             "fig9": (
@@ -339,22 +335,19 @@ def sections(quick: bool) -> PaperFigure:
             for a, b, c, g in zip(x, h, z[:, line], gap)
         ]
         words.append(
-            f"at {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
-            f"contact on {100 * point.real_contact_area_fraction:.1f} % of it"
+            f"At {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
+            f"and {100 * point.real_contact_area_fraction:.1f} % of it are in contact."
         )
     return PaperFigure(
         "fig10",
         "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s",
-        "In boundary lubrication the separation cuts through the summits, in full film it clears them: "
-        + "; ".join(words)
-        + ".",
-        "h_s has the form of h, as in the paper, and is offset by epsilon. Where the surface is drawn above "
-        "h_s it is deflected by the "
-        "contact: the gap h_s - z + u is zero there (last column of the table). In this line-contact kernel "
-        "u is "
-        "known up to a constant, so the distance between h_s and z depends on that gauge and the gap does "
-        "not. Section of the "
-        "generated surface of the built-in scene (the paper's is not published).",
+        "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
+        + "\n- ".join(words)
+        + "\n",
+        "h_s has the form of h, as in the paper, and is offset by epsilon. Where the surface is drawn above h_s, the "
+        "contact deflects it: the gap h_s - z + u is zero there (last column of the table). In this line-contact "
+        "kernel u is known up to a constant. So the distance between h_s and z depends on that constant, and the gap "
+        "does not. The section is one of the generated surface of the built-in scene; the paper's is not published.",
         png(canvas),
         {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
         (Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST),),

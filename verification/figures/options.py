@@ -69,20 +69,15 @@ def film_deflection(quick: bool) -> PaperFigure:
         "Option: which pressure deforms the film",
         f"{words}. In the paper's own light case (102 MPa) the choice hardly matters, which is why the "
         "paper can leave it open.",
-        "The paper lets the film be deformed by its own pressure only. Johnson, Greenwood and Poon, and after "
-        "them Gelinck and "
-        "Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus E' F_H/F_T at "
-        "the load F_H: "
-        'the deflection of the total pressure when both pressures have the same shape. `"total"` takes the '
-        "contact's pressure as "
-        "it is found (its semi-ellipse), so the two pressures need not have one shape. At a high load and a "
-        "small film share "
-        "the film's own pressure cannot flatten the gap, whose mean over the strip then is that of the "
-        "undeformed parabola, "
-        "and the friction does not tend to that of the boundary; under both other options it does. The flat "
-        "strip has no "
-        "contact pressure along x of its own. "
-        '`numerics.film_deflection = "scaled"` or `"total"`, both off by default.',
+        "In the paper only the film's own pressure deforms the film. Johnson, Greenwood and Poon, and after them "
+        "Gelinck and Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus "
+        "E' F_H/F_T at the load F_H. That is the deflection of the total pressure when both pressures have the same "
+        'shape. `"total"` takes the contact\'s pressure as it is found (its semi-ellipse), so the two pressures need '
+        "not have one shape.\n\nAt a high load and a small film share, the film's own pressure cannot flatten the "
+        "gap. The mean over the strip then is that of the undeformed parabola, and the friction does not tend to that "
+        "of the boundary. Under both other options it does. The flat strip has no contact pressure along x of its "
+        'own. The key is `numerics.film_deflection`. `"auto"`, the default, keeps the film\'s own pressure where '
+        'that hardly changes f, and takes `"scaled"` elsewhere.',
         png(canvas),
         {"film": (("scene", "deflection", "speed [m/s]", "f [-]", "F_H/F_T [-]"), rows)},
         (

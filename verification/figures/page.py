@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..check import Check
+from ..tables.source import source
 
 DOCUMENT = """# The figures of the paper, computed here
 
 `python -m verification figures` computes Figs. 2 to 10 of Akchurin et al., Tribol. Lett. 59:19 (2015),
 [doi:10.1007/s11249-015-0536-z](https://doi.org/10.1007/s11249-015-0536-z), each as data (CSV), picture and
-verdict; `--only fig6` one of them, `--quick` on small grids. This page is written by the same command
-(`--docs docs`). Figs. 1 and 7 are a sketch and the measured surface, which is not published.
+verdict. `--only fig6` makes one of them, `--quick` takes small grids. The same command writes this page
+(`--docs docs`). Figs. 1 and 7 are left out: a sketch, and the measured surface, which is not published.
 
 """
 
@@ -41,14 +43,24 @@ def write_document(folder: Path, sections: dict[str, str], pictures: dict[str, b
     images.mkdir(parents=True, exist_ok=True)
     for name, picture in pictures.items():
         (images / f"{name}.png").write_bytes(picture)
-    (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()))
+    told = source("figures --docs docs")
+    (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()) + f"\n{told}\n", encoding="utf-8")
 
 
 def markdown(figure: PaperFigure, seconds: float, images: str = "images/") -> str:
     """The section of one figure; ``images``: folder of the picture."""
     data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
     return (
-        f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n**Agrees.** "
-        f"{figure.agrees}\n\n"
-        f"**Differs, and why.** {figure.differs}\n\nData: {data}. {seconds:.0f} s.\n"
+        f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n"
+        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
+        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}. {seconds:.0f} s.\n"
     )
+
+
+def wrapped(text: str) -> str:
+    """Every paragraph and item of a list in lines of at most 118 characters."""
+    lines = []
+    for part in text.split("\n"):
+        rest = "  " if part.startswith("- ") else ""
+        lines += textwrap.wrap(part, 118, subsequent_indent=rest, break_on_hyphens=False) or [""]
+    return "\n".join(lines)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from lubfric.asperity import contact_law
+from lubfric.asperity import find_asperities
 from lubfric.contact import solve_contact
 
 from ..check import AT_LEAST, AT_MOST, Check
@@ -62,8 +62,8 @@ def sphere_array(quick: bool) -> PaperFigure:
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
         heights, step = unit_cell(distance, cell)
-        law = contact_law(heights, step, E_PRIME, definition="summits")
-        alone = np.array([law(HEIGHT - a).load for a in free])
+        found = find_asperities(heights, step, E_PRIME, definition="summits")
+        alone = np.array([found.at(HEIGHT - a).load for a in free])
         label = f"{distance * 1e6:g} µm"
         asperities.plot(free * 1e9, alone * 1e3, "o-", label=label)
         left_out.plot(free * 1e9, loads * 1e3, "o-", label=label)
@@ -94,22 +94,16 @@ def sphere_array(quick: bool) -> PaperFigure:
     return PaperFigure(
         "fig4",
         "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
-        f"The asperity model does not depend on the spacing and is Hertz to {100 * worst:.1f} %. In the "
-        "half-space model the load "
-        "at a given separation falls as the spheres come closer, and tends to the asperity model as they "
-        "move apart, *when the "
-        "mean deflection of the box is kept*: load over Hertz "
+        f"The asperity model does not depend on the spacing, and is Hertz to {100 * worst:.1f} %. In the half-space "
+        "model, *when the mean deflection of the box is kept*, the load at a given separation falls as the spheres "
+        "come closer, and tends to the asperity model as they move apart. Load over Hertz is "
         f"{', '.join(f'{r:.2f}' for r in falls)} at 14, 20, 30, 40 µm. That is the trend of Fig. 4.",
-        "The trend belongs to the gauge. In a periodic cell the mean deflection is a convention; left out, "
-        "the same solutions "
-        f"give {', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. Kept, it grows "
-        "with the box (here "
-        "2.24 p a/E', Love's kernel summed over 230 µm), so the spread of the curves in Fig. 4 measures the "
-        "size of the box "
-        "as much as the interaction. In the friction model Eq. (8) removes the mean and the gauge cancels. "
-        "One period is "
-        "solved instead of 2000 x 2000 points: none of the four spacings divides 230 µm, so the paper's "
-        "array is not periodic.",
+        "The trend belongs to a convention. In a periodic cell the mean deflection can be chosen. When it is left "
+        f"out, the same solutions give {', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. "
+        "When it is kept, it grows with the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So the spread "
+        "of the curves in Fig. 4 measures the size of the box as much as the interaction. In the friction model "
+        "Eq. (8) removes the mean, and the choice cancels.\n\nOne period is solved instead of 2000 x 2000 points. "
+        "None of the four spacings divides 230 µm, so the paper's array is not periodic.",
         png(canvas),
         {
             "fig4": (

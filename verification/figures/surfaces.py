@@ -59,11 +59,9 @@ def generated_surfaces(quick: bool) -> PaperFigure:
         f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for "
         "(sampling scatter of one "
         "map). The longer length gives broader hills and smaller slopes, as the paper shows.",
-        "The paper gives neither the shape of the autocorrelation function nor the level at which L is "
-        "read. Both common shapes "
-        "are drawn, read at 1/e. The exponential one has fine ripples down to the grid (it has no slope), "
-        "the Gaussian one is "
-        "smooth; the ripples decide what an asperity is in Figs. 5 and 6.",
+        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. Both "
+        "common shapes are drawn, read at 1/e. The exponential one has fine ripples down to the grid (it has no "
+        "slope). The Gaussian one is smooth. The ripples decide what an asperity is in Figs. 5 and 6.",
         png(canvas),
         {"fig2": (("acf", "L asked [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]"), rows)},
         (

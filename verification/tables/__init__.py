@@ -8,15 +8,16 @@ beneath.
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
-import platform
 import re
 import sys
 import time
 from pathlib import Path
 
-from .measured import TABLES, Table
+from . import measured, studies
+from .measured import Table
+from .source import source
 
+TABLES = measured.TABLES | studies.TABLES
 BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
 
 
@@ -32,7 +33,7 @@ def main(argv: list[str]) -> int:
         names = [match["name"] for match in BLOCK.finditer(text) if match["name"] in wanted]
         for name in names:
             begun = time.perf_counter()
-            text = replaced(text, name, body(name, TABLES[name](), time.strftime("%Y-%m-%d")))
+            text = replaced(text, name, body(name, TABLES[name]()))
             print(f"{page.name}: {name} ({time.perf_counter() - begun:.1f} s)", file=sys.stderr, flush=True)
             page.write_text(text, encoding="utf-8")
     return 0
@@ -47,13 +48,11 @@ def replaced(text: str, name: str, new: str) -> str:
     return BLOCK.sub(put, text)
 
 
-def body(name: str, table: Table, date: str) -> str:
+def body(name: str, table: Table) -> str:
     """A table as Markdown, and the line beneath that says where it comes from."""
     rows = [table.columns, ["---"] * len(table.columns), *table.rows]
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    version = importlib.metadata.version("lubfric")
-    source = f"`python -m verification tables --only {name}`, {date}, lubfric {version}, {platform.machine()}"
-    return "\n" + "\n".join(lines) + f"\n\n*{source}, Python {platform.python_version()}.*\n\n"
+    lines = ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows]
+    return "\n" + "\n".join(lines) + f"\n\n{source(f'tables --only {name}')}\n\n"
 
 
 def parser() -> argparse.ArgumentParser:

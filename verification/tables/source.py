@@ -1,0 +1,14 @@
+"""Where the numbers of a page come from."""
+
+from __future__ import annotations
+
+import platform
+import time
+
+from lubfric.version import __version__
+
+
+def source(command: str) -> str:
+    """One line in italics: the command, the day, the version and the machine."""
+    day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
+    return f"*`python -m verification {command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

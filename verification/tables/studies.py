@@ -1,0 +1,123 @@
+"""Tables of a page that are what the studies of `python -m verification` found, at their default level.
+
+A study runs once in a process, however many tables are made of it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Callable
+from functools import cache
+
+from ..run import Outcome, quiet, run_one
+from ..stability.cell import VERDICTS
+from ..studies import STUDIES
+from .measured import Table
+
+LEVEL = "default"
+
+
+@cache
+def ran(name: str) -> Outcome:
+    """The study ``name``; raises RuntimeError where it did not come to its end."""
+    outcome = run_one(next(study for study in STUDIES if study.name == name), LEVEL, quiet)
+    if outcome.error:
+        raise RuntimeError(f"{name}: {outcome.error}")
+    return outcome
+
+
+def copied(study: str, table: str, *formats: str) -> Callable[[], Table]:
+    """A table of a study as it stands there; one format a column, the last for all that are left."""
+
+    def make() -> Table:
+        found = next(t for t in ran(study).tables if t.name == table)
+        widened = (*formats, *[formats[-1]] * len(found.columns))
+        rows = [[format(value, f) for value, f in zip(row, widened)] for row in found.rows]
+        return Table(list(found.columns), rows)
+
+    return make
+
+
+def studies() -> Table:
+    """Every study, how many numbers it holds against others, and how many of them are off."""
+    rows = []
+    for study in STUDIES:
+        outcome = ran(study.name)
+        off = sum(check.failed for check in outcome.checks)
+        rows.append([f"`{study.name}`", study.title, str(len(outcome.checks)), str(off)])
+    return Table(["study", "what", "checks", "failed"], rows)
+
+
+def load_sharing() -> Table:
+    """Both programs at the paper's speeds, on the finest cells."""
+    found = next(t for t in ran("load_sharing").tables if t.name == "load_sharing")
+    finest = max(row[1] for row in found.rows)
+    rows = [
+        [f"{u:g}", who, f"{f:.5f}", f"{contact:.4f}", f"{film:.4f}", f"{gap:.2f}", f"{couette:.5f}"]
+        for u, cells, who, f, contact, film, gap, _, couette, _ in found.rows
+        if cells == finest
+    ]
+    columns = ["U (m/s)", f"{finest} x {finest} cells", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "Couette force (N)"]
+    return Table(columns, rows)
+
+
+def orders() -> Table:
+    """Errors on the finest grids and the orders by which they fall, of contact and film."""
+    rows = []
+    for study in ("contact_grid", "ehl_grid"):
+        checks = ran(study).checks
+        for check in checks:
+            quantity = re.split(r", order$|: order in the cells$", check.name)[0]
+            if quantity == check.name:
+                continue
+            error = next((c for c in checks if c.name.startswith(quantity) and "error" in c.name), None)
+            told = [error.note, f"{error.measured:.1e}"] if error else ["", ""]
+            rows.append([quantity, *told, f"{check.measured:.2f} ({check.expected:g})"])
+    return Table(["quantity", "finest grid", "error there", "order found (expected)"], rows)
+
+
+def film_against_table() -> Table:
+    """Films beside those of the table of another program."""
+    rows: dict[str, list[str]] = {}
+    for check in ran("ehl_grid").checks:
+        case, _, film = check.name.partition(": ")
+        if film in ("smallest film", "flow film"):
+            rows.setdefault(case, [case]).append(f"{100 * (check.measured / check.expected - 1):+.3f} %")
+    return Table(["contact", "smallest film off by", "flow film off by"], list(rows.values()))
+
+
+def tolerance_asked() -> Table:
+    """Error of f for every tolerance asked."""
+    checks = [c for c in ran("friction").checks if c.name.startswith("tolerance ")]
+    rows = [[f"{100 * c.tolerance:g} %", f"{100 * c.measured:.2g} %"] for c in checks]
+    return Table(["tolerance asked", "error of f"], rows)
+
+
+def stability() -> Table:
+    """Verdicts on every cell of the maps of the default methods (up to an hour)."""
+    from ..stability.draw import counts
+
+    rows, total = [], [0, 0, 0]
+    for kind in ("film", "contact", "sharing"):
+        cells = list(importlib.import_module(f"verification.stability.{kind}_map").cells("full"))
+        for (name, _, default), found in counts(cells).items():
+            if default:
+                verdicts = [found[v] for v in VERDICTS]
+                total = [a + b for a, b in zip(total, verdicts)]
+                rows.append([name, *map(str, (sum(verdicts), *verdicts))])
+    rows.append(["all", *map(str, (sum(total), *total))])
+    return Table(["map (default methods)", "cells", *VERDICTS], rows)
+
+
+TABLES: dict[str, Callable[[], Table]] = {
+    "studies": studies,
+    "load-sharing": load_sharing,
+    "orders": orders,
+    "film-against-table": film_against_table,
+    "contact-cells": copied("friction", "contact_cells", "d", ".1f", ".1e"),
+    "tolerance-asked": tolerance_asked,
+    "area": copied("friction", "area", "g", ".4f"),
+    "patch-length": copied("friction", "patch_size", "g", ".4f"),
+    "stability": stability,
+}
