@@ -1,14 +1,15 @@
-"""Dry contact against aspher and tamaas: time at one measured pressure error.
+"""Dry contact against aspher and tamaas: processor time at one measured pressure error.
 
-    OMP_NUM_THREADS=2 python benchmarks/contact_vs_aspher.py [--cells 816 2048] [--loads 50 200 1000] [--repeats 5]
-        [--target 1e-5] [--bound 12]
+    python benchmarks/contact_vs_aspher.py [--surfaces exponential gaussian self-affine] [--cells 816 2048]
+        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--markdown FILE]
 
-A periodic surface (exponential ACF, 1/e length 34 um, sigma 240 nm, spacing 2 um). Error: relative L2 distance of the
-pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12 confirms. For each solver the loosest
-tolerance of a decade ladder (two a decade) whose measured error is at most the target; repeats interleaved, medians
-with quartiles; a solve of more than a minute is timed once. tamaas, whose solves take tens of minutes, is stopped after
-``--bound`` times the time of lubfric and its error told: above the target, it is slower by more than that. Needs ``pip
-install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
+Periodic surfaces (exponential or Gaussian ACF, 1/e length 34 um, or self-affine with H = 0.8; sigma 240 nm, spacing 2
+um). Error: relative L2 distance of the pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12
+confirms. For each solver the loosest tolerance of a ladder (two a decade) whose measured error is at most the target;
+repeats interleaved on one thread each, medians of processor seconds with quartiles; a solve of more than a minute is
+timed once. ``--kept``: a file that keeps those tolerances for a later run. tamaas, whose solves take tens of minutes,
+is stopped after ``--bound`` times the time of lubfric (0: left out) and its error told: above the target, it is slower
+by more than that. Needs ``pip install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
 """
 
 from __future__ import annotations
@@ -20,17 +21,20 @@ import sys
 import time
 from pathlib import Path
 
-os.environ.setdefault("OMP_NUM_THREADS", "2")
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import numpy as np
 
-from benchmarks.contact_vs_tamaas import E_PRIME, SPACING, surface
+from benchmarks.contact_before_after import E_PRIME, surface
 from verification.opponents import aspher_solver, lubfric_solver, tamaas_solver
 
 LADDER = [10 ** (-k / 2) for k in range(4, 25)]
 LONG = 60.0  # seconds: not repeated
+SPACING, LENGTH, SIGMA = 2e-6, 34e-6, 240e-9
+FIRST = {"lubfric": 1e-3, "aspher": 1e-2}  # tolerances that the search begins with
 
 
 def loosest(solve, load, reference, target, first):
@@ -49,24 +53,22 @@ def loosest(solve, load, reference, target, first):
 
 
 def measured(solve, load, tolerance, reference):
-    """(error, seconds) of one solve."""
-    begun = time.perf_counter()
+    """(error, processor seconds) of one solve."""
+    begun = time.process_time()
     pressure = solve(load, tolerance)
-    seconds = time.perf_counter() - begun
+    seconds = time.process_time() - begun
     return float(np.linalg.norm(pressure - reference) / np.linalg.norm(reference)), seconds
 
 
 def compare(solvers, load, reference, target, repeats, first):
-    """Rows (name, tolerance, error, quartiles of seconds), repeats interleaved; ``first``, the tolerance that a solver
-    begins with, is left one step looser than the one it found."""
+    """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
+    that the search begins with."""
     found = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
     seconds = {name: [f[2]] for name, f in found.items()}
     for _ in range(repeats):
         for name, solve in solvers.items():
             if found[name][2] < LONG:
                 seconds[name].append(measured(solve, load, found[name][0], reference)[1])
-    for name, f in found.items():
-        first[name] = 10**0.5 * f[0]
     return [(name, *found[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
 
 
@@ -82,49 +84,68 @@ def stopped(heights, load, reference, seconds):
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
+def markdown(rows) -> str:
+    """Rows as a table, a line for each case."""
+    lines = [
+        "| surface, grid, mean pressure | lubfric: CPU s, error | aspher: CPU s, error | ratio |",
+        "|---|---|---|---|",
+    ]
+    for case in dict.fromkeys((r["surface"], r["cells"], r["load"]) for r in rows):
+        found = {r["name"]: r for r in rows if (r["surface"], r["cells"], r["load"]) == case}
+        ours, theirs = found["lubfric"], found.get("aspher")
+        words = [f"{r['median']:.3g} [{r['low']:.3g}, {r['high']:.3g}], {r['error']:.0e}" for r in (ours, theirs) if r]
+        ratio = f"{theirs['median'] / ours['median']:.1f}" if theirs else ""
+        lines.append(f"| {case[0]}, {case[1]}², {case[2]:g} MPa | {' | '.join(words)} | {ratio} |")
+    return "\n".join(lines) + "\n"
+
+
+def case_rows(kind, cells, load, solvers, heights, options, kept) -> list[dict]:
+    """The rows of one case, printed as they come."""
+    reference = solvers["lubfric"](1e6 * load, 1e-10)
+    label = f"{kind} {cells} {load:g}"
+    table = compare(solvers, 1e6 * load, reference, options.target, options.repeats, FIRST | kept.get(label, {}))
+    kept[label] = {name: tolerance for name, tolerance, *_ in table if name != "lubfric"}
+    if options.bound:
+        table += stopped(heights, 1e6 * load, reference, options.bound * table[0][3])
+    rows = []
+    for name, tolerance, error, median, low, high in table:
+        print(
+            f"{kind:12s} {cells:5d}²  {load:5g} MPa  {name:8s} tolerance {tolerance:7.1e}  error {error:7.1e}  "
+            f"{median:8.3f} s [{low:.3f}, {high:.3f}]  {median / table[0][3]:6.2f} x lubfric",
+            flush=True,
+        )
+        row = {"surface": kind, "cells": cells, "load": load, "name": name, "error": error}
+        rows.append(row | {"tolerance": tolerance or None, "median": median, "low": low, "high": high})
+    return rows
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--surfaces", nargs="+", default=["exponential", "gaussian", "self-affine"])
     parser.add_argument("--cells", type=int, nargs="+", default=[816, 2048])
     parser.add_argument("--loads", type=float, nargs="+", default=[50, 200, 1000], help="MPa")
-    parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--target", type=float, default=1e-5)
-    parser.add_argument("--bound", type=float, default=12.0, help="times lubfric's time, for tamaas (0: left out)")
+    parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: left out)")
+    parser.add_argument("--kept", type=Path)
+    parser.add_argument("--markdown", type=Path)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    rows, ours, first = [], float("nan"), {}
+    rows: list[dict] = []
+    kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}
     for cells in options.cells:
-        heights = surface(cells)
-        made = {"lubfric": lubfric_solver, "aspher": aspher_solver}
-        solvers = {k: f(heights, SPACING, E_PRIME, options.threads) for k, f in made.items()}
-        solvers = {k: s for k, s in solvers.items() if s is not None}
-        for load in options.loads:
-            reference = solvers["lubfric"](1e6 * load, 1e-10)
-            begins = first.setdefault(load, {"lubfric": 1e-3, "aspher": 1e-2})
-            table = compare(solvers, 1e6 * load, reference, options.target, options.repeats, begins)
-            if options.bound:
-                table += stopped(heights, 1e6 * load, reference, options.bound * table[0][3])
-            for name, tolerance, error, median, low, high in table:
-                ours = median if name == "lubfric" else ours  # the first of every table
-                print(
-                    f"{cells:5d}²  {load:5g} MPa  {name:8s} tolerance {tolerance:7.1e}  error {error:7.1e}  "
-                    f"{median:8.3f} s [{low:.3f}, {high:.3f}]  {median / ours:6.2f} x lubfric",
-                    flush=True,
-                )
-                rows.append(
-                    dict(
-                        cells=cells,
-                        load=load,
-                        name=name,
-                        tolerance=tolerance if tolerance > 0 else None,
-                        error=error,
-                        median=median,
-                        low=low,
-                        high=high,
-                    )
-                )
-    if options.json:
-        options.json.write_text(json.dumps(rows, indent=1))
+        for kind in options.surfaces:
+            heights = surface(kind, (cells, cells), SPACING, LENGTH, SIGMA)
+            made = {"lubfric": lubfric_solver, "aspher": aspher_solver}
+            solvers = {k: f(heights, SPACING, E_PRIME, 1) for k, f in made.items()}
+            solvers = {k: s for k, s in solvers.items() if s is not None}
+            for load in options.loads:
+                rows += case_rows(kind, cells, load, solvers, heights, options, kept)
+                for path, text in ((options.kept, kept), (options.json, rows)):
+                    if path:
+                        path.write_text(json.dumps(text, indent=1))
+                if options.markdown:
+                    options.markdown.write_text(markdown(rows))
 
 
 if __name__ == "__main__":

@@ -110,6 +110,7 @@ _HOME = {
     "StribeckResult": "sweep",
 }
 _PACKAGES = ("oil",)
+_BEFORE = {"Patch": "ContactDomain", "Model": "Prepared"}
 __all__ = sorted([*_HOME, *_PACKAGES])
 
 
@@ -117,7 +118,8 @@ def __getattr__(name: str) -> Any:
     if name in _PACKAGES:
         return import_module(f"lubfric.{name}")
     if name not in _HOME:
-        raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
+        today = f": it is lubfric.{_BEFORE[name]} now" if name in _BEFORE else ""
+        raise AttributeError(f"module 'lubfric' has no attribute {name!r}{today}")
     value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)
     globals()[name] = value
     return value

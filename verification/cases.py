@@ -19,5 +19,5 @@ def case_of(M: float, L: float, law: str = "roelands", density: str = "constant"
         "viscosity": VISCOSITY,
         "pressure_viscosity_coefficient": ALPHA,
         "viscosity_law": law,
-        "density": density,
+        "density_law": density,
     }

@@ -48,8 +48,8 @@ def without_overlap(original):
     """A search that knows only cells under pressure: elsewhere the gap is taken for open."""
 
     def look(descent):
-        unloaded = descent.change <= descent.lower
-        np.maximum(descent.gap, descent.level, out=descent.gap, where=unloaded)
+        fields = descent.fields
+        np.maximum(fields.gap, descent.level, out=fields.gap, where=fields.change <= fields.lower)
         return original(descent)
 
     return look

@@ -200,7 +200,7 @@ MUTANTS = (
     Mutant(
         "asperity_hardness_cylinder",
         "hardness not passed to the asperities under a cylinder",
-        {"lubfric.rough.asperities:contact_law": with_keywords(hardness=None)},
+        {"lubfric.rough.asperities:find_asperities": with_keywords(hardness=None)},
         CONTACT,
     ),
     Mutant(

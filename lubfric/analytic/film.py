@@ -41,6 +41,9 @@ def load_and_speed(m, l, *, radius, e_prime, viscosity, pressure_viscosity_coeff
     return m * math.sqrt(u1) * e_prime * radius, u1 * e_prime * radius / (2 * viscosity)
 
 
+ELASTIC_PIEZOVISCOUS = 1.311  # of M^(-1/8) L^(3/4), Grubin's film
+
+
 def moes_film(m, l) -> float:
     """H in Moes units where dp/dx = 0 (the *flow* film), incompressible lubricant; M > 0, L >= 0.
 
@@ -55,7 +58,7 @@ def moes_film(m, l) -> float:
     isoviscous = (h_ri ** (7 / 3) + h_ei ** (7 / 3)) ** (3 / 7)
     if l < 1e-6:
         return isoviscous
-    piezoviscous = ((1.287 * l ** (2 / 3)) ** -3.5 + (1.311 * m**-0.125 * l**0.75) ** -3.5) ** (-2 / 7)
+    piezoviscous = ((1.287 * l ** (2 / 3)) ** -3.5 + (ELASTIC_PIEZOVISCOUS * m**-0.125 * l**0.75) ** -3.5) ** (-2 / 7)
     larger, smaller = max(isoviscous, piezoviscous), min(isoviscous, piezoviscous)
     return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
 
@@ -83,17 +86,9 @@ def dowson_higginson_min_film(
 
     Fitted in the piezoviscous-elastic regime (about U 1e-13..1e-11, W 1e-5..3e-4, G 2500..7500).
     """
-    return _power_law(
-        2.65,
-        0.70,
-        0.54,
-        -0.13,
-        load_per_width,
-        radius,
-        e_prime,
-        entrainment_speed * viscosity,
-        pressure_viscosity_coefficient,
-    )
+    speed_viscosity = entrainment_speed * viscosity
+    exponents = (0.70, 0.54, -0.13)
+    return _power_law(2.65, exponents, load_per_width, radius, e_prime, speed_viscosity, pressure_viscosity_coefficient)
 
 
 def dowson_toyoda_central_film(
@@ -101,19 +96,13 @@ def dowson_toyoda_central_film(
 ) -> float:
     """*Central* film [m] of a compressible lubricant: h_c/R = 3.06 U^0.69 G^0.56 W^-0.10, numbers as
     in `dowson_higginson_min_film`. Up to 13 % from converged solutions at M 5..100, L 5..10."""
-    return _power_law(
-        3.06,
-        0.69,
-        0.56,
-        -0.10,
-        load_per_width,
-        radius,
-        e_prime,
-        entrainment_speed * viscosity,
-        pressure_viscosity_coefficient,
-    )
+    speed_viscosity = entrainment_speed * viscosity
+    exponents = (0.69, 0.56, -0.10)
+    return _power_law(3.06, exponents, load_per_width, radius, e_prime, speed_viscosity, pressure_viscosity_coefficient)
 
 
-def _power_law(factor, speed, material, load, load_per_width, radius, e_prime, speed_viscosity, alpha) -> float:
+def _power_law(factor, exponents, load_per_width, radius, e_prime, speed_viscosity, alpha) -> float:
+    """R factor U^a G^b W^c, ``exponents`` (a, b, c)."""
     u, g, w = speed_viscosity / (e_prime * radius), alpha * e_prime, load_per_width / (e_prime * radius)
-    return radius * factor * u**speed * g**material * w**load
+    a, b, c = exponents
+    return radius * factor * u**a * g**b * w**c

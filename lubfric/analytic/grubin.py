@@ -15,6 +15,7 @@ import math
 import numpy as np
 
 from .. import validate
+from .film import ELASTIC_PIEZOVISCOUS
 
 SERIES_BELOW = 0.05
 LARGEST_ANGLE = 25.0
@@ -46,7 +47,7 @@ def flow_film(m: float, l: float) -> float:
     def excess(log_film):
         return math.log(6 * l * _inlet_integral(math.exp(log_film)) / scale**1.5)
 
-    start = math.log(1.311 * m**-0.125 * l**0.75 / scale)
+    start = math.log(ELASTIC_PIEZOVISCOUS * m**-0.125 * l**0.75 / scale)
     low, high = start - 1.0, start + 1.0
     while excess(high) > 0:
         high += 1.0

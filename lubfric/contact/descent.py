@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
+from .fields import begun
 from .projection import with_load
 from .residual import dot
 from .stencil import Stencil
@@ -32,262 +33,257 @@ REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into t
 NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
 NEAR, WORTH = 0.7, 0.8  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
 FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
-FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "residue")
 HUGE = np.float32(1e20)  # times any pressure: beyond all others
-CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have to be more
 PATIENCE = 8  # iterations without a tenth off the best residual
 
 
 class Descent:
-    """Fields on ``cells`` in single precision: pressures in units of the mean one in contact, gaps in those of its
-    scale.
+    """Search on ``cells``, from the `State` ``state``.
 
-    ``state``: where it begins. ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is
-    prescribed. ``pace``: of an earlier descent, or `FIRST_PACE`.
-    ``careful``: every step exact for the cells that are free, what the limits cut off convolved at once: two or three
-    convolutions an iteration, and sure where the pressure is far from small changes of the set (nearly rigid bodies).
+    ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is prescribed. ``pace``: of an
+    earlier descent, or `FIRST_PACE`.
     """
 
-    def __init__(self, problem, cells, state, load: float | None, pace: float, careful: bool):
+    def __init__(self, problem, cells, state, load: float | None, pace: float):
         base, scale = cells.take(state.pressure), state.scale
         total, operator = float(base.sum()), problem.operator
         if not math.isfinite(scale):  # no pressure yet
             scale = max(-float(state.gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
-        ripple = operator.e_prime * scale / min(operator.spacing)
-        self.unit = total / np.count_nonzero(base) if total > 0 else ripple
+        loaded = np.count_nonzero(base)
+        self.unit = total / loaded if total > 0 else operator.e_prime * scale / min(operator.spacing)
         self.cells, self.pace, self.given = cells, pace, load is not None
         self.load = math.nan if load is None else load / self.unit
         self.target = 0.0 if load is None else (load - total) / self.unit
         self.slack = LOAD_ERROR * min(1.0, state.residual) * total / self.unit
         self.hardness = problem.hardness
         base /= self.unit
-        self.lower = np.negative(base, dtype=np.float32)
-        self.upper = None
-        if math.isfinite(problem.hardness):
-            self.upper = (problem.hardness / self.unit - base).astype(np.float32)
-        self.gap = cells.take(state.gap, np.float32, 1 / scale)
+        limited = math.isfinite(problem.hardness)
+        upper = (problem.hardness / self.unit - base).astype(np.float32) if limited else None
         self.compliance = self.unit / scale
-        self.change, self.known = np.zeros_like(self.gap), np.zeros_like(self.gap)
-        self.direction: Any = None
-        self.residue: Any = None
-        self.power = 1.0
-        self.level, self.iterations, self.convolutions = 0.0, 0, 0
+        lower = np.negative(base, dtype=np.float32)
+        del base
+        self.fields = begun(cells.take(state.gap, np.float32, 1 / scale), lower, upper)
+        self.blocks = self.fields.blocks()
+        self.power = self.level = self.overlap = 0.0
+        self.iterations = self.convolutions = 0
         self.history: list[float] = []
+        self._precondition(operator, loaded > TRANSFORMED * state.pressure.size)
+
+    def _precondition(self, operator, by_transform: bool) -> None:
         factor = operator.e_prime / 4 / self.compliance
-        self.careful = careful
         self.stiffness: Any = None
         self.stencil: Stencil | None = None
-        if careful or np.count_nonzero(base) > TRANSFORMED * state.pressure.size:
-            self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
+        if by_transform:
+            self.stiffness = (factor * wavenumber(self.cells.shape, operator.spacing)).astype(np.float32)
         else:
-            self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
+            self.stencil = Stencil(self.cells.shape, operator.spacing, operator.boundary, self.cells.index, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
         """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit``
         times."""
         best, waiting = math.inf, 0
         while True:
-            free, weight, residue, worst = self._look()
+            worst = self._look()
             self.history.append(worst)
             best, waiting = (worst, 0) if worst < 0.9 * best else (best, waiting + 1)
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
-            if self.iterations in NARROWINGS and not self.careful and self._narrowed(free):
-                free, weight, residue, worst = self._look()
-            self._turn(weight, residue)
-            if self.careful:
-                self._move_carefully(free, residue)
-            else:
-                self._move(self._trial(free))
+            if self.iterations in NARROWINGS and self._narrowed():
+                self._look()
+            self._turn()
+            self._step()
 
     def found(self, pressure) -> np.ndarray:
         """``pressure`` [Pa], the field it began with, changed."""
         values = self.cells.take(pressure)
-        values += self.unit * self.change.astype(float)
-        values[self.change <= self.lower] = 0.0
-        np.maximum(values, 0.0, out=values)
-        if self.upper is not None:
-            values[self.change >= self.upper] = self.hardness
+        for b in self.blocks:
+            own = values[b.part]
+            own += np.multiply(b.change, self.unit, dtype=float)
+            own *= b.change > b.lower
+            np.maximum(own, 0.0, out=own)
+            if b.upper is not None:
+                np.copyto(own, self.hardness, where=b.change >= b.upper)
         return self.cells.spread(values)
 
-    def _look(self):
-        """Free cells (as flags and as 1 or 0), gap on them without its mean, and the worst residual."""
-        inside = self.change > self.lower
-        yielded = False
-        if self.upper is not None:
-            yielded = self.change >= self.upper
-            inside &= ~yielded
-            self._follow(inside, yielded)
-        free = self.gap < self.level
-        free ^= yielded
-        free |= inside
-        if self.careful and self.upper is not None and self.given:
-            free = self._enough(free, yielded)
-        weight = free.astype(np.float32)
-        count = np.count_nonzero(free)
-        if self.given and self.upper is None and count:
-            self.level = dot(self.gap, weight) / count
-        residue = self.gap - np.float32(self.level)
-        residue *= weight
-        size = np.abs(residue)
-        total = float(self.change.sum()) - float(self.lower.sum())
-        misfit = (dot(self.change, size) - dot(self.lower, size)) / total if total > 0 else math.inf
-        overlap = -float(residue.min() if self.upper is None else residue[~yielded].min(initial=0.0))
+    def _look(self) -> float:
+        """Mark the free cells, find the residue on them, and return the worst residual."""
+        if self.fields.upper is not None and self.given:
+            self._follow()
+        count, height = self._mark()
+        if self.fields.upper is None and self.given and count:
+            self.level = height / count
+        self.count = count
+        total = misfit = overlap = 0.0
+        for b in self.blocks:
+            number, other, _, _ = b.spare
+            np.subtract(b.gap, np.float32(self.level), out=b.residue)
+            b.residue *= b.weight
+            np.subtract(b.change, b.lower, out=number)
+            total += float(number.sum())
+            misfit += dot(number, np.abs(b.residue, out=other))
+            lowest = b.residue if b.upper is None else np.multiply(b.residue, b.change < b.upper, out=other)
+            overlap = max(overlap, -float(lowest.min()))
         self.overlap = overlap
         excess = abs(total - self.load) / self.load if self.given else 0.0
-        return free, weight, residue, max(overlap, misfit, excess)
+        return max(overlap, misfit / total if total > 0 else math.inf, excess)
 
-    def _follow(self, inside, yielded) -> None:
+    def _follow(self) -> None:
         """Level where cells may yield: mean gap in elastic contact, or between the highest yielded and lowest free."""
-        if not self.given:
-            return
+        f = self.fields
+        yielded = f.change >= f.upper
+        inside = (f.change > f.lower) & ~yielded
         if inside.any():
-            self.level = float(self.gap[inside].mean())
+            self.level = float(f.gap[inside].mean())
         elif yielded.any():
-            highest = float(self.gap[yielded].max())
-            self.level = 0.5 * (highest + float(self.gap[~yielded].min(initial=highest)))
+            highest = float(f.gap[yielded].max())
+            self.level = 0.5 * (highest + float(f.gap[~yielded].min(initial=highest)))
 
-    def _enough(self, free, yielded) -> np.ndarray:
-        """The free cells, or everything that has not yielded for good when they could not carry their share."""
-        share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
-        limit = self.hardness / self.unit
-        if share <= CAPACITY * limit * np.count_nonzero(free):
-            return free
-        return ~yielded | (self.gap > self.level)
+    def _mark(self) -> tuple[int, float]:
+        """Weigh the free cells; their number and the sum of the gap on them."""
+        count, height = 0, 0.0
+        for b in self.blocks:
+            _, _, free, inside = b.spare
+            np.less(b.gap, np.float32(self.level), out=free)
+            np.greater(b.change, b.lower, out=inside)
+            if b.upper is not None:
+                yielded = b.change >= b.upper
+                free ^= yielded
+                inside &= ~yielded
+            free |= inside
+            b.weight[...] = free
+            count += int(np.count_nonzero(free))
+            height += dot(b.gap, b.weight)
+        return count, height
 
-    def _narrowed(self, free) -> bool:
+    def _narrowed(self) -> bool:
         """Leave out cells that came nowhere near touch, where they are many."""
-        near = self.gap < self.level + NEAR * self.overlap
-        near |= free
-        near |= np.abs(self.known - self.lower) > FORGOTTEN
-        near |= self.change > self.lower
+        f, near = self.fields, self._near()
         if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return False
         kept = np.flatnonzero(near)
         self.cells = self.cells.narrowed(kept)
-        self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
-        for name in FIELDS:
-            values = getattr(self, name)
-            if values is not None:
-                setattr(self, name, values.take(kept))
+        self.target -= float(f.change.sum()) - float(f.change.take(kept).sum())
+        self.blocks = []  # they hold on to the fields as they were
+        f.narrow(kept)
+        self.blocks = f.blocks()
         if self.stencil is not None:
             self.stencil = self.stencil.on(self.cells.index)
         return True
 
-    def _turn(self, weight, residue) -> None:
+    def _near(self) -> np.ndarray:
+        """Flags of the cells that are in touch, were, or came near it."""
+        near = self.fields.gap < self.level + NEAR * self.overlap
+        for b in self.blocks:
+            number, _, flag, _ = b.spare
+            own = near[b.part]
+            own |= np.greater(b.weight, 0, out=flag)
+            pressure = np.abs(np.subtract(b.known, b.lower, out=number), out=number)
+            own |= np.greater(pressure, FORGOTTEN, out=flag)
+            own |= np.greater(b.change, b.lower, out=flag)
+        return near
+
+    def _turn(self) -> None:
         """Conjugate direction on the free cells (Polak-Ribiere, never negative)."""
-        steep = self._preconditioned(residue)
-        power = dot(residue, steep)
-        if self.direction is None:
-            self.direction = np.negative(steep)
-        else:
-            keep = max(0.0, (power - dot(self.residue, steep)) / self.power) if self.power > 0 else 0.0
-            self.direction *= np.float32(keep)
-            self.direction -= steep
-        if self.given:
-            self.direction -= np.float32(dot(self.direction, weight) / max(weight.sum(), 1.0))
-        self.direction *= weight
-        self.residue, self.power = residue, power
-
-    def _preconditioned(self, residue) -> np.ndarray:
+        f = self.fields
         if self.stencil is not None:
-            return self.stencil(residue)
-        self.convolutions += 1
-        field = self.cells.field(residue)
-        return self.cells.gather(filtered(field, self.stiffness, field.shape, self.cells.operator.workers))
+            self.stencil.apply(f.residue, f.trial)
+        else:
+            field = self.cells.field(f.residue)
+            f.trial[:] = self.cells.gather(filtered(field, self.stiffness, field.shape, self.cells.operator.workers))
+            self.convolutions += 1
+        power = sum(dot(b.residue, b.trial) for b in self.blocks)
+        cross = sum(dot(b.before, b.trial) for b in self.blocks)
+        keep = np.float32(max(0.0, (power - cross) / self.power) if self.power > 0 else 0.0)
+        lean = 0.0
+        for b in self.blocks:
+            b.direction *= keep
+            b.direction -= b.trial
+            lean += dot(b.direction, b.weight) if self.given else 0.0
+        mean = np.float32(lean / max(self.count, 1))
+        for b in self.blocks:
+            b.direction -= mean
+            b.direction *= b.weight
+        self.power = power
+        for each in (f, *self.blocks):
+            each.residue, each.before = each.before, each.residue
 
-    def _trial(self, free) -> np.ndarray:
-        """Change of pressure a pace along the direction, within the limits, with the load."""
-        aim = np.float32(self.pace) * self.direction
-        aim += self.change
-        trial, shift = self._within(aim.copy()), 0.0
-        if not self.given:
-            return trial
-        for _ in range(SHIFTS):
-            missing = self.target - float(trial.sum())
+    def _step(self) -> None:
+        """From the known pressure towards the trial, by the step that is exact along the change it asks for."""
+        self._try()
+        for b in self.blocks:
+            np.subtract(b.trial, b.known, out=b.residue)
+        answer = self._answer(self.fields.residue)
+        slope = curvature = 0.0
+        for b in self.blocks:
+            asked = np.subtract(b.trial, b.change, out=b.spare[0])
+            slope += dot(b.before, asked)
+            curvature += dot(asked, answer[b.part])
+        curvature *= self.compliance
+        step = -slope / curvature if curvature > 0 else 1.0
+        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
+        self.pace *= max(step, STEPS[0]) ** LEARNING
+        for b in self.blocks:
+            self._move(b, answer[b.part], step)
+
+    def _move(self, b, answer, step: float) -> None:
+        """A block, of whose change of gap ``answer`` is the whole, by ``step`` of the way in its residue."""
+        b.residue *= np.float32(step)
+        b.known += b.residue
+        b.gap += np.multiply(answer, np.float32(step * self.compliance), out=b.residue)
+        yielded = None if b.upper is None else b.trial >= b.upper
+        np.maximum(b.known, b.lower, out=b.change)
+        b.trial -= b.lower  # cells that the trial unloads stay so: without branches, of which a mask has many
+        b.trial *= HUGE
+        b.trial += b.lower
+        np.minimum(b.change, b.trial, out=b.change)
+        if b.upper is not None:
+            np.minimum(b.change, b.upper, out=b.change)
+            np.copyto(b.change, b.upper, where=yielded)
+
+    def _try(self) -> None:
+        """Trial: the change of pressure a pace along the direction, within the limits, with the load."""
+        pace, carried = np.float32(self.pace), 0.0
+        for b in self.blocks:
+            np.multiply(b.direction, pace, out=b.residue)
+            b.residue += b.change
+            carried += b.aimed(b.residue)
+        shift = 0.0
+        for _ in range(SHIFTS if self.given else 0):
+            missing = self.target - carried
             if abs(missing) <= self.slack:
-                return trial
-            movable = trial > self.lower
-            if self.upper is not None:
-                movable &= trial < self.upper
-                movable &= free
-            count = np.count_nonzero(movable)
+                return
+            count = sum(b.movable() for b in self.blocks)
             if not count:
                 break
             shift += missing / count
-            self._within(np.add(aim, np.float32(shift), out=trial))
-            if self.upper is not None or shift > 0:
-                np.copyto(trial, self.change, where=~free)
-        return self._projected(aim)
+            carried = 0.0
+            for b in self.blocks:
+                aim = np.multiply(b.weight, np.float32(shift), out=b.spare[0])
+                aim += b.residue
+                carried += b.aimed(aim)
+        if self.given:
+            self._project()
 
-    def _projected(self, aim) -> np.ndarray:
+    def _project(self) -> None:
         """The trial by a bracketed shift of all cells, in double precision: where few of many cells stay in contact, or
-        the free ones cannot carry their share."""
-        base = np.negative(self.lower, dtype=float)
-        limit = self.hardness / self.unit
-        pressure = with_load(base + aim, self.target + float(base.sum()), limit)
-        return self._rounded(pressure, base, np.s_[:])
-
-    def _within(self, values) -> np.ndarray:
-        np.maximum(values, self.lower, out=values)
-        return values if self.upper is None else np.minimum(values, self.upper, out=values)
+        the free ones cannot carry their share. They all are free then, and the direction is not kept."""
+        f = self.fields
+        base = np.negative(f.lower, dtype=float)
+        pressure = with_load(base + f.residue, self.target + float(base.sum()), self.hardness / self.unit)
+        f.trial[:] = self._rounded(pressure, base, np.s_[:])
+        np.subtract(f.gap, np.float32(self.level), out=f.before)
+        self.power = 0.0
 
     def _rounded(self, pressure, base, cells) -> np.ndarray:
         """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
-        change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
-        if self.upper is not None:
-            change = np.where(pressure >= self.hardness / self.unit, self.upper[cells], change)
+        f = self.fields
+        change = np.where(pressure <= 0, f.lower[cells], (pressure - base).astype(np.float32))
+        if f.upper is not None:
+            change = np.where(pressure >= self.hardness / self.unit, f.upper[cells], change)
         return change
 
-    def _move_carefully(self, free, residue) -> None:
-        """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
-        answer = self._answer(self.direction)
-        curvature, slope = dot(self.direction, answer), dot(residue, self.direction)
-        if not (curvature > 0 and slope < 0):
-            self.direction = None
-            return
-        step = -slope / curvature
-        aim = (self.change + np.float32(step) * self.direction)[free]
-        base = np.negative(self.lower[free], dtype=float)
-        new, limit = base + aim, self.hardness / self.unit
-        if self.given:
-            share = float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
-            new = with_load(new, share, limit)
-        else:
-            np.clip(new, 0.0, limit, out=new)
-        way = np.negative(self.change)
-        self.change[free] = self._rounded(new, base, free)
-        way += self.change
-        self.gap += self._answer(way)
-        self.known[:] = self.change
-
     def _answer(self, way) -> np.ndarray:
-        """Change of the gap under a change of pressure."""
-        answer = self.cells.gather(self.cells.operator.apply(self.cells.field(way)))
+        """Deflection under a change of pressure, to be multiplied by the compliance."""
         self.convolutions += 1
-        return answer * np.float32(self.compliance)
-
-    def _move(self, trial) -> None:
-        """From the known pressure towards the trial, by the step that is exact along the change it asks for."""
-        way = trial - self.known
-        answer = self._answer(way)
-        asked = np.subtract(trial, self.change, out=self.change)
-        slope = dot(self.gap, asked) - self.level * float(asked.sum())
-        curvature = dot(asked, answer)
-        step = -slope / curvature if curvature > 0 else 1.0
-        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
-        way *= np.float32(step)
-        self.known += way
-        answer *= np.float32(step)
-        self.gap += answer
-        self.pace *= max(step, STEPS[0]) ** LEARNING
-        yielded = None if self.upper is None else trial >= self.upper
-        np.maximum(self.known, self.lower, out=self.change)
-        trial -= self.lower  # cells that the trial unloads stay so: without branches, of which a mask has many
-        trial *= HUGE
-        trial += self.lower
-        np.minimum(self.change, trial, out=self.change)
-        if self.upper is not None:
-            np.minimum(self.change, self.upper, out=self.change)
-            np.copyto(self.change, self.upper, where=yielded)
+        return self.cells.gather(self.cells.operator.apply(self.cells.field(way)))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .residual import contact_residuals, deflection_scale, dot
+from .residual import blocks, contact_residuals, deflection_scale, dot
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,10 @@ class State:
     def residual(self) -> float:
         """The worst."""
         return max(self.residuals.values())
+
+    def light(self) -> State:
+        """What a search needs: no displacement, the gap in single precision."""
+        return replace(self, displacement=np.empty((0, 0)), gap=self.gap.astype(np.float32))
 
     @property
     def overlap(self) -> float:
@@ -49,12 +53,14 @@ def look(problem, operator, pressure, level=None) -> State:
 def _approach(problem, pressure, height) -> float:
     """The approach at which the mean gap over elastic contact is zero; where nothing is elastic, halfway between the
     highest yielded cell and the lowest free one."""
-    inside = pressure > 0
-    if problem.hardness < np.inf:
-        inside &= pressure < problem.hardness
-    touching = np.flatnonzero(inside)
-    if touching.size:
-        return float(height.ravel()[touching].mean())
+    count, total = 0, 0.0
+    for p, h in blocks(pressure, height):
+        inside = p > 0
+        inside &= p < problem.hardness
+        count += int(np.count_nonzero(inside))
+        total += dot(h, inside.astype(float))
+    if count:
+        return total / count
     yielded = pressure > 0
     highest = height[yielded].max()
     return float(0.5 * (highest + (height[~yielded].min() if not yielded.all() else highest)))

@@ -39,13 +39,16 @@ class Problem:
         ]
         if factors == [1, 1]:
             return None
-        (nx, ny), (fx, fy) = self.gap0.shape, factors
-        gap0 = self.gap0.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
+        (fx, fy), gap0 = factors, self.gap0
+        if fx == 2:
+            gap0 = 0.5 * (gap0[::2] + gap0[1::2])
+        if fy == 2:
+            gap0 = 0.5 * (gap0[:, ::2] + gap0[:, 1::2])
         return Problem(
             gap0,
             self.offset,
             self.roughness,
-            self.operator.coarsened(factors),
+            self.operator.coarsened((fx, fy)),
             self.hardness,
             COARSE_TOLERANCE,
             COARSE_ITERATIONS,

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED
+from .careful import CarefulDescent
 from .cells import Cells
 from .descent import FIRST_PACE, REACH, Descent
 from .looked import State, look
@@ -56,15 +57,19 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
         goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
         if state.residual > goal and iterations < problem.max_iterations:
             cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-            descent = Descent(problem, cells, state, load, pace, careful=wasted > 0 or _rigid(problem))
+            state = state.light()
+            kind = CarefulDescent if wasted > 0 or _rigid(problem) else Descent
+            descent = kind(problem, cells, state, load, pace)
             pressure = state.pressure
             del state
             descent.run(goal, problem.max_iterations - iterations)
-            pressure = _admissible(descent.found(pressure), pressure, load, problem.hardness)
+            found = descent.found(pressure)
             iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
             history += descent.history[:-1]
             convolutions += descent.convolutions
             del descent, cells
+            pressure = _admissible(found, pressure, load, problem.hardness)
+            del found
         else:
             pressure = state.pressure
             del state
@@ -105,7 +110,8 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     if not state.residual:
         return Found(state, "", 0, 1.0, (), pace)
     cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-    descent = Descent(problem, cells, state, load, pace, careful=_rigid(problem))
+    state = state.light()
+    descent = (CarefulDescent if _rigid(problem) else Descent)(problem, cells, state, load, pace)
     descent.run(MARGIN * problem.tolerance, problem.max_iterations)
     found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
     state = State(

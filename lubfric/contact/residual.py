@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from .fields import parts
+
 
 def dot(a, b) -> float:
     """Sum of products, on this thread alone: BLAS threads would fight those of the transforms."""
@@ -38,22 +40,29 @@ def deflection_scale(energy: float, total: float, roughness: float, operator) ->
 
 def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:
     """Complementarity, penetration and load residuals, dimensionless; see `solve_contact` for formulas."""
-    touching = np.flatnonzero(pressure)
-    p, g = pressure.ravel()[touching], gap.ravel()[touching]
-    yielded = p >= hardness
-    deepest = gap
-    if yielded.any():
-        deepest = gap.flatten()
-        deepest[touching[yielded]] = 0.0
-    overlap, total = max(0.0, -float(deepest.min())), float(p.sum())
-    misfit = np.where(yielded, np.maximum(g, 0.0), np.abs(g))
+    total = misfit = lowest = 0.0
+    for p, g in blocks(pressure, gap):
+        apart = np.abs(g)
+        if hardness < np.inf:
+            yielded = p >= hardness
+            apart[yielded] = np.maximum(g[yielded], 0.0)
+            g = np.where(yielded, 0.0, g)
+        total += float(p.sum())
+        misfit += dot(p, apart)
+        lowest = min(lowest, float(g.min()))
     if total == 0:
-        return {"complementarity": 0.0, "penetration": math.inf if overlap > 0 else 0.0, "load": 0.0}
+        return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0, "load": 0.0}
     return {
-        "complementarity": dot(p, misfit) / (total * scale),
-        "penetration": overlap / scale,
+        "complementarity": misfit / (total * scale),
+        "penetration": max(0.0, -lowest) / scale,
         "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure),
     }
+
+
+def blocks(*fields):
+    """The fields part by part, each part of one axis and small enough to stay in the cache."""
+    flat = [field.ravel() for field in fields]
+    return zip(*([values[part] for part in parts(values.size)] for values in flat))
 
 
 def volume(gap) -> float:

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from .fields import BLOCK, parts
+
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
 
@@ -53,6 +55,12 @@ class Stencil:
 
     def __call__(self, values: np.ndarray) -> np.ndarray:
         """The nine-point sums at the cells."""
+        sums = np.empty_like(values)
+        self.apply(values, sums)
+        return sums
+
+    def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
+        """Write the nine-point sums at the cells into ``sums``."""
         padded, width = self.padded, self.padded.shape[1]
         if self.corner is None:
             padded[1:-1, 1:-1] = values.reshape(self.shape)
@@ -62,12 +70,15 @@ class Stencil:
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
-        return self._gathered(values) if self.sparse else self._swept(values)
+        if self.sparse:
+            self._gathered(values, sums)
+        else:
+            self._swept(values, sums)
 
-    def _gathered(self, values) -> np.ndarray:
+    def _gathered(self, values, sums) -> None:
         flat, width = self.padded.ravel(), self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
-        total = own * values
+        np.multiply(values, own, out=sums)
         for coefficient, offsets in (
             (along_x, (1, 2 * width + 1)),
             (along_y, (width, width + 2)),
@@ -77,23 +88,32 @@ class Stencil:
             for offset in offsets[1:]:
                 part += flat[offset:].take(self.corner)
             part *= coefficient
-            total += part
-        return total
+            sums += part
 
-    def _swept(self, values) -> np.ndarray:
-        flat, width = self.padded.ravel(), self.padded.shape[1]
+    def _swept(self, values, sums) -> None:
+        """Some rows of all cells after the other, within the cache."""
+        flat, (nx, ny), width = self.padded.ravel(), self.shape, self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
-        rows = flat[:-2] + flat[2:]
-        rows *= across / along_x
-        rows += flat[1:-1]
-        total = rows[: -2 * width] + rows[2 * width :]
-        total *= across / along_y
-        total += rows[width:-width]
-        if self.corner is None:
-            total = np.append(total, np.zeros(2, np.float32)).reshape(self.shape[0], width)[:, :-2].ravel()
-        else:
-            total = total.take(self.corner)
         outer = along_x * along_y / across
-        total *= outer
-        total += (own - outer) * values
-        return total
+        rows = max(1, BLOCK // width)
+        triples, nines = np.empty((rows + 2) * width, np.float32), np.empty(rows * width, np.float32)
+        first = 0
+        for begin in range(0, nx, rows):
+            end = min(begin + rows, nx)
+            points, size = flat[begin * width : (end + 2) * width], (end - begin) * width
+            triple, nine = triples[: points.size - 2], nines[: size - 2]
+            np.add(points[:-2], points[2:], out=triple)
+            triple *= across / along_x
+            triple += points[1:-1]
+            np.add(triple[: -2 * width], triple[2 * width :], out=nine)
+            nine *= across / along_y
+            nine += triple[width:-width]
+            nine *= outer
+            if self.corner is None:
+                sums.reshape(nx, ny)[begin:end] = nines[:size].reshape(-1, width)[:, :-2]
+            else:
+                last = first + int(np.searchsorted(self.corner[first:], end * width))
+                nine.take(self.corner[first:last] - begin * width, out=sums[first:last], mode="clip")
+                first = last
+        for part in parts(values.size):
+            sums[part] += (own - outer) * values[part]

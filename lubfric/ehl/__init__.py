@@ -2,8 +2,7 @@
 
 The steady film, `solve_ehl`: `problem` (its units), `grid` and `kernel`, `reynolds` (the equations), `newton`,
 `start`, `imposed` (another pressure on the same line), `assemble` and `result`; `solve` puts them together.
-`transient`: the film in time, on a fixed grid. `differential`: the differential-deflection method, steady and
-in time.
+`transient`: the film in time, on a fixed grid.
 """
 
 from .result import EHLResult

@@ -15,7 +15,12 @@ from .start import solution_state
 
 
 def grid_error(levels: list[Solution]) -> float:
-    """Relative discretisation error of the last solution; the formula is in `solve_ehl`."""
+    """Relative discretisation error of the last solution; the formula is in `solve_ehl`.
+
+    Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and the
+    rest mostly within a factor of two. central_film follows, but where the pressure spike sits at x = 0 (M near 2, L
+    above 12) no grid converges it, and a note tells its change.
+    """
     films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf

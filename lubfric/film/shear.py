@@ -49,16 +49,14 @@ def shear_force(
 
     ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``, for nodes x (n,) [m], is the
     share of the width that is in contact and carries no fluid shear, averaged over each of the n - 1 cells between them
-    (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from
-    far upstream (the parabola is followed to -infinity in closed form) to the rupture of the film;
-    cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the
-    width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``:
-    `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was solved with; None:
-    isothermal.
+    (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from far upstream (the parabola is
+    followed to -infinity in closed form) to the rupture of the film; cavitated="striated" adds the streamers behind it,
+    which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
+    Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was
+    solved with; None: isothermal.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
-    direction = math.copysign(1.0, entrainment_speed)
-    sliding = slide_roll_ratio * abs(entrainment_speed)
+    direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
     x = film.x * direction  # run downstream
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
@@ -72,20 +70,18 @@ def shear_force(
             return warm.stress(at, pressure, thickness)
         return shear_stress(lubricant, pressure, sliding / thickness)
 
-    inlet_viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
     tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
     couette = np.sum(face_tau[full])
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
-    quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
-    quadrature += _rolling_error(p, h)
-    carried = carried_stress(p)
-    above = np.maximum(np.abs(tau) - carried, 0.0)
-    excess = np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x) * wet)[full])
+    quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
+    quadrature += rolling_error(p, h)
+    ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
-    rolling += 6 * inlet_viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
+    viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
+    rolling += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
         h_rupture = np.interp(film.rupture * direction, x, h)
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
@@ -97,11 +93,18 @@ def shear_force(
         float(width * quadrature),
         float(width * parts),
         float(width * excess),
-        float(np.max(np.abs(tau) / carried)),
+        ratio,
     )
 
 
-def _spike(x, tau) -> float:
+def _above_carried(pressure, tau, lengths, full) -> tuple[float, float]:
+    """Largest stress over what oils carry, and the force per width of all above it where the film is ``full``."""
+    carried = carried_stress(pressure)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    return float(np.max(np.abs(tau) / carried)), float(np.sum((0.5 * (above[1:] + above[:-1]) * lengths)[full]))
+
+
+def spike_error(x, tau) -> float:
     """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum
     over every second node, which a spike makes larger than the error by that or more."""
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
@@ -109,7 +112,7 @@ def _spike(x, tau) -> float:
     return abs(coarse - fine) / 24
 
 
-def _rolling_error(p, h) -> float:
+def rolling_error(p, h) -> float:
     """A third of the change of ∫ (h/2) dp when every second node is left out: the error of second order."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     fine, coarse = (np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n])) for n in (1, 2))

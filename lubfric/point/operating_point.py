@@ -117,10 +117,8 @@ class OperatingPoint:
 
     def guessed_split(self) -> float:
         """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""
-        scene, thickness = self.scene, max(2 * self.prepared.surface.sq, 1e-12)
-        bodies = scene.bodies
-        whole = 4.895 * scene.lubricant.viscosity * abs(self.speed) * bodies.radius * bodies.width
-        share = min(whole / (thickness * bodies.load), 0.9)
+        thickness = max(2 * self.prepared.surface.sq, 1e-12)
+        share = min(self.line(self.scene.bodies.load).rigid_film / thickness, 0.9)
         return math.log(share / (1 - share))
 
     def film(self, film_load: float, start: Start, imposed=None) -> Film:

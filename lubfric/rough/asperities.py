@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..asperity import AsperityResult, contact_law
+from ..asperity import AsperityResult, find_asperities
 from ..errors import ConvergenceError, InputError
 from ..scene import Scene
 from .contract import ContactState, Grid, RoughContact
@@ -114,14 +114,14 @@ class AsperityContact(RoughContact):
         return asperities_under_cylinder(scene, self.heights, self.spacing)
 
     def _law(self):
-        return contact_law(
+        return find_asperities(
             self.heights,
             self.spacing,
             self.e_prime,
             definition=self.definition,
             hardness=self.hardness,
             periodic=(False, True),
-        )
+        ).at
 
     @staticmethod
     def _under(film, shape) -> np.ndarray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..asperity import contact_law
+from ..asperity import find_asperities
 from .contact_curve import ContactCurve
 
 APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
@@ -19,11 +19,11 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     together carry less than before; such nodes are left out, so the pressure rises along the curve. The search
     ends below half of the most that was carried.
     """
-    law = contact_law(heights, spacing, e_prime, definition=definition, hardness=hardness)
+    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))
     nodes: list[tuple[float, float, float, float]] = []
     for approach in span * APPROACHES:
-        found = law(top - approach)
+        found = asperities.at(top - approach)
         gap = _curve_gap(heights, top - approach, reading)
         if gap <= 0:
             break

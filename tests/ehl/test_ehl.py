@@ -67,7 +67,7 @@ def test_steady_table(row, tolerance, allowed):
     loose = 2.5 if (M, L) == (50, 10) and tolerance < 3e-3 else 1.0  # the table's row of two meshes only
     r = solve_ehl(**arguments)
     assert [r.min_film / unit, r.flow_film / unit] == pytest.approx([h_min, h_flow], rel=allowed * loose)
-    r = solve_ehl(**arguments, density="dowson-higginson")
+    r = solve_ehl(**arguments, density_law="dowson-higginson")
     films = [r.min_film / unit, r.central_film / unit, r.flow_film / unit]
     assert films == pytest.approx(compressible, rel=allowed * loose)
 
@@ -251,8 +251,8 @@ def test_tail_beyond_the_inlet_is_accounted_for(M, monkeypatch):
 )
 def test_error_estimate_is_honest_and_fields_are_physical(log_m, L, law, density):
     M = 10**log_m
-    h_min, h_centre, h_flow, r = moes_film(M, L, viscosity_law=law, density=density)
-    fine = moes_film(M, L, viscosity_law=law, density=density, tolerance=3e-4)
+    h_min, h_centre, h_flow, r = moes_film(M, L, viscosity_law=law, density_law=density)
+    fine = moes_film(M, L, viscosity_law=law, density_law=density, tolerance=3e-4)
     assert h_min == pytest.approx(fine[0], rel=4e-3) and h_flow == pytest.approx(fine[2], rel=4e-3)
     assert np.all(r.pressure >= 0) and np.all(r.film_thickness > 0) and np.all(np.diff(r.x) > 0)
     assert set(r.report.residuals) == {"discretisation", "domain", "mass", "load", "complementarity"}
@@ -268,7 +268,7 @@ SWEEP = [(M, L) for M in np.geomspace(1e-3, 1e3, 8) for L in (0.0, 1.0, 5.0, 12.
 def test_converges_everywhere(law, density):
     films = {}
     for M, L in SWEEP:
-        films[M, L] = moes_film(M, L, viscosity_law=law, density=density)[2]
+        films[M, L] = moes_film(M, L, viscosity_law=law, density_law=density)[2]
         assert films[M, L] == pytest.approx(film.moes_film(M, L), rel=0.2)
     for (M, L), value in films.items():  # a heavier load never thickens the film
         heavier = [v for (m, k), v in films.items() if k == L and m > M]
@@ -282,7 +282,7 @@ def test_converges_everywhere_finely(law, density):
     for M in np.geomspace(1e-6, 1e3, 37):
         for L in np.linspace(0.0, 20.0, 21):
             for tolerance in (3e-3, 1e-3):
-                found = moes_film(M, L, viscosity_law=law, density=density, tolerance=tolerance)[2]
+                found = moes_film(M, L, viscosity_law=law, density_law=density, tolerance=tolerance)[2]
                 assert found == pytest.approx(film.moes_film(M, L), rel=0.25), (M, L)
 
 
@@ -310,7 +310,7 @@ def test_similarity_of_si_inputs():
 
 def test_density_must_not_change_a_light_contact():
     a = moes_film(1e-3, 2.0)[2]
-    assert moes_film(1e-3, 2.0, density="dowson-higginson")[2] == pytest.approx(a, rel=1e-4)
+    assert moes_film(1e-3, 2.0, density_law="dowson-higginson")[2] == pytest.approx(a, rel=1e-4)
 
 
 def test_starvation_thins_the_film():
@@ -406,7 +406,7 @@ def test_film_at_any_position(M, L):
 
 def test_flux_and_flow_film():
     arguments, _ = contact(20, 5)
-    r = solve_ehl(**arguments, density="dowson-higginson")
+    r = solve_ehl(**arguments, density_law="dowson-higginson")
     assert r.flux == pytest.approx(r.flow_film * r.entrainment_speed)
     assert float(r.film_at(r.rupture)) == pytest.approx(r.flow_film, rel=1e-5)
     assert r.density_ratio.max() > 1.05 and r.density_ratio.min() == 1.0
@@ -461,7 +461,7 @@ GOOD = {
         {"pressure_viscosity_coefficient": 0.0},
         {"pressure_viscosity_coefficient": -1e-8},
         {"viscosity_law": "barrus"},
-        {"density": "mineral"},
+        {"density_law": "mineral"},
         {"tolerance": 0.0},
         {"tolerance": 1.0},
         {"max_iterations": 0},

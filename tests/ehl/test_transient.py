@@ -51,7 +51,7 @@ def moes(M, L, density="constant"):
         entrainment_speed=speed,
         viscosity=eta,
         pressure_viscosity_coefficient=alpha,
-        density=density,
+        density_law=density,
     )
     return keywords, problem, problem.half_width * problem.length_unit / speed
 

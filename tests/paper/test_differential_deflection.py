@@ -108,7 +108,7 @@ def test_agrees_with_the_default_solver(M, L):
 
 
 def test_agrees_with_the_default_solver_to_five_digits():
-    kw = moes(20, 5, density="dowson-higginson")
+    kw = moes(20, 5, density_law="dowson-higginson")
     ours = solve_differential_deflection(**kw, tolerance=3e-5)
     np.testing.assert_allclose(numbers(ours), numbers(lubfric.solve_ehl(**kw, tolerance=2e-5)), rtol=4e-5)
 
@@ -163,9 +163,9 @@ def test_second_order():
 @settings(max_examples=12, derandomize=True)
 @given(st.floats(-3, 2.5), st.floats(0.1, 15), st.sampled_from(["constant", "dowson-higginson"]))
 def test_converges_from_cold(log_M, L, density):
-    r = solve_differential_deflection(**moes(10**log_M, L, density=density), tolerance=5e-3)
+    r = solve_differential_deflection(**moes(10**log_M, L, density_law=density), tolerance=5e-3)
     assert r.report.converged and r.report.residual <= 5e-3
-    default = lubfric.solve_ehl(**moes(10**log_M, L, density=density), tolerance=1e-3)
+    default = lubfric.solve_ehl(**moes(10**log_M, L, density_law=density), tolerance=1e-3)
     np.testing.assert_allclose(numbers(r), numbers(default), rtol=6e-3)
 
 

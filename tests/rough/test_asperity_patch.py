@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.asperity import contact_law
+from lubfric.asperity import find_asperities
 from lubfric.prepared import prepare
 from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
@@ -102,7 +102,7 @@ def test_the_flat_contact_closes_both_ways():
 @pytest.mark.parametrize("model", MODELS)
 def test_the_curve_is_the_law(model):
     z = lubfric.generate_surface((128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
-    law = contact_law(z, 2e-6, E, definition=model)
+    law = find_asperities(z, 2e-6, E, definition=model).at
     separation = 2.2e-7
     curve = asperity_curve(z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume")
     for level in (2.5e-7, 3.5e-7):

@@ -106,7 +106,7 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
             viscosity=lubricant.viscosity,
             pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
             viscosity_law=lubricant.viscosity_law,
-            density=lubricant.density_law,
+            density_law=lubricant.density_law,
             tolerance=3e-3,
             start=start,
         )

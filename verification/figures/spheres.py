@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from lubfric.asperity import contact_law
+from lubfric.asperity import find_asperities
 from lubfric.contact import solve_contact
 
 from ..check import AT_LEAST, AT_MOST, Check
@@ -62,8 +62,8 @@ def sphere_array(quick: bool) -> PaperFigure:
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
         heights, step = unit_cell(distance, cell)
-        law = contact_law(heights, step, E_PRIME, definition="summits")
-        alone = np.array([law(HEIGHT - a).load for a in free])
+        found = find_asperities(heights, step, E_PRIME, definition="summits")
+        alone = np.array([found.at(HEIGHT - a).load for a in free])
         label = f"{distance * 1e6:g} µm"
         asperities.plot(free * 1e9, alone * 1e3, "o-", label=label)
         left_out.plot(free * 1e9, loads * 1e3, "o-", label=label)

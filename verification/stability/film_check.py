@@ -86,4 +86,4 @@ def cell_flow(x, p, result, case, law) -> np.ndarray:
     log_eta = viscosity_ratio(law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps)
     fluidity = np.exp(-log_eta) @ (0.5 * WEIGHTS)
     poiseuille = h**3 * fluidity * np.diff(p) / dx / (12 * case["viscosity"] * abs(case["entrainment_speed"]))
-    return density_ratio(case.get("density", "constant"), inside) * (h - poiseuille)
+    return density_ratio(case.get("density_law", "constant"), inside) * (h - poiseuille)

@@ -80,7 +80,7 @@ def smooth():
             entrainment_speed=speed,
             viscosity=VISCOSITY,
             pressure_viscosity_coefficient=ALPHA,
-            density="dowson-higginson",
+            density_law="dowson-higginson",
             tolerance=1e-4,
         )
         for name, value, expected in (

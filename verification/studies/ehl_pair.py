@@ -51,10 +51,10 @@ class Pair:
         )
 
 
-def make_contact(M: float, L: float, density: str = CONSTANT) -> LineContact:
+def make_contact(M: float, L: float, density_law: str = CONSTANT) -> LineContact:
     """A steel contact with Moes' numbers M and L > 0, Roelands oil."""
     speed_number = (L / (ALPHA * E_PRIME)) ** 4
-    fluid = Fluid(VISCOSITY, "roelands", ALPHA, density_law=density.replace("-", "_"))
+    fluid = Fluid(VISCOSITY, "roelands", ALPHA, density_law=density_law.replace("-", "_"))
     return LineContact(
         M * math.sqrt(speed_number) * E_PRIME * RADIUS,
         RADIUS,
@@ -77,7 +77,7 @@ def solved(point: tuple[float, float, str], refinements: int) -> Pair:
         entrainment_speed=contact.entrainment_speed,
         viscosity=contact.fluid.viscosity,
         pressure_viscosity_coefficient=contact.fluid.pressure_viscosity_coefficient,
-        density=point[2],
+        density_law=point[2],
         tolerance=3e-5,
     )
     return Pair(point, solutions, line, seconds)

@@ -83,7 +83,7 @@ def contact(M: float, L: float, density: str = "constant"):
         entrainment_speed=speed,
         viscosity=eta,
         pressure_viscosity_coefficient=alpha,
-        density=density,
+        density_law=density,
     )
     return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / speed
 

@@ -12,6 +12,7 @@ from ...errors import ConvergenceError, InputError
 from ...lubricant import Lubricant
 from ...march.bdf import March
 from ...march.course import Plan, Progress, checked_history, checked_times, plan_of, report_of, steps
+from ...renamed import keyword_before
 from ...report import CONVERGED, Report
 from ..result import smallest
 from .active_set import StepSolution
@@ -44,6 +45,7 @@ class TransientFilm:
     report: Report
 
 
+@keyword_before("density", "density_law")
 def solve_transient_ehl(
     *,
     load_per_width,
@@ -54,7 +56,7 @@ def solve_transient_ehl(
     times,
     pressure_viscosity_coefficient: float = 0.0,
     viscosity_law: str = "roelands",
-    density: str = "constant",
+    density_law: str = "constant",
     initial_film: float | None = None,
     tolerance: float = 1e-3,
     time_tolerance: float | None = None,
@@ -63,25 +65,20 @@ def solve_transient_ehl(
 ) -> TransientFilm:
     """Film of a smooth line contact whose load, radius, speed or viscosity change in time.
 
-    Parameters
-    ----------
-    load_per_width [N/m], radius [m], viscosity [Pa s] (all > 0), entrainment_speed [m/s] (any sign, also
-        0): numbers or histories (`lubfric.history`)
-    e_prime [Pa]; pressure_viscosity_coefficient [1/Pa]; viscosity_law, density : see
-    `lubfric.lubricant.Lubricant`
+    load_per_width [N/m], radius [m], viscosity [Pa s] (all > 0), entrainment_speed [m/s] (any sign, also 0): numbers or
+        histories (`lubfric.history`)
+    e_prime [Pa]; pressure_viscosity_coefficient [1/Pa]; viscosity_law, density_law : see `lubfric.lubricant.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
-    initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant
-        without pressure; None: from the steady state of the values before t = 0
+    initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
+        None: from the steady state of the values before t = 0
     tolerance : asked of the grid, relative to the film; 1e-5 to 0.1
     time_tolerance : largest local error of the film in a step, relative (None: 0.01 x tolerance)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
     Equations, cavitation and residuals: `squeeze` and `active_set` beside this module; time: `lubfric.march`.
-    report.residuals: "step", the largest accepted local error, and "grid", the grid error of the smallest and
-    central film of the steady start (where there is one), each over its tolerance.
-
-    Raises `InputError` before any work, `ConvergenceError` with the films so far when the shortest step
-    fails or the steady start is not found or not accurate enough.
+    report.residuals: "step", the largest accepted local error, and "grid", the grid error of the smallest and central
+    film of the steady start (where there is one), each over its tolerance. Raises `InputError` before any work,
+    `ConvergenceError` with the films so far when the shortest step fails or there is no accurate steady start.
     """
     times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
@@ -98,22 +95,26 @@ def solve_transient_ehl(
         validate.positive("e_prime", e_prime, "Pa"),
         checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
         eta,
-        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density),
+        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density_law),
         duration,
         initial_film,
     )
-    if initial_film is not None:
-        validate.positive("initial_film", initial_film, "m")
-    elif contact.speed.before(0.0) == 0.0:
-        raise InputError(
-            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
-        )
+    _check_start(contact)
     setting, start, grid_error = _start(contact, tolerance)
     plan = plan_of(times, setting.histories, first_step or setting.first_step, time_tolerance)
     result = _march(setting, start, plan, {} if math.isnan(grid_error) else {"grid": grid_error / tolerance})
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
+
+
+def _check_start(contact: ContactHistory) -> None:
+    if contact.initial_film is not None:
+        validate.positive("initial_film", contact.initial_film, "m")
+    elif contact.speed.before(0.0) == 0.0:
+        raise InputError(
+            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
+        )
 
 
 def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[str, float]) -> TransientFilm:

@@ -11,11 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from ... import validate
+from ...contact.problem import make_problem
 from ...contact.refine import refine
 from ...contact.result import ContactResult
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ...roots import increasing_root
-from .imposed import Imposed, Outcome, impose
+from .imposed import ImposedFilm, Outcome, impose
 
 UPDATES = ("root", "repeat")
 
@@ -49,34 +50,18 @@ def alternating(
         ``report.evaluations`` every convolution.
     """
     validate.choice("update", update, UPDATES)
-    contact, pressure = impose(
-        heights,
-        film,
-        spacing,
-        e_prime,
-        weight,
-        hardness,
-        boundary,
-        tolerance,
-        start,
-        operator,
-        max_iterations,
-    )
-    if contact.separated:
-        return contact.touchless()
-    if pressure is None or not pressure.any():
-        pressure = contact.first_pressure()
-    outcome = (_by_root if update == "root" else _by_repetition)(contact, pressure)
-    result = contact.certify(outcome, f"alternating, {update}")
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+
+    def make(gap):
+        return make_problem(gap, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+
+    iterate = _by_root if update == "root" else _by_repetition
+    return impose(heights, film, weight, make).solved(iterate, f"alternating, {update}", start, raise_on_failure)
 
 
 class _Inner:
     """System (3) at a given epsilon, each solve begun from the last."""
 
-    def __init__(self, contact: Imposed, pressure):
+    def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure, self.convolutions = contact, pressure, 1.0
         self.tight = replace(contact.problem, tolerance=0.3 * contact.problem.tolerance, max_iterations=2000)
 
@@ -92,12 +77,12 @@ class _Inner:
         return (self.contact.mean_film - volume) / min(scale, self.contact.mean_film)
 
 
-def _first_offset(contact: Imposed, pressure) -> float:
+def _first_offset(contact: ImposedFilm, pressure) -> float:
     displacement = contact.problem.operator.apply(pressure)
     return contact.offset(displacement)
 
 
-def _by_repetition(contact: Imposed, pressure) -> Outcome:
+def _by_repetition(contact: ImposedFilm, pressure) -> Outcome:
     inner, offset = _Inner(contact, pressure), _first_offset(contact, pressure)
     history, status, iteration = [], ITERATION_LIMIT, 0
     while iteration < contact.problem.max_iterations:
@@ -114,7 +99,7 @@ def _by_repetition(contact: Imposed, pressure) -> Outcome:
     return Outcome(inner.pressure, offset, status, iteration, inner.convolutions, history, [])
 
 
-def _by_root(contact: Imposed, pressure) -> Outcome:
+def _by_root(contact: ImposedFilm, pressure) -> Outcome:
     inner, first = _Inner(contact, pressure), _first_offset(contact, pressure)
     lowest = float(contact.problem.gap0.min())  # first touch: below it there is no pressure
 

@@ -7,13 +7,13 @@ What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ... import validate
-from ...contact.problem import Problem, make_problem, starting_pressure
+from ...contact.problem import Problem, starting_pressure
 from ...contact.residual import contact_residuals, length_scale
 from ...contact.result import ContactResult
 from ...errors import InputError
@@ -21,7 +21,7 @@ from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 
 
 @dataclass(frozen=True)
-class Imposed:
+class ImposedFilm:
     """gap0 = h - z [m] (its minimum moved to zero) with operator and limits (``problem``); area A as weights
     that sum to 1; mean film [m] over A. Offsets epsilon [m] inside are against that gap0."""
 
@@ -107,7 +107,19 @@ class Imposed:
             report,
         )
 
-    def touchless(self) -> ContactResult:
+    def solved(self, iterate: Iteration, solver: str, start, raise_on_failure: bool) -> ContactResult:
+        """The contact by ``iterate``, from ``start`` (a pressure or a result, None: guessed)."""
+        pressure = starting_pressure(self.problem, start)
+        if self.separated:
+            return self._touchless()
+        if pressure is None or not pressure.any():
+            pressure = self.first_pressure()
+        result = self.certify(iterate(self, pressure), solver)
+        if raise_on_failure:
+            result.report.raise_if_failed(result)
+        return result
+
+    def _touchless(self) -> ContactResult:
         """The result when the film keeps the surfaces apart."""
         zero = np.zeros_like(self.problem.gap0)
         state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
@@ -127,19 +139,20 @@ class Outcome:
     notes: Sequence[str] = ()
 
 
-def impose(
-    heights, film, spacing, e_prime, weight, hardness, boundary, tolerance, start, operator, max_iterations
-) -> tuple[Imposed, np.ndarray | None]:
-    """Validated `Imposed` contact and starting pressure (None: to be guessed)."""
+Iteration = Callable[[ImposedFilm, np.ndarray], Outcome]  # from a first pressure
+
+
+def impose(heights, film, weight, make: Callable[[np.ndarray], Problem]) -> ImposedFilm:
+    """Validated; ``make(gap)`` makes the `Problem` of h - z (nx, ny) [m]."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = _on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
     if weight.min() < 0 or weight.sum() == 0:
         raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
-    problem = make_problem(film - heights, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    problem = make(film - heights)
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
-    return Imposed(problem, weight, mean_film), starting_pressure(problem, start)
+    return ImposedFilm(problem, weight, mean_film)
 
 
 def _on_grid(name, value, shape, unit) -> np.ndarray:

@@ -20,10 +20,11 @@ from typing import Any
 import numpy as np
 
 from ... import validate
+from ...contact.problem import make_problem
 from ...contact.residual import contact_residuals
 from ...contact.result import ContactResult
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
-from .imposed import Imposed, Outcome, impose
+from .imposed import ImposedFilm, Outcome, impose
 
 FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")
@@ -69,34 +70,20 @@ def single_loop(
     validate.choice("form", form, FORMS)
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
-    contact, pressure = impose(
-        heights,
-        film,
-        spacing,
-        e_prime,
-        weight,
-        hardness,
-        boundary,
-        tolerance,
-        start,
-        operator,
-        max_iterations,
-    )
-    if contact.separated:
-        return contact.touchless()
-    if pressure is None or not pressure.any():
-        pressure = contact.first_pressure()
-    step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
-    watch = _Watch(contact, stop, separation_tolerance)
-    with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
-        outcome = _loop(contact, step, watch)
-    result = contact.certify(outcome, f"single loop, {form}")
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+
+    def make(gap):
+        return make_problem(gap, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+
+    def iterate(contact: ImposedFilm, pressure) -> Outcome:
+        step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
+        with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
+            return _loop(contact, step, _Watch(contact, stop, separation_tolerance))
+
+    contact = impose(heights, film, weight, make)
+    return contact.solved(iterate, f"single loop, {form}", start, raise_on_failure)
 
 
-def _loop(contact: Imposed, step, watch: _Watch) -> Outcome:
+def _loop(contact: ImposedFilm, step, watch: _Watch) -> Outcome:
     status, iteration = ITERATION_LIMIT, 0
     best = (np.inf, step.pressure, step.offset)
     while True:
@@ -122,7 +109,7 @@ def _loop(contact: Imposed, step, watch: _Watch) -> Outcome:
 class _Watch:
     """Both stopping tests, after every iteration."""
 
-    def __init__(self, contact: Imposed, stop: str, separation_tolerance: float):
+    def __init__(self, contact: ImposedFilm, stop: str, separation_tolerance: float):
         self.contact, self.stop, self.separation_tolerance = contact, stop, separation_tolerance
         self.history: list[float] = []
         self.notes: list[str] = []
@@ -158,7 +145,7 @@ class _Watch:
 class _Printed:
     """One iteration of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap."""
 
-    def __init__(self, contact: Imposed, pressure):
+    def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure = contact, pressure
         self.displacement = contact.problem.operator.apply(pressure)
         self.offset = contact.lubricated_offset(self.displacement, pressure)
@@ -191,7 +178,7 @@ class _Consistent:
     """Two-sided working set, directions kept (Polak-Ribiere, never negative), epsilon from Eq. (8) after
     every step."""
 
-    def __init__(self, contact: Imposed, pressure):
+    def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure = contact, pressure
         self.displacement = contact.problem.operator.apply(pressure)
         self.offset = contact.offset(self.displacement)
@@ -235,7 +222,7 @@ class _Consistent:
         self.offset = self.contact.offset(self.displacement, overlap)
 
 
-def bulk(contact: Imposed, pressure) -> float:
+def bulk(contact: ImposedFilm, pressure) -> float:
     """Deflection [m/Pa] that one loaded cell, wherever it is, leaves at least everywhere in A and the
     contact.
 

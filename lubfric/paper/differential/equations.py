@@ -9,6 +9,13 @@ Unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 * second difference of the film at interior nodes; what it cannot see, a constant and a slope, are the films
   at both ends: their difference follows from the full integral, their height from the load. Its residual is
   the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
+
+The weights of the second difference on the pressures decay like 1/k² with the distance k in nodes. Those within the
+bandwidth are implicit, the rest is exact by FFT: it is not lagged, GMRES adds it to each Newton step, which costs
+O(N log N + N bandwidth²).
+
+Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate, H. P. Evans, Proc.
+IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.
 """
 
 from __future__ import annotations

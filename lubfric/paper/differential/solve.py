@@ -15,6 +15,7 @@ from ...ehl.start import expected_rupture, rupture_guess
 from ...errors import InputError
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
+from ...renamed import keyword_before
 from ...report import CONVERGED
 from ...validate import integer, number
 from .equations import load_row
@@ -43,6 +44,7 @@ class UniformEffort:
         integer("bandwidth", self.bandwidth, minimum=0)
 
 
+@keyword_before("density", "density_law")
 def solve_differential_deflection(
     *,
     load_per_width: float,
@@ -52,7 +54,7 @@ def solve_differential_deflection(
     viscosity: float,
     pressure_viscosity_coefficient: float,
     viscosity_law: str = "roelands",
-    density: str = "constant",
+    density_law: str = "constant",
     tolerance: float = 3e-3,
     inlet_length: float | None = None,
     start: EHLResult | None = None,
@@ -65,51 +67,33 @@ def solve_differential_deflection(
 ) -> EHLResult:
     """Film of a smooth line contact by differential deflection, on a uniform grid.
 
-    The same problem and result as `lubfric.solve_ehl`: Reynolds' equation, coupled to the second difference
-    of the film, whose weights on the pressures decay like 1/k² with the distance k in nodes. Those within
-    ``bandwidth`` are implicit, the rest is exact by FFT, and the two constants that the difference loses come
-    from the full integral at the ends, so that the answer is that of the full integral for any bandwidth
-    (`lubfric.paper.differential.equations`). A step costs O(N log N + N bandwidth²).
+    Problem and result are those of `lubfric.solve_ehl`. Reynolds' equation is coupled to the second difference of the
+    film, whose weights decay like 1/k² with the distance k in nodes (`lubfric.paper.differential` has sources, method
+    and residuals). Stops when the largest residual is <= tolerance. Checked for M = 1e-3 to 1000, L = 0 to 20.
 
-    Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate,
-    H. P. Evans, Proc. IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle,
-    Proc. IMechE J 215 (2001) 319-337. The far pressures are not lagged: GMRES adds them to each Newton step.
-
-    Parameters beyond those of `lubfric.solve_ehl`
+    Parameters
     ----------
-    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
-    domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry
-        contact. None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat
-        behind the expected rupture. Not together with inlet_length, which says where the lubricant begins.
-    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
-    max_iterations : Newton steps per grid; start : used on the coarsest grid; its x, pressure and film
+    load_per_width, radius, e_prime, entrainment_speed, viscosity : as in `lubfric.solve_ehl`, SI units
+    pressure_viscosity_coefficient, viscosity_law, density_law, tolerance, inlet_length : as in `lubfric.solve_ehl`
+    start, max_iterations : a neighbouring result, used on the coarsest grid; Newton steps per grid
+    nodes : at least 65; None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
+    domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry contact.
+        None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream. Not together with inlet_length
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; it changes only the time
+    most_nodes : largest number of nodes that is tried
+    raise_on_failure : False returns an unconverged result with its report
 
-    report.residuals, all relative, must be <= tolerance:
-    discretisation : largest change of min_film, central_film and flow_film against the grid of half the
-        cells, or a quarter of the change before that
-    domain : estimated effect of the finite inlet on flow_film (0 with inlet_length)
-    mass : largest |flux through a face before rupture/q - 1|; load : |∫ p dx/load - 1|
-    film : largest |h - full integral|/h
-    complementarity : largest of -p/p_max and of 1 - flux/q behind rupture
-    (the last four are <= 1e-3 tolerance where Newton's method converged)
-    report.evaluations counts banded solves, each with one convolution.
+    Returns
+    -------
+    EHLResult : its ``x`` is the uniform grid with the rupture point added as a node
 
     Raises
     ------
     InputError : a value out of range, before any work
-    ConvergenceError : residuals above tolerance, with report and result; not if raise_on_failure is False
-
-    ``x`` in the result is the uniform grid with the rupture point added as a node. Checked for M = 1e-3 to
-    1000, L = 0 to 20. A uniform grid must resolve the rise of the pressure at the edge of the contact: it
-    needs about 50 times the nodes of a graded one at M = 1000.
+    ConvergenceError : residuals above tolerance; carries report and result
     """
-    contact = LineContact(
-        load_per_width,
-        radius,
-        e_prime,
-        entrainment_speed,
-        Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density),
-    )
+    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
+    contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)
     effort = UniformEffort(Effort(tolerance, max_iterations=max_iterations), nodes, most_nodes, bandwidth)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")

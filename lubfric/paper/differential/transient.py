@@ -22,6 +22,7 @@ from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...march.bdf import Level, March, Memory
 from ...march.course import Plan, Progress, checked_history, checked_times, plan_of, report_of, steps
+from ...renamed import keyword_before
 from ...report import CONVERGED
 from .equations import Squeeze
 from .mesh import NEAR, make_mesh
@@ -85,6 +86,7 @@ class UniformSetting:
         return math.sqrt(float(np.mean((difference / solution.film)[P > WET * P.max()] ** 2)))
 
 
+@keyword_before("density", "density_law")
 def solve_differential_transient(
     *,
     load_per_width,
@@ -96,7 +98,7 @@ def solve_differential_transient(
     times,
     domain: tuple[float, float],
     viscosity_law: str = "roelands",
-    density: str = "constant",
+    density_law: str = "constant",
     nodes: int = 1025,
     bandwidth: int = NEAR,
     time_tolerance: float = 1e-5,
@@ -115,7 +117,7 @@ def solve_differential_transient(
     load = checked_history("load_per_width", load_per_width, "N/m", duration)
     speed = checked_history("entrainment_speed", entrainment_speed, "m/s", duration)
     validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
-    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density)
+    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     contact = LineContact(load.before(0.0), radius, e_prime, speed.before(0.0), lubricant)
     setting = UniformSetting(contact, load, speed, domain, nodes, bandwidth)
     first = _start(setting)

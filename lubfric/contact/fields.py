@@ -1,0 +1,86 @@
+"""Single-precision fields of a search, worked on block by block: each stays in the cache from one pass to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+BLOCK = 32768  # cells
+
+
+@dataclass
+class Fields:
+    """One value a cell, on one axis; pressures in units of the mean one in contact, gaps in those of their scale.
+
+    ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure. ``gap``: under the ``known``
+    change; ``change``: that and what is still to be convolved. ``weight``: 1 on free cells, else 0. ``residue``: of the
+    gap on them; ``before``: that which the ``direction`` was turned by. ``trial``: the change aimed at.
+    """
+
+    lower: np.ndarray
+    gap: np.ndarray
+    change: np.ndarray
+    known: np.ndarray
+    direction: np.ndarray
+    weight: np.ndarray
+    residue: np.ndarray
+    before: np.ndarray
+    trial: np.ndarray
+    upper: np.ndarray | None = None
+
+    def each(self, function) -> dict:
+        """``function`` of every field there is, by name."""
+        every = ((f.name, self.__dict__[f.name]) for f in fields(Fields))
+        return {name: function(values) for name, values in every if values is not None}
+
+    def narrow(self, kept) -> None:
+        """Only positions ``kept`` from now on, one field after the other, so that the old ones are soon let go."""
+        for name in self.each(len):
+            self.__dict__[name] = self.__dict__[name].take(kept)
+
+    def blocks(self) -> list[Block]:
+        """The fields again as `Block`s, in order."""
+        spare = [np.empty(min(BLOCK, self.gap.size), kind) for kind in (np.float32, np.float32, bool, bool)]
+        return [
+            Block(
+                **self.each(lambda values: values[part]),
+                part=part,
+                spare=tuple(values[: part.stop - part.start] for values in spare),
+            )
+            for part in parts(self.gap.size)
+        ]
+
+
+@dataclass(kw_only=True)
+class Block(Fields):
+    """The fields of the cells ``part``, with ``spare`` room for two of numbers and two of flags, shared by all."""
+
+    part: slice
+    spare: tuple
+
+    def aimed(self, aim) -> float:
+        """Let the trial be ``aim`` within the limits; its sum."""
+        np.maximum(aim, self.lower, out=self.trial)
+        if self.upper is not None:
+            np.minimum(self.trial, self.upper, out=self.trial)
+        return float(self.trial.sum())
+
+    def movable(self) -> int:
+        """Cells whose trial is between the limits."""
+        flag = np.greater(self.trial, self.lower, out=self.spare[2])
+        if self.upper is not None:
+            flag &= self.trial < self.upper
+            flag &= self.weight > 0
+        return int(np.count_nonzero(flag))
+
+
+def parts(size: int) -> list[slice]:
+    """Blocks of an axis."""
+    return [slice(begin, min(begin + BLOCK, size)) for begin in range(0, size, BLOCK)]
+
+
+def begun(gap, lower, upper) -> Fields:
+    """No change yet."""
+    rest = {name: np.zeros_like(gap) for name in ("change", "known", "direction", "weight", "residue", "before")}
+    return Fields(lower=lower, gap=gap, trial=np.empty_like(gap), upper=upper, **rest)
