@@ -11,6 +11,7 @@ from ..history.plan import Transient
 from ..march.course import checked_times, steps
 from ..prepared import Prepared, scene_of
 from ..scene import Scene
+from ..validity import Validity, refused
 from .checkpoint import Checkpoint
 from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
@@ -46,9 +47,13 @@ def transient(
     ------
     InputError : before any work
     ConvergenceError : the shortest step failed; carries the rows so far as its result
+    ValidityError : at some time an assumption fails so badly that f means nothing, and ``numerics.accept`` is false;
+        carries the whole result
 
     Notes
     -----
+    Film and surfaces are as hot as in steady motion at the speeds of the moment (``numerics.heat``).
+
     A step stops when max(residuals of `lubfric.ehl.transient.active_set.measure`) <= 1e-7 and |gap - film|/(gap + film)
     <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised film,
     relative to the film, is <= transient.tolerance. The residuals of the report:
@@ -64,9 +69,19 @@ def transient(
     result = _run(run, times, store, on_step)
     if raise_on_failure:
         result.report.raise_if_failed(result)
+        refused(_severe(result), run.prepared.scene.numerics.accept, result)
     if store is not None and result.report.converged:
         store.clear()
     return result
+
+
+def _severe(result: TransientResult) -> tuple[Validity, ...]:
+    """What makes f mean nothing at some time, the worst of each kind."""
+    worst: dict[str, Validity] = {}
+    for entry in (e for at_once in result.entries for e in at_once if e.severe):
+        if entry.what not in worst or entry.value > worst[entry.what].value:
+            worst[entry.what] = entry
+    return tuple(worst.values())
 
 
 def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
