@@ -10,12 +10,13 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..plain import plain
 from ..scene import scene_as_dict
 from ..store import Records
 from ..version import __version__
 from .journal import POINTS
 from .quantities import QUANTITIES
-from .row import CONVERGED, SPEED, STATUS, row_of
+from .table_row import CONVERGED, SPEED, STATUS, row_of
 
 PLAN = "study.json"
 MISSING = "not computed"
@@ -131,8 +132,8 @@ def plan_as_dict(plan) -> dict:
         "format": 1,
         "lubfric": __version__,
         "name": plan.scene.name,
-        "scene": json.loads(json.dumps(scene_as_dict(plan.scene), default=str)),
-        "axes": [{"name": a.name, "keys": list(a.keys), "values": json.loads(json.dumps(a.values))} for a in plan.axes],
+        "scene": plain(scene_as_dict(plan.scene)),
+        "axes": [{"name": a.name, "keys": list(a.keys), "values": plain(a.values)} for a in plan.axes],
         "speeds": list(plan.speeds),
         "shape": list(plan.shape),
         "keys": list(plan.keys().flat),

@@ -16,8 +16,8 @@ from .chain import Chain, run_chain
 from .journal import Journal, record_of
 from .plan import Batch, StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
-from .row import row_of
 from .spread import spread
+from .table_row import row_of
 
 
 @dataclass(frozen=True)

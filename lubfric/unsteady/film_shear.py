@@ -16,10 +16,10 @@ def film_shear(
     """Couette and rolling part [N] of the force on the upper surface along +x: B ∫ eta (u2 - u1)/h dx over
     the pressurised film and B ∫ (h/2) dp/dx dx, both without the share of the width in contact, with the
     inlet tails."""
-    setting, t, closure = sharing.setting, solution.terms, contact.closure
+    setting, t, state = sharing.setting, solution.terms, contact.state
     p, grid, now = setting.problem, setting.grid, setting.conditions(time)
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
-    free = 1.0 - closure.touching(x)
+    free = 1.0 - state.touching(x)
     rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
     lubricant = setting.contact.lubricant
     rate = sliding * now.viscosity * p.contact.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta

@@ -12,8 +12,8 @@ from ..report import Report
 from ..sampling.uncertainty import UncertaintyCurve, percent, student
 from ..show import Shown
 from ..show.axes import history_axes, loop_axes
+from .moment import UNITS
 from .progress import Outputs
-from .row import UNITS
 from .setup import Run
 
 MANY = 30  # blocks less one: of a line
@@ -21,7 +21,7 @@ MANY = 30  # blocks less one: of a line
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Arrays over time (nt,), one per name of `lubfric.unsteady.row.UNITS`, also as attributes:
+    """Arrays over time (nt,), one per name of `lubfric.unsteady.moment.UNITS`, also as attributes:
     ``result.coefficient``.
 
     time [s]; x [m] (nx,); pressure [Pa] and film_thickness [m] (nt, nx): of the smooth film at the output

@@ -12,9 +12,9 @@ from ..march.course import checked_times, steps
 from ..prepared import Prepared, scene_of
 from ..scene import Scene
 from .checkpoint import Checkpoint
+from .moment import UNITS
 from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
-from .row import UNITS
 from .setup import Run, begin
 
 
