@@ -18,10 +18,20 @@ AT_BOUND = 5e-3  # of the bounds
 
 @dataclass(frozen=True, eq=False)
 class FitResult:
-    """values, deviations: of the parameters by key; scene: with the values put in; predicted (n,): f at the measured
-    points.
+    """Parameters found by `lubfric.fit`, and how well the data tell them.
 
-    unit (p,): positions between the bounds, whose covariance (p, p) is ``unit_covariance``; slopes (n, p): df/d(unit).
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p where no deviations are given. A parameter whose 95 %
+    interval is as wide as its bounds is one that the data cannot tell.
+
+    Attributes
+    ----------
+    values : the parameters found, {"section.key": value}
+    deviations : their standard deviations, by key
+    scene : the scene with the values put in
+    predicted : f at the measured points, (n,)
+    unit : the parameters as positions between their bounds, 0 to 1, (p,)
+    unit_covariance : covariance of ``unit``, (p, p)
+    slopes : df/d(unit) at the measured points, (n, p)
     """
 
     base: Scene

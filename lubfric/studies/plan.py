@@ -41,8 +41,8 @@ class Batch:
 class StudyPlan:
     """All of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it out.
 
-    The chains depend on the values and speeds alone, never on how many processes share the work, so that every executor
-    gives the same bits.
+    The chains of warm starts depend on the values and speeds alone, never on how many processes share the work. So
+    every executor gives the same bits.
     """
 
     scene: Scene
@@ -79,7 +79,20 @@ class StudyPlan:
 
 
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
-    """The `StudyPlan` of `lubfric.study`, with its arguments; nothing is solved."""
+    """Plan a study without solving anything: points, maps they share, predicted time and disk.
+
+    Parameters
+    ----------
+    scene, vary, speeds : as in `lubfric.study`
+
+    Returns
+    -------
+    StudyPlan : ``print(plan.explain())`` tells what it is; `lubfric.study` carries it out
+
+    Raises
+    ------
+    InputError : a key or a value is not one that a scene can have
+    """
     if scene_of(scene) is not scene:
         raise InputError(
             "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"

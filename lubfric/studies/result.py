@@ -24,12 +24,16 @@ MISSING = "not computed"
 
 @dataclass(frozen=True)
 class StudyResult:
-    """Arrays over the varied values and, last, the speed: ``result["coefficient"]``, ``result.dims``,
-    ``result.coords``.
+    """Numbers of a study: arrays over the varied values and, last, the speed.
 
-    plan: what was studied, as in study.json. columns: every number of a `FrictionResult`, NaN where a point failed.
-    status: "converged", or why a point has no numbers. Tables for other tools: `to_xarray`, `to_frame`, `to_csv`,
-    `to_parquet`.
+    ``result["coefficient"]`` is such an array, ``result.dims`` names its axes, ``result.coords`` holds the values along
+    them. `to_xarray`, `to_frame`, `to_csv` and `to_parquet` make tables for other tools.
+
+    Attributes
+    ----------
+    plan : what was studied, as in study.json
+    columns : every number of a `FrictionResult` by name; NaN where a point failed
+    status : "converged", or why a point has no numbers
     """
 
     plan: dict
@@ -111,7 +115,20 @@ class StudyResult:
 
 
 def open_study(folder) -> StudyResult:
-    """The `StudyResult` of a store, finished or not, read from its JSON files."""
+    """Read the result of a study from its folder, whether it is finished or not.
+
+    Parameters
+    ----------
+    folder : the ``store`` of `lubfric.study`, or the folder of ``lubfric study``
+
+    Returns
+    -------
+    StudyResult : points that are still to come have the status "not computed"
+
+    Raises
+    ------
+    InputError : the folder holds no study
+    """
     path = Path(folder) / PLAN
     if not path.is_file():
         raise InputError(f"{folder} holds no {PLAN}; allowed: the store of a study")

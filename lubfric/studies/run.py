@@ -36,7 +36,9 @@ class Piece:
 def study(
     scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
 ) -> StudyResult:
-    """Friction of ``scene`` at every combination of the values in ``vary`` and every entrainment speed.
+    """Friction of a scene at every combination of given values, and at every entrainment speed.
+
+    A point that fails is a row with its error as its status; the others are solved.
 
     Parameters
     ----------
@@ -47,13 +49,20 @@ def study(
         whole sections, such as several height maps
     speeds : entrainment speeds [m/s]; None: those of the scene
     executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
-        ``mpi4py.futures.MPIPoolExecutor``); chains of warm starts are fixed by the plan: all give the same bits
-    store : folder that receives every finished point at once; the same study goes on from there, computing nothing
+        ``mpi4py.futures.MPIPoolExecutor``). The plan fixes the chains of warm starts, so all give the same bits
+    store : folder that receives every finished point at once. The same study goes on from there and computes nothing
         twice. On a cluster all processes must see it
     on_progress : called as on_progress(done, total) when points have ended
 
-    A point that fails is a row with its error as its status; the others are solved. Raises `InputError` before any
-    work, and at the end faults of the program as they are. Returns a `StudyResult`.
+    Returns
+    -------
+    StudyResult
+
+    Raises
+    ------
+    InputError : before any work
+
+    Faults of the program are raised as they are, at the end.
     """
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
     if plan is scene and (vary is not None or speeds is not None):

@@ -21,7 +21,9 @@ CASE = "case"  # name of the dimension of keys that go together
 
 @dataclass(frozen=True)
 class Between:
-    """A range [low, high] of a key, sampled uniformly in its value (scale "linear") or its logarithm ("log")."""
+    """A range [low, high] of a key, in the unit of the key. scale "linear": sampled evenly in its value; "log": in its
+    logarithm.
+    """
 
     low: float
     high: float
@@ -76,13 +78,25 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
-    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies
-    together:
+    """Points of a box, as values for keys that `lubfric.study` varies together.
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
 
-    sampler "sobol": a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`; ``count`` a power of two), which fills the box
-    evenly, or "random": independent points. Equal ``seed``, equal points.
+    Parameters
+    ----------
+    ranges : a list of `Between`, one for each key
+    count : number of points; a power of two for "sobol"
+    sampler : "sobol", a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`), which fills the box evenly; or "random",
+        independent points
+    seed : equal seeds give equal points
+
+    Returns
+    -------
+    list of tuples, one value for each range
+
+    Raises
+    ------
+    InputError : an argument out of range
     """
     from scipy.stats import qmc
 

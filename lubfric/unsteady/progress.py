@@ -24,8 +24,9 @@ class Outputs:
 
 def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
     """Add the output at the time of ``now``: its row and its fields."""
-    boundary = run.prepared.scene.bodies.boundary_friction_coefficient
-    row = moment(run.sharing, now.time, run.sliding_speed(now.time), boundary, solution, now)
+    in_time = run.in_time
+    run.sharing.patch.check(solution.payload.state)
+    row = moment(run.sharing, in_time.at(now.time), in_time.sliding(now.time), solution, now)
     outputs.rows.append(np.array(list(row.values()), dtype=float))
     outputs.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
     if store:

@@ -12,6 +12,8 @@ from ..report import Report
 from ..sampling.uncertainty import UncertaintyCurve, percent, student
 from ..show import Shown
 from ..show.axes import history_axes, loop_axes
+from ..validity import Validity, gathered
+from .judge import judged_outputs
 from .moment import UNITS
 from .progress import Outputs
 from .setup import Run
@@ -21,16 +23,24 @@ MANY = 30  # blocks less one: of a line
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Arrays over time (nt,), one per name of `lubfric.unsteady.moment.UNITS`, also as attributes:
-    ``result.coefficient``.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.moment.UNITS`, also as attributes.
 
-    time [s]; x [m] (nx,); pressure [Pa] and film_thickness [m] (nt, nx): of the smooth film at the output
-    times. coefficient: tangential force on the upper surface in the direction in which it slides over the
-    lower one, over F_T; friction_force and its parts [N] along +x. mean_film, mean_gap: both sides of Eq.
-    (8). wet_from, wet_to [m]: ends of the pressurised film. net_inflow, stored, cavity_growth [m²/s]: the
-    lubricant's balance over the last step, per unit width. time_error: local error of the last step, of
-    the tolerance. sampling_error: relative standard error of f because the line of rough surface is finite
-    (`lubfric.sampling.moment_error`); it is the same surface at all times, so it rises and falls with f as one.
+    Attributes
+    ----------
+    columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
+        direction in which it slides over the lower one, over F_T; friction_force and its parts [N], along +x; mean_film
+        and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the pressurised film; net_inflow,
+        stored and cavity_growth [m²/s], the balance of the lubricant over the last step, per unit width; time_error
+        [-], the local error of the last step over the tolerance; sampling_error [-], the relative standard error of f
+        because the line of rough surface is finite (`lubfric.sampling.moment_error`). It is the same surface at all
+        times, so that error rises and falls with f as one; inlet_film_factor [-], flash_temperature_rise and
+        film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at the speeds of the moment;
+        heat_change [-], of f by the two rises, relative; shear_error [-], estimated, of f by the sum of the film's
+        shear stress, relative
+    x : (nx,) [m]
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
+    report : how the run ended
+    entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     """
 
     columns: dict[str, np.ndarray]
@@ -38,6 +48,12 @@ class TransientResult(Shown):
     pressure: np.ndarray
     film_thickness: np.ndarray
     report: Report
+    entries: tuple[tuple[Validity, ...], ...] = ()
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold at some time."""
+        return gathered(list(zip(self.time.tolist(), self.entries)), "s", "times")
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
@@ -95,4 +111,5 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
         fields[:, :n] * p.pressure_unit,
         fields[:, n:] * p.film_unit,
         report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
+        judged_outputs(run.prepared, run.in_time, columns),
     )

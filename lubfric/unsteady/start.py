@@ -24,7 +24,7 @@ def first_state(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[
         return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(sharing), math.nan
-    return _steady(prepared, sharing)
+    return _steady(prepared, plan, sharing)
 
 
 def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
@@ -63,15 +63,17 @@ def _resting(sharing: Sharing) -> StepSolution:
     return replace(found, payload=Contact(sharing.total(0.0), state, 0.3 * state.mean_gap))
 
 
-def _steady(prepared: Prepared, sharing: Sharing) -> tuple[StepSolution, float]:
+def _steady(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
     """Balance of the steady state, then the same on the grid of the run."""
     setting, scene = sharing.setting, prepared.scene
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
         raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
+    cold = scene.lubricant.viscosity if plan.viscosity is None else plan.viscosity.before(0.0)
     values = scene.with_(
         bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
-        lubricant={"viscosity": c.viscosity.before(0.0)},
+        lubricant=replace(scene.lubricant, viscosity=cold),
+        numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
     point = friction(replace(prepared, scene=values), speed, fields=True)
     film = steady_start(setting, point.film_load / sharing.width)
