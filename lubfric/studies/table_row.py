@@ -3,15 +3,40 @@
 from __future__ import annotations
 
 from ..store.codec import from_plain
+from .journal import PLACE
 
 SPEED, STATUS, CONVERGED = "speed", "status", "converged"
+MISSING = "not computed"
+UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
+CURVE, AT, COUNT = "curve", "at", "count"  # of a point whose speed was chosen: its curve, its place; points in all
+CLEARANCE = "clearance"
 
 
 def row_of(record: dict) -> dict:
-    """Numbers by name, those of an uncertainty as ``uncertainty_<name>``, and the status in words."""
+    """Numbers by name, those of an uncertainty as ``uncertainty_<name>``, and the status in words; of a point whose
+    speed was chosen, its place on its curve too."""
+    place = _place(record[PLACE]) if PLACE in record else {}
     if "error" in record:
-        return {STATUS: f"{record['error']}: {record['message']}"}
-    return {STATUS: record["report"]["status"], **_numbers(record)}
+        return {STATUS: f"{record['error']}: {record['message']}", **place}
+    if "report" not in record:  # a curve that is complete
+        return place
+    numbers = _numbers(record)
+    clearance = (record.get("decision") or {}).get(CLEARANCE)
+    if _is_number(clearance):
+        numbers[CLEARANCE] = float(from_plain(clearance))
+    return {STATUS: record["report"]["status"], **numbers, **place}
+
+
+def named(rows: dict[str, dict]) -> dict[str, dict]:
+    """``rows`` with those of chosen speeds under their curve and place instead of their key."""
+    return {f"{row[CURVE]} {row[AT]}" if AT in row else key: row for key, row in rows.items()}
+
+
+def _place(found: dict) -> dict:
+    if "points" in found:
+        return {CURVE: found["curve"], COUNT: found["points"]}
+    speed = {} if found["speed"] is None else {SPEED: found["speed"]}
+    return {CURVE: found["curve"], AT: found["place"], **speed}
 
 
 def _numbers(record: dict) -> dict[str, float]:
