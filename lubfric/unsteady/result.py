@@ -16,8 +16,8 @@ from ..show import Shown
 from ..show.axes import history_axes, loop_axes
 from ..validity import Validity, gathered
 from .judge import judged_outputs
+from .moment import UNITS
 from .progress import Outputs
-from .row import UNITS
 from .setup import Run
 
 MANY = 30  # blocks less one: of a line
@@ -41,7 +41,7 @@ class TimeAverage:
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.row.UNITS`, also as attributes.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.moment.UNITS`, also as attributes.
 
     Attributes
     ----------
