@@ -90,11 +90,11 @@ def under_the_film(
     """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state;
     from ``state``, found on ``coarser``. It is solved to its own tolerance: between grids no more is asked."""
     film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, coarser)
-    thickness, shape = stage.point.imposed_on(part, film)
+    thickness, shape = stage.point.film_on(part, film)
     found = part.close(thickness, load, state, shape)
     if part is whole:
         return whole, found
-    thickness, shape = stage.point.imposed_on(whole, film)
+    thickness, shape = stage.point.film_on(whole, film)
     if whole.holds(part, shape, found):
         return part, found
     return whole, whole.close(thickness, load, found, shape)

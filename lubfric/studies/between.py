@@ -7,7 +7,7 @@ import numpy as np
 from .. import validate
 from ..curve.interpolate import Interpolant, Samples, knee_of
 from .adaptive import FEWEST
-from .row import CLEARANCE, SPEED
+from .table_row import CLEARANCE, SPEED
 
 
 def coefficient_at(result, speed) -> np.ndarray:

@@ -12,8 +12,8 @@ from ..report import ITERATION_LIMIT, Report
 from .file import load_study
 from .pool import pool
 from .result import StudyResult, open_study
-from .row import CONVERGED, UNUSED
 from .run import study
+from .table_row import CONVERGED, UNUSED
 from .tables import to_netcdf
 
 SAY_EVERY = 1.0  # s between two lines of progress

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..plain import plain
 from ..scene import scene_as_dict
 from ..show import Shown
 from ..store import Records
@@ -17,7 +18,7 @@ from ..version import __version__
 from .adaptive import AUTO
 from .journal import POINTS
 from .quantities import QUANTITIES
-from .row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
+from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
 PLAN = "study.json"
 POINT = "point"  # the last dimension where speeds are chosen
@@ -214,8 +215,8 @@ def plan_as_dict(plan) -> dict:
         "format": 1,
         "lubfric": __version__,
         "name": plan.scene.name,
-        "scene": json.loads(json.dumps(scene_as_dict(plan.scene), default=str)),
-        "axes": [{"name": a.name, "keys": list(a.keys), "values": json.loads(json.dumps(a.values))} for a in plan.axes],
+        "scene": plain(scene_as_dict(plan.scene)),
+        "axes": [{"name": a.name, "keys": list(a.keys), "values": plain(a.values)} for a in plan.axes],
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
         "keys": list(plan.keys().flat),

@@ -17,8 +17,8 @@ from .chain import Chain, run_chain
 from .journal import PLACE, Journal, record_of
 from .plan import Batch, Curve, StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
-from .row import named, row_of
 from .spread import spread
+from .table_row import named, row_of
 
 
 @dataclass(frozen=True)

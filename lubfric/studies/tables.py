@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError
 from ..store import whole_file, write_whole
 from .quantities import KEYS, QUANTITIES, described
-from .row import SPEED, UNUSED
+from .table_row import SPEED, UNUSED
 
 
 def to_xarray(result):
