@@ -4,7 +4,7 @@
 
 Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --line, on a
 line at a sampling tolerance of 5 %. The error is that of ``curve.at`` at 12 random speeds of the range and three about
-lift-off, against solves there. Prints one table.
+lift-off, against solves there at a tolerance of 0.2 %. Prints one table.
 """
 
 import os
@@ -55,6 +55,7 @@ def main() -> None:
     print("|---|---|---|---|---|---|")
     for number, scene in enumerate(scenes(arguments.scenes, arguments.line), start=1):
         prepared = lubfric.prepare(scene)
+        lubfric.stribeck(prepared, [0.1])  # whatever is imported at first is
         auto, spent = timed(lambda: lubfric.stribeck(prepared, "auto", raise_on_failure=False))
         even, usual = timed(
             lambda: lubfric.stribeck(prepared, np.geomspace(auto.speed[0], auto.speed[-1], 25), raise_on_failure=False)
@@ -63,7 +64,7 @@ def main() -> None:
         if auto.lift_off:
             near = auto.lift_off * np.array([0.9, 0.98, 1.02])
             speeds = np.append(speeds, near[near < auto.speed[-1]])
-        true = lubfric.stribeck(prepared, np.sort(speeds), raise_on_failure=False)
+        true = lubfric.stribeck(prepared, np.sort(speeds), tolerance=2e-3, raise_on_failure=False)
         good = np.isfinite(true.coefficient)
         missed = [np.abs(c.at(true.speed[good]) / true.coefficient[good] - 1).max() for c in (auto, even)]
         print(
