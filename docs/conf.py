@@ -8,6 +8,8 @@ import lubfric
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import docstrings  # noqa: E402  beside this file
+
 project = "lubfric"
 author = "the lubfric developers"
 version = release = lubfric.__version__
@@ -29,8 +31,10 @@ suppress_warnings = ["config.cache"]
 default_role = "code"  # docstrings quote names with single backticks
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
 autosummary_generate = True
 napoleon_numpy_docstring = True
+napoleon_use_ivar = True  # attributes as a list, beside the documented members of the same name
 
 sphinx_gallery_conf = {
     "plot_gallery": os.environ.get("GALLERY") != "0",  # GALLERY=0: pages without running the scripts
@@ -48,11 +52,7 @@ html_title = f"lubfric {version}"
 html_static_path: list[str] = []
 
 
-def escape_bars(app, what, name, obj, options, lines) -> None:
-    """Docstrings write |x| for the absolute value; reStructuredText would take it for a substitution."""
-    lines[:] = [line.replace("|", r"\|") for line in lines]
-
-
 def setup(app) -> None:
     """Called by Sphinx."""
-    app.connect("autodoc-process-docstring", escape_bars)
+    app.connect("autodoc-process-docstring", docstrings.docstring, priority=100)  # before napoleon
+    app.connect("autodoc-process-signature", docstrings.signature)

@@ -22,10 +22,10 @@ class OutputError(LubfricError, OSError):
 
 
 class ConvergenceError(LubfricError, RuntimeError):
-    """A solver stopped before reaching the tolerance it was asked for.
+    """A solver stopped before it reached the tolerance it was asked for.
 
-    ``report`` is the solver's `lubfric.Report`; ``result`` is whatever the solver had when it
-    stopped (or ``None``), so that nothing computed is lost. Both survive pickling.
+    ``report`` is the solver's `lubfric.Report`. ``result`` is whatever the solver had when it stopped (or ``None``), so
+    that nothing computed is lost. Both survive pickling.
     """
 
     def __init__(self, message: str, report=None, result=None):
@@ -39,10 +39,10 @@ class ConvergenceError(LubfricError, RuntimeError):
 
 
 class ValidityError(LubfricError, ValueError):
-    """A converged solution outside the range of the model, so that its coefficient is no answer.
+    """A converged solution lies outside the range of the model, so that its coefficient is no answer.
 
-    ``entries`` are the `lubfric.Validity` entries that refuse it; ``result`` is the whole result (or ``None``), so that
-    nothing computed is lost. ``numerics.accept = true`` returns it instead. Survives pickling.
+    ``entries`` are the `lubfric.Validity` entries that refuse it. ``result`` is the whole result (or ``None``), so that
+    nothing computed is lost. ``numerics.accept = true`` returns it instead. The error survives pickling.
     """
 
     def __init__(self, message: str, entries=(), result=None):

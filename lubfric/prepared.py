@@ -25,12 +25,17 @@ from .validity.entry import Validity
 
 @dataclass(frozen=True, repr=False)
 class Prepared(Shown):
-    """A scene made ready: its height map, the rough contact on it, and the film levels to choose from, simplest first.
+    """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: nothing in it changes.
 
-    Made by `prepare`, accepted wherever a scene is, and safe to share: nothing in it changes. known: assumptions that
-    bodies
-    and map do not meet; lines: where ``surface`` is a line of the scene's roughness, more of it; given: it was given to
-    `prepare`, and is all there is.
+    Attributes
+    ----------
+    scene : what was asked
+    surface : its height map
+    contact : the rough contact on it
+    film_levels : the film levels to choose from, the simplest first
+    known : assumptions that bodies and map do not meet
+    lines : where ``surface`` is a line of the scene's roughness: more of it
+    given : True: the map was given to `prepare`, and is all there is
     """
 
     scene: Scene
@@ -53,14 +58,26 @@ def prepare(
     contact: RoughContact | None = None,
     film_levels: Sequence[FilmLevel] = LEVELS,
 ) -> Prepared:
-    """Build what does not depend on the speed: the height map and the rough contact.
+    """Make a scene ready: build its height map and its rough contact, which every speed shares.
 
-    ``surface``: a height map to use as it is, grid and all, instead of the scene's own; it is taken as periodic
-    along y under a cylinder, along x and y when flat (`Surface.periodic` makes it so). Without one, a scene with
-    ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md).
-    ``like``: one of the same map, bodies' E' and hardness, whose map and operator or curve serve again, for another
-    load (a curve: no heavier one), lubricant, motion or tolerance (a curve: no tighter one).
-    ``contact``, ``film_levels``: others than lubfric's own (`lubfric.rough.contract`, `lubfric.film.contract`).
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`
+    surface : a height map to use as it is, grid and all, instead of the scene's own. Under a cylinder it is taken as
+        periodic along y, when flat along x and y (`Surface.periodic` makes it so). Without one, a scene with
+        ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md)
+    like : another prepared scene, of the same map, E' and hardness. Its map, and its operator or contact curve, serve
+        again for another load, lubricant, motion or tolerance. A curve serves no heavier load and no tighter tolerance
+    contact : a rough contact other than lubfric's own (`lubfric.rough.contract`)
+    film_levels : films other than lubfric's own, the simplest first (`lubfric.film.contract`)
+
+    Returns
+    -------
+    Prepared : accepted wherever a scene is
+
+    Raises
+    ------
+    InputError : the map does not fit the scene, or ``like`` cannot serve
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if resolves_gap(scene):

@@ -17,23 +17,36 @@ from .validity.entry import Validity
 
 @dataclass(frozen=True, repr=False)
 class FrictionResult(PointShown):
-    """One operating point. Forces in N, lengths in m, speed in m/s, fractions of the area A.
+    """One operating point.
 
-    coefficient: (f_b F_C + F_sh)/F_T (paper, Eq. 9); min_film, central_film: of the smooth film that
-    carries F_H (NaN without entrainment); mean_gap: between the rough surfaces (the film when they are separated);
-    film_to_roughness_ratio: central_film/Sq; real_contact_area [m^2]: of the whole line. inlet_film_factor: on the
-    film, by the heat of the inlet; flash_temperature_rise, film_temperature_rise [K]: largest, of the surfaces and
-    (mean across) of the film above them (1, 0, 0 where heat is left out). The residuals are relative: load
-    (F_C + F_H - F_T)/F_T and volume (gap - film)/(gap + film). ``balance`` holds the fields: the film
-    (``balance.film``, an `EHLResult` or `RigidFilm`) and, for a cylinder in contact, the dry contact
-    (``balance.contact.fields``, a `ContactResult`). ``decision``: how much was modelled, and the numbers it was judged
-    by (``decision.text`` in words); ``validity``: the assumptions that do not hold
-    (`lubfric.Validity`); a severe one is there only where it was accepted.
+    The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult` or `RigidFilm`)
+    and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On a long line it
+    has the fields of the first 180 correlation lengths; forces and areas are those of all of the line.
 
-    ``uncertainty``: of the coefficient, from solvers and grids and because a finite surface stands for all of it (an
-    `Uncertainty`: docs/uncertainty.md); ``errors``: relative, of every other number (`FieldErrors`), as
-    ``errors.contact_load``. ``line``: what the long line of a scene leaves for a neighbouring speed to start from;
-    ``balance`` then has the fields of its first 180 correlation lengths, and forces and areas are those of all of it.
+    Attributes
+    ----------
+    speed : entrainment speed U [m/s]
+    coefficient : f = (f_b F_C + F_sh)/F_T [-] (Akchurin et al. 2015, Eq. 9, doi:10.1007/s11249-015-0536-z)
+    contact_load, film_load : F_C and F_H [N]
+    shear_force : F_sh [N] = couette_force + rolling_force [N]
+    boundary_force : f_b F_C [N], zero in pure rolling
+    real_contact_area_fraction, plastic_area_fraction : of the area A [-]
+    real_contact_area : of the whole line [m²]
+    min_film, central_film : of the smooth film that carries F_H [m]; NaN without entrainment
+    mean_gap : between the rough surfaces [m]; the film when they are separated
+    film_to_roughness_ratio : central_film/Sq [-]
+    inlet_film_factor : what the heat of the inlet leaves of the film [-]; 1 where heat is left out
+    flash_temperature_rise, film_temperature_rise : largest, of the surfaces and (mean across) of the film above them
+        [K]; 0 where heat is left out
+    load_residual : (F_C + F_H - F_T)/F_T [-]
+    volume_residual : (gap - film)/(gap + film) [-]
+    seconds : time of the solve [s]
+    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
+    validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
+    uncertainty : of the coefficient, from solvers and grids, and because a finite surface stands for all of it
+        (`Uncertainty`, docs/uncertainty.md)
+    errors : relative errors of every other number (`FieldErrors`), as ``errors.contact_load``
+    line : what the long line of a scene leaves for a neighbouring speed to start from
     """
 
     speed: float

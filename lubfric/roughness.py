@@ -43,24 +43,33 @@ MEASURED = {  # fields of a map from a file
 class Roughness:
     """Where the height map of a body comes from: a file, or a generated surface.
 
-    file: path of a height map (`lubfric.read_surface`), or None to generate one.
-    sq [m]: standard deviation of the heights; a file is scaled to it when given.
+    The keys of a file act in the order in which they stand below.
 
-    Generated. correlation_length [m] (one, or x and y) at decay_level of an "exponential" or "gaussian" acf; seed.
-    oversize: made this many times as long in x and y, its middle cut out (for lengths that do not fit the patch) and
-    scaled to sq.
+    Attributes
+    ----------
+    file : path of a height map (`lubfric.read_surface`), or None to generate one
+    sq : standard deviation of the heights [m]; a file is scaled to it when given
+    correlation_length : of a generated map [m], one, or x and y, at ``decay_level``
+    acf : of a generated map: "exponential" or "gaussian"
+    decay_level : value of the autocorrelation at ``correlation_length``
+    seed : of a generated map
+    oversize : a generated map is made this many times as long in x and y, its middle is cut out and scaled to sq. This
+        is for lengths that do not fit the patch
+    spacing : of a file that does not carry its own [m]
+    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own
+    decimal : "." or ",", of a text file in which commas can be either
+    missing_value : number in a text or .npy file that stands for "not measured"
+    form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
+    outliers : what to do with points that stand alone (`lubfric.surface.outliers`), which would carry the load:
+        "refuse" the map, "keep" them, or "mask" and fill them
+    s_filter, l_filter : nesting indices of the Gaussian filters of ISO 16610-61, which take out what is shorter and
+        what is longer [m]
+    motion_axis : the axis of the *file*, "x" or "y", that lies along the motion
+    extension : "mirror" continues a map that is too short along x by its mirror image
 
-    From a file, in the order in which they act:
-    spacing [m], unit ("m", "mm", "um" or "µm", "nm"): of a file that does not carry its own; decimal: "." or "," of a
-    text file in which commas can be either; missing_value: number in a text or .npy file that stands for "not
-    measured". form: F-operation, least squares, "plane" or "quadratic" (second order: cylinder or paraboloid too).
-    outliers: points that stand alone (`lubfric.surface.outliers`), which would carry the load: "refuse" the map, "keep"
-    them or "mask" and fill them.
-    s_filter, l_filter [m]: nesting indices of the Gaussian filters of ISO 16610-61 that take out what is shorter and
-    longer. motion_axis: the axis ("x" or "y") of the *file* that lies along the motion.
-    extension: "mirror" continues a map that is too short along x by its mirror image.
-
-    Raises `InputError` for values out of range and for fields that do not apply to the kind of map.
+    Raises
+    ------
+    InputError : values out of range, and fields that do not apply to the kind of map
     """
 
     file: str | None = None

@@ -50,14 +50,23 @@ HISTORIES = {
 
 
 def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
-    """The scene in a TOML file, in a dict of its tables, or built in: "paper" (Tables 1 and 2) or "flat" (Sec. 3.1).
+    """Read a scene from a TOML file, from a dict of its tables, or one of the two built in.
 
-    ``surface_file``, ``counterface_file``: height maps to use instead of the scene's own; in place of a generated
-    surface a map keeps its own grid.
+    Parameters
+    ----------
+    source : path of a file; a dict; "paper" (Tables 1 and 2 of the paper) or "flat" (its Sec. 3.1). A ``surface.file``
+        is relative to the folder of the scene; that of a dict is relative to the working folder
+    surface_file, counterface_file : height maps to use instead of the scene's own. A map in the place of a generated
+        surface keeps its own grid
 
-    Raises `InputError` for a missing file, an unknown key (naming the nearest valid one), a
-    missing value or one outside its range. A ``surface.file`` is relative to the scene's folder,
-    that of a dict to the working folder.
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError : a file is missing, a key is unknown (the message names the nearest valid one), a value is missing or
+        out of range
     """
     if isinstance(source, dict):
         table, folder, name = deepcopy(source), Path(), "unnamed"

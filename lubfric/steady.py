@@ -27,23 +27,30 @@ def friction(
     fields: bool = False,
     raise_on_failure: bool = True,
 ) -> FrictionResult:
-    """Friction coefficient of ``scene`` at an entrainment speed [m/s] (default: the scene's own).
+    """Friction coefficient of a scene at one entrainment speed.
 
-    The film and the rough contact share the load so that F_T = F_C + F_H and the lubricant volume
-    of Eq. (8) hold together (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without
-    entrainment the contact carries everything; when the film clears the summits no contact is solved.
+    Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
+    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything. When
+    the film clears the summits, no contact is solved. Stops when ``|gap - film|/(gap + film)``, means over A, is <=
+    numerics.tolerances.balance, divided by the share of the film in f.
 
-    ``tolerance``: on the coefficient, relative, instead of ``numerics.tolerance``. No more is modelled than it needs
-    (docs/levels.md, ``result.decision``); ``model="full"``: everything, on the scene's own grid; ``"deterministic"``:
-    no load is shared, one pressure carries it (docs/deterministic.md).
-    ``start``: the result of a neighbouring speed of the same map, for a warm start.
-    ``fields``: film and contact in ``result.balance`` are wanted on the scene's own contact grid, where one patch is
-    solved; on a long line they are those of the line, on its cells.
-    Stops when |mean gap - mean film|/(mean gap + mean film) over A <= numerics.tolerances.balance, divided by the share
-    of the film in f. Raises `InputError` before any work, `ConvergenceError` with report and result when a part does
-    not converge, `ValidityError` with the result where an assumption fails so badly that f means nothing and
-    ``numerics.accept`` is false (``raise_on_failure=False`` returns either result, but a failed film or contact always
-    raises).
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
+    speed : entrainment speed U [m/s]; None: the scene's own
+    start : a result at a neighbouring speed of the same map
+    tolerance : relative, on f; None: ``numerics.tolerance``. No more is modelled than it needs (docs/levels.md)
+    model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
+    fields : True: film and contact in ``result.balance`` on the scene's own contact grid (on a long line: on its cells)
+    raise_on_failure : False returns also what is not balanced or refused. A film or contact that failed always raises
+
+    Returns a `FrictionResult`.
+
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : a part did not converge; carries report and result
+    ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)

@@ -1,5 +1,6 @@
-"""What every test shares: hypothesis judges answers, not the time a loaded machine takes for them."""
+"""What all tests share: hypothesis judges answers, not the time that a loaded machine takes; Ctrl-C interrupts."""
 
+import signal
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,8 @@ from hypothesis import settings
 
 settings.register_profile("lubfric", deadline=None)
 settings.load_profile("lubfric")
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in a background job of a shell, and in all that it starts
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

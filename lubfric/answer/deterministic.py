@@ -15,7 +15,7 @@ from ..validity.film import of_pressure, of_thickness
 from .resolved import Resolved, resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
-DRAWN, CUT = 0.1, 0.1  # flow drawn from ruptured valleys, load of a Newtonian film sheared beyond f_b p: told above
+DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
 def deterministic_answer(
@@ -92,10 +92,10 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         entries.append(Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy))
     if result.drawn > DRAWN:
-        consequence = "these are taken as full, and the film behind them is fed too well"
-        remedy = "none: lower loads and smoother surfaces have less of it"
+        consequence = "the film behind them is fed too well"
+        remedy = "finer cells (contact.spacing)"
         entries.append(
-            Validity("share of the flow out of ruptured valleys", result.drawn, DRAWN, "", consequence, remedy)
+            Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
         )
     error, tolerance = found.error, scene.numerics.tolerance
     if error is not None and error > tolerance:

@@ -19,12 +19,21 @@ DEFINITIONS = ("summits", "patches")
 
 @dataclass(frozen=True)
 class AsperityResult:
-    """All contacts at one separation. Arrays have one entry per contact.
+    """All contacts at one separation. Arrays have one entry for each contact.
 
-    separation [m] (number or (nx, ny)); load [N] on the whole map; mean_pressure [Pa] load over the map;
-    contact_area [m^2] sum of pi a^2, and its fraction of the map; plastic_area_fraction where the pressure is
-    at the hardness; contacts: how many; index (contacts, 2): their highest grid points; overlap delta
-    [m]; radii R [m]; forces [N]; report of the search when the load was given.
+    Attributes
+    ----------
+    separation : height of the flat [m], one number or (nx, ny)
+    load : on the whole map [N]
+    mean_pressure : load over the area of the map [Pa]
+    contact_area : sum of pi a² [m²], and contact_area_fraction of the map [-]
+    plastic_area_fraction : where the pressure is at the hardness [-]
+    contacts : how many
+    index : their highest grid points, (contacts, 2)
+    overlap : delta [m], (contacts,)
+    radii : R [m], (contacts,)
+    forces : [N], (contacts,)
+    report : of the search, when the load was given
     """
 
     definition: str
@@ -98,22 +107,31 @@ def find_asperities(heights, spacing, e_prime, *, definition="summits", hardness
 def asperity_contact(
     heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
 ) -> AsperityResult:
-    """Contact of a rough surface with a rigid flat held at ``separation``.
+    """Contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
 
     Parameters
     ----------
     heights : (nx, ny) [m], upwards
     spacing : (dx, dy) or one length [m]
-    e_prime : E' [Pa], ``2/E' = sum (1 - nu^2)/E``
-    separation : height of the flat [m], in the same coordinate as ``heights`` (for heights about their
-        mean: the distance of the undeformed mean planes); one number, or (nx, ny) under a curved film
+    e_prime : E' [Pa], ``2/E' = sum (1 - nu²)/E``
+    separation : height of the flat [m], in the same coordinate as ``heights``; for heights about their mean it is the
+        distance of the undeformed mean planes. One number, or (nx, ny) under a curved film
     definition : "summits" or "patches"
     hardness : the pressure of every contact is cut off at this value [Pa]; None: elastic
-    periodic : whether neighbours wrap around (one value or one per axis); summits need all 8 neighbours
+    periodic : whether neighbours wrap around, one value or one for each axis. A summit needs all 8 neighbours
 
-    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a^2 = pi R delta``; a
-    Hertz pressure of peak p0 cut off at P_u leaves ``F = P_u pi a^2 (1 - s^2/3)``, ``s = P_u/p0 < 1``.
-    Raises `InputError` for what is out of range.
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+
+    Notes
+    -----
+    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a² = pi R delta`` (Hertz 1882).
+    A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
     options = {"definition": definition, "hardness": hardness, "periodic": periodic}
     found = find_asperities(heights, spacing, e_prime, **options)

@@ -30,15 +30,27 @@ def separation_for_load(
     tolerance=1e-3,
     raise_on_failure=True,
 ) -> AsperityResult:
-    """The separation at which the asperities carry ``mean_pressure`` [Pa] times the area of the map.
+    """The separation at which independent asperities carry a given load.
 
-    The flat comes down, each approach to the highest point 25 % longer than the last and none below the
-    deepest valley, until the load is reached; then that step is searched (Chandrupatla). Stops when
-    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the
-    separation; that of patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts)
-    and has a largest value, because patches grow together.
-    Raises `InputError`, or `ConvergenceError` with report and the closest result when the model cannot
-    carry the load or jumps over it.
+    The flat comes down. Each approach to the highest point is 25 % longer than the last, and none goes below the
+    deepest valley. When the load is reached, that step is searched (Chandrupatla), until ``|load - target|/target <=
+    tolerance``. The load of summits is continuous and falls with the separation. That of patches jumps where cells join
+    (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value, because patches grow together.
+
+    Parameters
+    ----------
+    heights, spacing, e_prime, definition, hardness, periodic : as in `asperity_contact`
+    mean_pressure : load over the area of the map [Pa]
+    tolerance, raise_on_failure : relative, on the load; False returns the closest result with its report
+
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+    ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
     """
     options = {"definition": definition, "hardness": hardness, "periodic": periodic}
     asperities = find_asperities(heights, spacing, e_prime, **options)

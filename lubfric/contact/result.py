@@ -12,13 +12,28 @@ from ..show import Shown
 
 @dataclass(frozen=True, repr=False)
 class ContactResult(Shown):
-    """Fields and means of one contact; arrays (nx, ny), means over the whole array.
+    """Fields and means of one dry contact. Arrays are (nx, ny); means are over the whole array.
 
-    pressure [Pa]: 0 <= p <= hardness. displacement [m]: u = K p, in the gauge of the half-space
-    operator. approach [m] and gap [m]: ``gap = gap0 - approach + displacement``, >= 0 except where
-    the pressure has reached the hardness and the bodies overlap. mean_pressure [Pa]: load per area.
-    mean_gap [m]: volume between the bodies per area, overlapping cells counted as zero.
-    contact_area_fraction: cells with p > 0. plastic_area_fraction: cells with p = hardness.
+    Attributes
+    ----------
+    pressure : 0 <= p <= hardness [Pa]
+    displacement : u = K p [m], up to the constant of the half-space operator
+    gap : gap0 - approach + displacement [m]; >= 0, except where the pressure is at the hardness and the bodies overlap
+    approach : rigid motion towards each other [m]
+    mean_pressure : load per area [Pa]
+    mean_gap : volume between the bodies per area [m]; overlapping cells count as zero
+    contact_area_fraction : share of the cells with p > 0 [-]
+    plastic_area_fraction : share of the cells with p = hardness [-]
+    report : how the solve ended
+
+    Notes
+    -----
+    The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
+    has ended. L is the length of `lubfric.contact.residual.length_scale`:
+
+    - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
+    - penetration: ``max(-gap)/L`` over cells with p < H
+    - load: ``|mean p - mean_pressure|/mean_pressure``, or volume: ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``
     """
 
     pressure: np.ndarray

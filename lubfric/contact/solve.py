@@ -31,34 +31,33 @@ def solve_contact(
 ) -> ContactResult:
     """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
-    ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``; with a hardness H also ``p <= H``,
-    and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
-    doi:10.1007/s11249-015-0536-z).
+    Solved is ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``. With a hardness H also ``p <= H``, and
+    cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
+    doi:10.1007/s11249-015-0536-z). The solve has converged when the largest residual of the report is <= tolerance
+    (`ContactResult` has their formulas).
 
     Parameters
     ----------
-    gap0 : (nx, ny) undeformed gap [m] of the pair, up to a constant; x is axis 0
+    gap0 : (nx, ny) undeformed gap of the pair [m], up to a constant; x is axis 0
     spacing : cell size [m], one number or (dx, dy)
-    e_prime : E' [Pa], 2/E' = sum (1 - nu^2)/E
+    e_prime : E' [Pa], 2/E' = sum (1 - nu²)/E
     mean_pressure : load per area of the whole array [Pa], or
-    mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count zero
+    mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count as zero
     hardness : limit of the pressure [Pa]; None: elastic
-    boundary : "periodic" or "free" per axis, see `lubfric.halfspace.half_space`
-    tolerance : largest residual accepted (below)
+    boundary : "periodic" or "free" for each axis, see `lubfric.halfspace.half_space`
+    tolerance : largest residual accepted
     start : an earlier `ContactResult`, or a pressure field [Pa], to start from
     operator : a `HalfSpace` built before for this grid, to share between solves
-    max_iterations : after it the solve gives up
-    raise_on_failure : False returns the unconverged result with its report
+    max_iterations, raise_on_failure : after so many the solve gives up; False returns the unconverged result
 
-    Returns a `ContactResult`. Its ``report.residuals`` are computed from the returned pressure alone, in double
-    precision, after the iteration has ended; with L the length of `lubfric.contact.residual.length_scale`:
+    Returns
+    -------
+    ContactResult
 
-    - complementarity ``Σ p m / (L Σ p)``, misfit m = |gap|, or max(gap, 0) where p = H;
-    - penetration ``max(-gap)/L`` over cells with p < H;
-    - load ``|mean p - mean_pressure|/mean_pressure``, or volume ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``.
-
-    Converged when the largest is <= tolerance. Raises `InputError` before any work, and `ConvergenceError` with report
-    and result when the tolerance is not met.
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : the tolerance was not met; carries report and result
     """
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     check_control(problem, mean_pressure, mean_gap)

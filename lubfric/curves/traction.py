@@ -21,9 +21,14 @@ from ..validity.gather import gathered
 class TractionResult:
     """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
 
-    ratio (n,) [-]; speed [m/s], the entrainment speed; columns: every number of `FrictionResult` as an array (n,) by
-    name, also as ``result["contact_load"]``. points: the results (None where failed), without fields; errors: {index:
-    exception}.
+    Attributes
+    ----------
+    ratio : slide-roll ratios [-], (n,)
+    speed : entrainment speed [m/s]
+    columns : every number of `FrictionResult` by name, each (n,). ``result["contact_load"]`` gives one of them
+    points : the results, without fields (None where failed)
+    errors : {index: exception}
+    report : the largest residual of the points over its tolerance
     """
 
     ratio: np.ndarray
@@ -64,14 +69,30 @@ def traction(
     on_point=None,
     raise_on_failure: bool = True,
 ) -> TractionResult:
-    """The traction curve of ``scene``: friction at slide-roll ``ratios`` [-] and one entrainment ``speed`` [m/s] (its
-    own).
+    """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
-    The ratio moves the shear of the film, its heat, and that of the inlet; film and contact are otherwise the same, so
-    that each point starts from the last. ``tolerance``, ``model``: as in `lubfric.friction`. ``on_point(done, total,
-    ratio, outcome)`` is called as points end. A failing point leaves NaN and its exception in ``errors``; the others
-    are still solved, and then `ConvergenceError` (or `ValidityError`, where all that failed was refused) is raised with
-    the whole curve as ``result``.
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. Film and contact are otherwise the
+    same, so each point starts from the last. A point that fails leaves NaN, and its exception in ``errors``; the others
+    are still solved.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene` or `lubfric.prepare`
+    ratios : slide-roll ratios (u2 - u1)/U [-], (n,)
+    speed : entrainment speed [m/s]; None: the scene's own
+    tolerance, model : as in `lubfric.friction`
+    on_point : called as on_point(done, total, ratio, outcome) as points end
+    raise_on_failure : False returns a curve with failed points
+
+    Returns
+    -------
+    TractionResult
+
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : at the end, when a point failed; the whole curve is its ``result``
+    ValidityError : the same, where all that failed was refused
     """
     ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
     own = scene_of(scene).motion.entrainment_speed

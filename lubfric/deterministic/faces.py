@@ -1,6 +1,7 @@
 """Mass flow through the faces between cells, and its derivatives by p and h of the cells on both sides.
 
-The pressure flow has the mean film of the two cells and the mean fluidity between their pressures (`rheology`); the
+The pressure flow has 1/h³ averaged between the two cells, h linear, and the mean fluidity between their pressures
+(`rheology`), so that the narrowest place holds it back; the
 Couette flow U rho h is taken from upstream, to second order: half of the upstream difference, limited to half of the
 cell's own film, is added.
 """
@@ -35,14 +36,15 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     limit = None if fluid.limit is None else 0.5 * (before(fluid.limit) + behind(fluid.limit))
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
     thin = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
-    mobility = density * film**3 * fluidity / (12 * problem.lubricant.viscosity * step)
+    cubed = (before(h) * behind(h)) ** 2 / film
+    mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * step)
     exponent: float | np.ndarray = 0.0
     limited: float | np.ndarray = 0.0
     if thin is not None:
         mobility = mobility * thin.factor
         exponent, limited = thin.exponent, thin.limit_exponent
     flow = mobility * (before(p) - behind(p))
-    by_film = flow * (3 - exponent) / film * 0.5
+    by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))
 
     def by_p(side, by_log, sign):
         laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
@@ -50,7 +52,7 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
             laws = laws - limited * 0.5 * fluid.limit_slope / limit
         return sign * mobility + flow * laws
 
-    return PressureFlow(flow, (by_p(before, l_before, 1.0), by_p(behind, l_behind, -1.0)), (by_film, by_film))
+    return PressureFlow(flow, (by_p(before, l_before, 1.0), by_p(behind, l_behind, -1.0)), (by_before, by_behind))
 
 
 def _sides(axis: int):
@@ -63,16 +65,17 @@ def _sides(axis: int):
 @dataclass(frozen=True)
 class CouetteFlow:
     """Through the faces behind every cell along x [m²/s] (nx, ny); derivatives by rho h of that cell and of the one
-    before it [m/s]."""
+    before it [m/s], and by the filled part of the cell [m²/s]."""
 
     flow: np.ndarray
     by_own: np.ndarray
     by_before: np.ndarray
+    by_fill: np.ndarray
 
 
-def couette_flow(problem: Problem, mass) -> CouetteFlow:
-    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces; in the first cell the parabola gives the
-    difference."""
+def couette_flow(problem: Problem, mass, fill=1.0) -> CouetteFlow:
+    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces, where the cell is filled to the part ``fill``; in the
+    first cell the parabola gives the difference."""
     x, dx = problem.x, problem.spacing[0]
     step = np.empty_like(mass)
     step[1:] = mass[1:] - mass[:-1]
@@ -84,4 +87,5 @@ def couette_flow(problem: Problem, mass) -> CouetteFlow:
     by_own[0] = np.where(free[0], 0.0, by_own[0])
     by_before[0] = 0.0
     U = problem.speed
-    return CouetteFlow(U * (mass + half), U * (1 + by_own), U * by_before)
+    full = U * (mass + half)
+    return CouetteFlow(fill * full, fill * U * (1 + by_own), fill * U * by_before, full)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .newton import Found, newton
 from .problem import Problem
-from .state import Past, State, look
+from .state import Past, State, look, mass
 
 FIRST = 3.0  # times dx/U: the first step in time
 SHRINK, GROW = 0.4, 1.7
@@ -33,7 +33,7 @@ def march(problem: Problem, state: State, *, most: int) -> March:
     step, factorisations, krylov, steps = FIRST * unit, 0, 0, 0
     at = look(problem, state)
     while factorisations < most:
-        past = Past(at.balance.fluid.density * at.balance.film, step)
+        past = Past(mass(at.state, at.balance), step)
         found = newton(problem, at.state, tolerance=LOOSE, most=INNER, past=past)
         factorisations, krylov, steps = factorisations + found.factorisations, krylov + found.krylov, steps + 1
         if _solved(found):

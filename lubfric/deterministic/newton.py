@@ -9,12 +9,12 @@ import numpy as np
 
 from .linear import System
 from .problem import Problem
-from .state import FLUID, Look, Past, State, load_error, look, residuals, resorted
+from .state import TOUCHING, Look, Past, State, load_error, look, residuals, settled
 
 KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
 SHORTEST = 0.1  # step, whatever the gap says
-HALVINGS, GROWTH = 5, 1.05
-PATIENCE, PROGRESS = 10, 0.95  # steps in which the residual has to fall to that part of what it was
+HALVINGS, GROWTH, SURGE = 10, 1.05, 2.0
+PATIENCE, PROGRESS = 20, 0.95  # steps in which the residual has to fall to that part of what it was
 
 
 @dataclass(frozen=True)
@@ -36,14 +36,14 @@ class Found:
 def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None = None) -> Found:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
-    Before every step each cell gets the equation it asks for (`resorted`). A step leaves every cell a fifth of its gap
+    Before every step each cell gets the equation it asks for (`settled`). A step leaves every cell a fifth of its gap
     and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the
     residual has not fallen for ten steps.
     """
     history, krylov = [], 0
     at = look(problem, state, past)
     for count in range(most + 1):
-        at = look(problem, resorted(problem, at), past)
+        at = settled(problem, at, past)
         found = residuals(problem, at)
         worst = max(found.values())
         history.append(worst)
@@ -69,11 +69,11 @@ def _stalled(history) -> bool:
 
 def _advanced(problem: Problem, at: Look, step, past) -> Look:
     length = _longest(problem, at, step)
-    before = _merit(problem, at, at.state.kind)
+    before = _merit(problem, at, at.state.kind != TOUCHING)
     for _ in range(HALVINGS):
         new = _moved(problem, at, step, length, past)
-        after = _merit(problem, new, at.state.kind)
-        if after <= GROWTH * before or length <= SHORTEST:
+        after = _merit(problem, new, at.state.kind != TOUCHING)
+        if after <= (GROWTH if length > SHORTEST else SURGE) * before:
             break
         length /= 2
     return new
@@ -92,15 +92,16 @@ def _moved(problem: Problem, at: Look, step, length: float, past) -> Look:
     moved = replace(
         state,
         pressure=state.pressure + length * step.pressure,
+        fill=state.fill + length * step.fill,
         dent=state.dent + length * step.dent,
         approach=state.approach + length * step.approach,
     )
     return look(problem, moved, past)
 
 
-def _merit(problem: Problem, at: Look, kind) -> float:
-    """Σ |r| over the cells that were fluid, and the load, both relative."""
-    value = float(np.abs(at.residual[kind == FLUID]).sum())
-    flow = float(np.mean(np.abs(at.balance.inlet.flow))) * kind.shape[1] / problem.spacing[0]
+def _merit(problem: Problem, at: Look, apart) -> float:
+    """Σ |r| over the cells that were ``apart``, and the load, both relative."""
+    value = float(np.abs(at.residual[apart]).sum())
+    flow = float(np.mean(np.abs(at.balance.inlet.flow))) * apart.shape[1] / problem.spacing[0]
     merit = value / flow + abs(load_error(problem, at)) / problem.load
     return merit if math.isfinite(merit) else math.inf

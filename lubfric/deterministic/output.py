@@ -9,7 +9,7 @@ import numpy as np
 
 from .result import DeterministicResult
 
-FIELDS = ("x", "pressure", "gap", "shear", "dent", "touching", "spots", "wet")
+FIELDS = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")
 
 
 def deterministic_bytes(results: list[DeterministicResult]) -> bytes:

@@ -3,8 +3,8 @@
 On a grid of cells (nx, ny), x along the motion, periodic along y:
 
     h = h0 + x²/(2R) - z + K p + w        gap; z heights of the rough body, w >= 0 its plastic dent
-    div( U rho h - rho h³/(12 eta) grad p ) = 0      where fluid fills the gap
-    p = 0                                  behind the rupture of the film (Swift-Stieber)
+    div( U rho θ h - rho h³/(12 eta) grad p ) = 0    mass; θ = 1 where fluid fills the gap
+    p >= 0, θ <= 1, p (1 - θ) = 0          rupture and refilling that keep the mass (Jakobsson-Floberg-Olsson)
     h = floor                              where the bodies touch; p there is the whole pressure
     p <= P_u, w >= 0, (P_u - p) w = 0      plastic limit, of film and contact alike
     ∫ p dx dy = load
@@ -93,6 +93,11 @@ class Problem:
     def edge_log(self) -> float:
         """4 w/(pi E') [m]: the gap far upstream falls behind the parabola by that times ln|x|."""
         return 4 * self.load / (math.pi * self.e_prime)
+
+    def at_speed(self, speed: float) -> Problem:
+        """The same on the same grid at another U [m/s], as much of it sliding."""
+        faster = replace(self.contact, entrainment_speed=speed)
+        return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
 
     def with_lubricant(self, lubricant: Lubricant) -> Problem:
         """The same with another lubricant."""

@@ -8,8 +8,7 @@ from functools import partial
 
 from .problem import Problem
 from .result import DeterministicResult
-from .solve import solve_point
-from .state import State
+from .solve import Start, solve_point
 from .transfer import SHARP, refined_start, state_on
 
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
@@ -62,13 +61,13 @@ def solve_refined(
     return Refined(tuple(results), error)
 
 
-def _starts(problem: Problem, neighbour, coarse) -> list[Callable[[], State]]:
+def _starts(problem: Problem, neighbour, coarse) -> list[Start]:
     """A neighbour in speed and the coarser grid, where there are any: the coarser grid first where the film carries."""
-    starts: list[Callable[[], State]] = []
+    starts: list[Start] = []
     if neighbour is not None:
-        starts.append(partial(state_on, problem, neighbour))
+        starts.append(Start(partial(state_on, problem, neighbour), neighbour.speed))
     if coarse is not None:
-        starts.append(partial(refined_start, coarse[0], problem, coarse[1]))
+        starts.append(Start(partial(refined_start, coarse[0], problem, coarse[1]), problem.speed))
         if coarse[1].split.spots < SHARP * coarse[1].load:
             starts.reverse()
     return starts

@@ -9,20 +9,21 @@ import numpy as np
 from ..report import Report
 from .forces import Forces, LoadSplit, forces
 from .problem import Problem
-from .state import RUPTURED, TOUCHING, Look, State
+from .state import TOUCHING, Look, State
 
 
 @dataclass(frozen=True)
 class DeterministicResult:
     """One operating point: fields by cells (nx, ny), x along the motion; forces per width [N/m].
 
-    pressure [Pa]: of film and contact, the whole. gap [m] between the rough surfaces, at least the floor. touching,
-    spots, wet (bool): h = floor; the asperity spots of `lubfric.deterministic.forces`; fluid under pressure outside
-    them. shear [Pa] on the moving surface. dent [m]: plastic depth.
+    pressure [Pa]: of film and contact, the whole. gap [m] between the rough surfaces, at least the floor. fill [-]: the
+    filled part of it, 1 but where the film has ruptured. touching, spots, wet (bool): h = floor; the asperity spots of
+    `lubfric.deterministic.forces`; fluid under pressure outside them. shear [Pa] on the moving surface. dent [m]:
+    plastic depth.
     coefficient: (boundary + couette + rolling)/load. split: the load by four rules, ``split.spots`` the one used.
     flow_film [m]: flow/U; min_gap, central_gap (mean at x = 0), mean_gap (over ``strip``, the columns with |x| <= b of
-    the load) [m]; spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that ruptured valleys of the
-    strip give off (they are taken as full, as in the volume balance of load sharing), over U times the mean gap.
+    the load) [m]; spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that touching cells
+    of the strip give off (the floor is kept full), over U times the mean gap.
     approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
@@ -30,6 +31,7 @@ class DeterministicResult:
     spacing: tuple[float, float]
     pressure: np.ndarray
     gap: np.ndarray
+    fill: np.ndarray
     shear: np.ndarray
     touching: np.ndarray
     spots: np.ndarray
@@ -66,6 +68,7 @@ def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
         spacing=problem.spacing,
         pressure=state.pressure,
         gap=at.balance.film,
+        fill=state.fill,
         shear=found.shear,
         touching=state.kind == TOUCHING,
         spots=found.spots,
@@ -93,9 +96,6 @@ def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
 
 
 def _drawn(problem: Problem, at: Look, strip) -> float:
-    """Outflow of ruptured cells of the strip behind which the film closes again, over U times the mean gap."""
-    filled = at.state.kind != RUPTURED
-    closes = np.logical_or.accumulate(filled[::-1], axis=0)[::-1]
-    source = np.where(~filled & closes & strip[:, None], np.maximum(at.residual, 0.0), 0.0)
-    flow = float(source.sum()) * problem.spacing[0] / filled.shape[1]
+    source = np.where(at.state.kind == TOUCHING, np.maximum(at.residual, 0.0), 0.0)[strip]
+    flow = float(source.sum()) * problem.spacing[0] / source.shape[1]
     return flow / (problem.speed * float(at.balance.film[strip].mean()))

@@ -30,15 +30,15 @@ class Balance:
     inlet: Inlet
 
 
-def balance(problem: Problem, pressure, gap) -> Balance:
-    """Steady mass balance of the cells at pressure [Pa] and gap [m] (nx, ny)."""
+def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
+    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny)."""
     dx, dy = problem.spacing
     open_ = gap > problem.floor
     film = np.where(open_, gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along = pressure_flow(problem, fluid, pressure, film, 0)
     across = pressure_flow(problem, fluid, pressure, film, 1)
-    couette = couette_flow(problem, fluid.density * film)
+    couette = couette_flow(problem, fluid.density * film, fill)
     upstream = inlet(problem, pressure[0], first_film(problem, film))
     residual = couette.flow.copy()
     residual[1:] -= couette.flow[:-1]
@@ -56,11 +56,11 @@ def first_film(problem: Problem, film) -> np.ndarray:
     return film[0] - x * dx / (2 * problem.radius) + dx**2 / (8 * problem.radius)
 
 
-def derivatives(problem: Problem, at: Balance, pressure) -> tuple[csr_matrix, csr_matrix]:
-    """d residual/dp [m/(s Pa)] and d residual/dh [1/s], sparse (n, n) over all n = nx ny cells in C order."""
+def derivatives(problem: Problem, at: Balance, pressure) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
+    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s], sparse (n, n) over all n = nx ny cells in C order."""
     dx, dy = problem.spacing
     shape = at.film.shape
-    stencil_p, stencil_h = _Stencil(shape), _Stencil(shape)
+    stencil_p, stencil_h, stencil_fill = _Stencil(shape), _Stencil(shape), _Stencil(shape)
     for stencil, along, across in (
         (stencil_p, at.along.by_p, at.across.by_p),
         (stencil_h, at.along.by_h, at.across.by_h),
@@ -79,9 +79,11 @@ def derivatives(problem: Problem, at: Balance, pressure) -> tuple[csr_matrix, cs
         stencil.add("W", before[1:] * factor[:-1], here=slice(1, None))
         stencil.add("W", -own[:-1] * factor[:-1], here=slice(1, None))
         stencil.add("WW", -before[1:-1] * factor[:-2], here=slice(2, None))
+    stencil_fill.add(0, at.couette.by_fill / dx)
+    stencil_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))
     stencil_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
     stencil_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
-    return stencil_p.matrix(), stencil_h.matrix(at.open_)
+    return stencil_p.matrix(), stencil_h.matrix(at.open_), stencil_fill.matrix()
 
 
 class _Stencil:

@@ -16,18 +16,30 @@ from .state import State
 
 TOLERANCE = 1e-5
 FROM_NEIGHBOUR, DIRECT, MARCHED = 25, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
+FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
+LOOSE = 1e-3  # tolerance of solutions on the way
+LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
 THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
 # a Newtonian
 
 
+@dataclass(frozen=True)
+class Start:
+    """A ``state`` to begin from, made when it is asked for, and the ``speed`` [m/s] it belongs to."""
+
+    state: Callable[[], State]
+    speed: float
+
+
 def solve_point(
-    problem: Problem, *, starts: Iterable[Callable[[], State]] = (), tolerance=TOLERANCE, raise_on_failure=True
+    problem: Problem, *, starts: Iterable[Start] = (), tolerance=TOLERANCE, raise_on_failure=True
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from what each of ``starts`` returns (`lubfric.deterministic.transfer`), from the dry
-    contact lifted by Moes' film, and from where implicit steps in time lead from there; with a Newtonian lubricant also
-    from the solution of one with a limiting shear stress. Which one it was is in ``report.notes``. Converged when the
+    Tried in turn: Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), at once and through the
+    speeds in between; from the dry contact lifted by Moes' film; with a Newtonian lubricant from the solution of one
+    with a limiting shear stress; from higher speeds step by step; and from where implicit steps in time lead from the
+    dry contact. Which one it was is in ``report.notes``. Converged when the
     largest of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
     result.
     """
@@ -62,6 +74,21 @@ class Work:
         self.history += found.history
         return found
 
+    def walk(self, problem, state, speed, tolerance) -> Found:
+        """From a solution at ``speed`` [m/s] on the same grid to ``problem``, through speeds in between."""
+        whole = math.log(speed / problem.speed)
+        left, step = whole, whole / 2
+        while True:
+            to = left - step if abs(step) < abs(left) else 0.0
+            goal = tolerance if to == 0 else max(tolerance, LOOSE)
+            found = self.direct(problem.at_speed(math.exp(to) * problem.speed), state, goal, FROM_NEIGHBOUR)
+            if found.residual <= goal:
+                left, state, step = to, found.look.state, LONGER * step
+            else:
+                step /= 2
+            if left == 0 or abs(step) < SHORTEST:
+                return found
+
     def in_time(self, problem, state, tolerance) -> Found:
         """`march`, then `newton`, counted."""
         way = march(problem, state, most=MARCHED)
@@ -73,8 +100,12 @@ class Work:
 
 def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
     for start in starts:
-        yield "from a neighbouring state", work.direct(problem, start(), tolerance, FROM_NEIGHBOUR)
-    cold = dry_start(problem, dry_contact(problem), problem.contact.moes_film)
+        state = start.state()
+        yield "from a neighbouring state", work.direct(problem, state, tolerance, FROM_NEIGHBOUR)
+        if start.speed != problem.speed:
+            yield "step by step from a neighbouring speed", work.walk(problem, state, start.speed, tolerance)
+    dry = dry_contact(problem)
+    cold = dry_start(problem, dry, problem.contact.moes_film)
     yield "from the dry contact", work.direct(problem, cold, tolerance)
     lubricant = problem.lubricant
     if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
@@ -82,10 +113,13 @@ def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple
             replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
         )
         helped = work.direct(thin, cold, tolerance)
-        if helped.residual > tolerance:
-            helped = work.in_time(thin, cold, tolerance)
         if helped.residual <= tolerance:
             yield "from a fluid with a limiting stress", work.direct(problem, helped.look.state, tolerance)
+    for times in FASTER:
+        fast = problem.at_speed(times * problem.speed)
+        helped = work.direct(fast, dry_start(fast, dry, fast.contact.moes_film), LOOSE)
+        if helped.residual <= LOOSE:
+            yield "step by step from a faster speed", work.walk(problem, helped.look.state, fast.speed, tolerance)
     yield "in time from the dry contact", work.in_time(problem, cold, tolerance)
 
 

@@ -35,4 +35,4 @@ def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
     full = RUPTURE * math.sqrt(2 * problem.radius * film)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
-    return State(p.copy(), dent, kind, p >= problem.hardness, film - dry.approach)
+    return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)

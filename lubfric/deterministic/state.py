@@ -15,10 +15,12 @@ PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below w
 
 @dataclass(frozen=True)
 class State:
-    """pressure [Pa], dent w [m], kind (of `FLUID`, `RUPTURED`, `TOUCHING`), yielded (bool), arrays (nx, ny); approach
-    h0 [m]. A yielded cell has p = P_u and its dent for unknown, any other w = 0 and its pressure."""
+    """pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (of `FLUID`, `RUPTURED`, `TOUCHING`), yielded
+    (bool), arrays (nx, ny); approach h0 [m]. A ruptured cell has p = 0 and its fill for unknown, any other is full; of
+    those a yielded one has p = P_u and its dent for unknown, the rest w = 0 and their pressure."""
 
     pressure: np.ndarray
+    fill: np.ndarray
     dent: np.ndarray
     kind: np.ndarray
     yielded: np.ndarray
@@ -51,30 +53,54 @@ class Past:
 def look(problem: Problem, state: State, past: Past | None = None) -> Look:
     """Gap and mass balance of ``state``, of an implicit step in time where there is a ``past``."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
-    found = balance(problem, state.pressure, gap)
-    stored = None if past is None else (found.fluid.density * found.film - past.mass) / past.step
+    found = balance(problem, state.pressure, gap, state.fill)
+    stored = None if past is None else (mass(state, found) - past.mass) / past.step
     return Look(state, gap, found, stored)
 
 
-def resorted(problem: Problem, at: Look) -> State:
+def mass(state: State, at: Balance) -> np.ndarray:
+    """rho h of what fills the gap [m]."""
+    return state.fill * at.fluid.density * at.film
+
+
+def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
+    """``at`` with every cell given the equation it asks for."""
+    new = look(problem, _resorted(problem, at), past)
+    closed = (new.state.kind == FLUID) & (new.gap < problem.floor)  # by a pressure that was cut to P_u
+    kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
+    return replace(new, state=replace(new.state, kind=kind))
+
+
+def _resorted(problem: Problem, at: Look) -> State:
     """Every cell given the equation that its pressure, gap and residual ask for.
 
-    Fluid that would pull ruptures, ruptured cells that fill up carry pressure again, a fluid cell closer than the floor
-    touches, a touching cell that is pulled opens; a pressure above P_u yields, a dent that would vanish does not.
+    Fluid that would pull ruptures, a ruptured cell that is full carries pressure again, a fluid cell closer than the
+    floor touches, a touching cell that is pulled opens; a pressure above P_u yields, a dent that would vanish does not.
     """
     state, r = at.state, at.residual
     p, kind = state.pressure, state.kind.copy()
     fluid, ruptured, touching = (kind == k for k in (FLUID, RUPTURED, TOUCHING))
-    kind[ruptured & (r < 0)] = FLUID
+    kind[ruptured & (state.fill > 1)] = FLUID
     kind[fluid & (p < 0)] = RUPTURED
     kind[fluid & (p >= 0) & (at.gap < problem.floor)] = TOUCHING
     kind[ruptured & (at.gap < problem.floor)] = TOUCHING
-    kind[touching & (r < -PULL * problem.speed * problem.floor / problem.spacing[0])] = FLUID
+    kind[touching & (r < -_pull(problem))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
-    yielded = state.yielded & (state.dent >= 0) | (p > problem.hardness) & ~state.yielded
-    yielded &= kind != RUPTURED
-    pressure = np.where(kind == RUPTURED, 0.0, np.where(yielded, problem.hardness, p))
-    return replace(state, pressure=pressure, dent=np.where(yielded, state.dent, 0.0), kind=kind, yielded=yielded)
+    beyond = (p > problem.hardness) & ~state.yielded
+    yielded = (state.yielded & (state.dent >= 0) | beyond) & (kind != RUPTURED)
+    spared = np.where(beyond, (p - problem.hardness) * problem.self_deflection, 0.0) if beyond.any() else 0.0
+    return replace(
+        state,
+        pressure=np.where(kind == RUPTURED, 0.0, np.where(yielded, problem.hardness, p)),
+        fill=np.where(kind == RUPTURED, np.clip(state.fill, 0.0, 1.0), 1.0),
+        dent=np.where(yielded, state.dent + spared, 0.0),
+        kind=kind,
+        yielded=yielded,
+    )
+
+
+def _pull(problem: Problem) -> float:
+    return PULL * problem.speed * problem.floor / problem.spacing[0]
 
 
 def load_error(problem: Problem, at: Look) -> float:
@@ -86,26 +112,28 @@ def load_error(problem: Problem, at: Look) -> float:
 def residuals(problem: Problem, at: Look) -> dict[str, float]:
     """How far a state is from a solution; all dimensionless.
 
-    - mass: Σ |r| over fluid cells, relative to the flow that enters;
+    - mass: Σ |r| over fluid and ruptured cells, relative to the flow that enters;
     - load: relative;
     - gap: the largest |h - floor| over touching cells, and floor - h over the others, over the mean gap;
-    - suction: Σ -r over ruptured and touching cells, where r < 0, relative to the flow that enters;
+    - suction: Σ (-r - `PULL` U floor/dx) over touching cells, where positive, relative to the flow that enters;
+    - fill: the largest by which a ruptured cell is filled to less than nothing or more than all;
     - pressure: the largest of -p and p - P_u over the largest pressure.
     """
     state, r = at.state, at.residual
     dx, _ = problem.spacing
     ny = r.shape[1]
     flow = float(np.mean(np.abs(at.balance.inlet.flow))) * ny / dx
-    fluid, touching = state.kind == FLUID, state.kind == TOUCHING
+    touching = state.kind == TOUCHING
     mean_gap = float(np.maximum(at.gap, 0).mean())
     closed = np.abs(at.gap[touching] - problem.floor).max(initial=0.0)
     pierced = (problem.floor - at.gap[~touching]).max(initial=0.0)
     top = max(float(state.pressure.max()), 1.0)
     outside = max(-float(state.pressure.min()), float(state.pressure.max()) - problem.hardness, 0.0)
     return {
-        "mass": float(np.abs(r[fluid]).sum()) / flow,
+        "mass": float(np.abs(r[~touching]).sum()) / flow,
         "load": abs(load_error(problem, at)) / problem.load,
         "gap": float(max(closed, pierced)) / mean_gap,
-        "suction": float(np.maximum(-r[~fluid], 0.0).sum()) / flow,
+        "suction": float(np.maximum(-r[touching] - _pull(problem), 0.0).sum()) / flow,
+        "fill": float(max(-state.fill.min(), state.fill.max() - 1, 0.0)),
         "pressure": outside / top,
     }

@@ -39,9 +39,10 @@ def state_on(problem: Problem, result: DeterministicResult) -> State:
     kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > result.x.size - 0.5)[:, None], RUPTURED, kind))
     kind = kind.astype(np.int8)
     pressure = np.where(kind == RUPTURED, 0.0, pressure)
+    fill = np.where(kind == RUPTURED, _interpolated(old.fill, np.clip(along, 0, result.x.size - 1), across), 1.0)
     yielded = (pressure >= problem.hardness) & (kind != RUPTURED)
     dent = np.where(yielded, _interpolated(old.dent, along, across), 0.0)
-    return State(pressure, dent, kind, yielded, approach)
+    return State(pressure, fill, dent, kind, yielded, approach)
 
 
 def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
@@ -56,7 +57,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     approach = result.approach + old.approach - new.approach
     yielded = pressure >= problem.hardness
     dent = np.where(yielded, np.maximum(-new.gap, 0.0), 0.0)
-    return State(np.minimum(pressure, problem.hardness), dent, kind, yielded, approach)
+    return State(np.minimum(pressure, problem.hardness), state.fill, dent, kind, yielded, approach)
 
 
 def _interpolated(field, along, across) -> np.ndarray:

@@ -68,36 +68,37 @@ def solve_ehl(
     max_iterations: int = 60,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """Film of a smooth line contact: Reynolds, elastic half-spaces, load.
+    """Film of a smooth line contact: Reynolds' equation, elastic half-spaces, a given load.
 
-    Solves d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx with p = dp/dx = 0 at the rupture point (Swift-Stieber),
-    h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx' and ∫ p dx = load_per_width, by Newton's method on nested grids that
-    move with the rupture point (`lubfric.ehl.reynolds`). Checked for M = 1e-6 to 1000, L = 0 to 20.
+    Solved is d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point (Swift-Stieber),
+    h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width, by Newton's method on nested grids
+    (`lubfric.ehl.reynolds`). Checked for Moes' M = 1e-6 to 1000, L = 0 to 20. The cells are doubled until the largest
+    residual of the report (`EHLResult`) is <= tolerance.
 
-    load_per_width : > 0 [N/m]; radius : reduced radius R > 0 [m]
-    e_prime : reduced modulus E' > 0 [Pa], 2/E' = sum (1 - nu²)/E
+    Parameters
+    ----------
+    load_per_width : > 0 [N/m]
+    radius, e_prime : R > 0 [m]; E' > 0 [Pa], 2/E' = sum (1 - nu²)/E
     entrainment_speed : U = (u1 + u2)/2 [m/s], not 0; negative mirrors the solution
-    viscosity : eta0 [Pa s]; pressure_viscosity_coefficient : alpha [1/Pa]; viscosity_law, density_law : see
-        `lubfric.lubricant.Lubricant`, also for the ranges of the laws
+    viscosity, pressure_viscosity_coefficient : eta0 at ambient pressure [Pa s]; alpha [1/Pa]
+    viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m] upstream of the line of
         centres at which the lubricant begins (starved)
-    imposed_pressure : None, or (x [m], pressure [Pa]), arrays (m,), x ascending, pressure >= 0: a line pressure, linear
+    imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
         between the x and zero outside, that is added to p in the deflection (kinks cost cells), and carries no load
     start : the result of a neighbouring load or speed; where it leads nowhere a cold start is taken, and noted
-    least_cells : cells before rupture, to be reached even where the films need fewer (0 to 3072)
-    max_iterations : Newton steps per grid
+    least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
+    raise_on_failure : False returns an unconverged result with its report
 
-    The cells are doubled until ``discretisation`` <= tolerance. report.residuals, all relative:
-    discretisation : c1 = largest change of min_film and flow_film against the grid of half the cells, c0 = the change
-        before that: max(c1, c0/3)/2 (2/3 c1 on two grids); it bounds the error in nine of ten random cases
-        (`lubfric.ehl.assemble.grid_error`)
-    domain : estimated effect of the finite inlet on flow_film
-    mass : largest |flux through a face/q - 1|; load : |∫ p dx/load - 1|; both <= 1e-3 tolerance
-    complementarity : largest of -p/p_max before rupture and of 1 - h/h_rupture behind it
+    Returns
+    -------
+    EHLResult
 
-    Raises `InputError` before any work; `ConvergenceError` for residuals above tolerance, with report and result,
-    unless raise_on_failure is False.
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : residuals above tolerance; carries report and result
     """
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     return solve_line_contact(

@@ -75,8 +75,8 @@ def shear_force(
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
     couette = np.sum(face_tau[full])
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
-    quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), _spike(x[:-1][full], tau[:-1][full]))
-    quadrature += _rolling_error(p, h)
+    quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
+    quadrature += rolling_error(p, h)
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
@@ -104,7 +104,7 @@ def _above_carried(pressure, tau, lengths, full) -> tuple[float, float]:
     return float(np.max(np.abs(tau) / carried)), float(np.sum((0.5 * (above[1:] + above[:-1]) * lengths)[full]))
 
 
-def _spike(x, tau) -> float:
+def spike_error(x, tau) -> float:
     """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum
     over every second node, which a spike makes larger than the error by that or more."""
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
@@ -112,7 +112,7 @@ def _spike(x, tau) -> float:
     return abs(coarse - fine) / 24
 
 
-def _rolling_error(p, h) -> float:
+def rolling_error(p, h) -> float:
     """A third of the change of ∫ (h/2) dp when every second node is left out: the error of second order."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     fine, coarse = (np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n])) for n in (1, 2))

@@ -22,24 +22,27 @@ MOST = 30  # curves on the way, beside those of the differences
 
 
 def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None) -> FitResult:
-    """The values of ``parameters`` with which ``scene`` comes closest to a ``measured`` curve.
+    """Find the values of ``parameters`` with which a scene comes closest to a measured curve.
+
+    Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
+    trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
+    stay above the tolerance on f. It stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
+    sum by <= 1e-4 of it. `FitResult` says how sure the values are.
 
     Parameters
     ----------
     scene : what is known, with the numerics to be used
     measured : from `lubfric.read_measured`, or `lubfric.Measured(speeds, coefficients)`
-    parameters : {"section.key": (lowest, highest)} numbers of the scene to be found between bounds
+    parameters : {"section.key": (lowest, highest)}, numbers of the scene to be found between bounds, in SI units
     start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
     executor : for the speeds of a curve, as in `lubfric.stribeck`
 
-    Minimises sum ((f - measured)/deviation)² (relative deviations where none are given) by a trust region within the
-    bounds (`scipy.optimize.least_squares`, "trf") with differences of 4 % of the bounds, which stay above the tolerance
-    on f. Stops when a step moves the parameters by <= 0.2 % of their bounds or changes the sum by <= 1e-4 of it. The
-    covariance is s² (JᵀJ)⁻¹, with s² the sum over n - p where no deviations are given; a parameter whose 95 % interval
-    is as wide as its bounds is one that the data cannot tell.
+    Returns a `FitResult`.
 
-    Raises `InputError` before any work, `ConvergenceError` with the result when the search does not end or a curve
-    fails.
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : the search does not end, or a curve fails; carries the result
     """
     from scipy.optimize import least_squares
 

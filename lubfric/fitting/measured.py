@@ -22,10 +22,14 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """Measured friction coefficients (n,) over ``x`` (n,).
+    """Measured friction coefficients.
 
-    over: "speed", entrainment speeds [m/s] (a Stribeck curve), or "slide_roll_ratio" [-] at the speed of the scene (a
-    traction curve). deviation (n,): standard deviation of each coefficient; None: the same share of each, not known.
+    Attributes
+    ----------
+    x : entrainment speeds [m/s] or slide-roll ratios [-], (n,)
+    coefficient : friction coefficients [-], (n,)
+    deviation : standard deviation of each coefficient, (n,); None: the same share of each, not known
+    over : "speed" (a Stribeck curve) or "slide_roll_ratio" (a traction curve, at the speed of the scene)
     """
 
     x: np.ndarray
@@ -64,11 +68,28 @@ def read_measured(
     slide_roll_ratio: str | None = None,
     deviation: str | None = None,
 ) -> Measured:
-    """A `Measured` from a text file with a heading, separated by commas, semicolons or tabs.
+    """Read a measured curve from a text file with a heading; commas, semicolons or tabs separate its columns.
 
-    ``coefficient``, ``speed`` or ``slide_roll_ratio``, ``deviation``: the headings of the columns, as they stand in the
-    file; nothing is guessed. A unit in the heading, in square or round brackets, is converted (m/s, mm/s, cm/s, km/h;
-    -, %); a heading of speeds must have one.
+    Nothing is guessed: you name the columns.
+
+    Parameters
+    ----------
+    path : file
+    coefficient : heading of the friction coefficients, as it stands in the file
+    speed, slide_roll_ratio : heading of the speeds, or of the slide-roll ratios (one of the two)
+    deviation : heading of the standard deviations; None: not known
+
+    Returns
+    -------
+    Measured
+
+    Raises
+    ------
+    InputError : a file or a column is missing, or a heading of speeds has no unit
+
+    Notes
+    -----
+    A unit in the heading, in square or round brackets, is converted: m/s, mm/s, cm/s, km/h; -, %.
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")

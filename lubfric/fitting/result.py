@@ -9,6 +9,7 @@ import numpy as np
 
 from ..report import Report
 from ..scene import Scene
+from ..show.shown import table
 from .measured import Measured
 from .parameters import Parameters
 
@@ -18,10 +19,20 @@ AT_BOUND = 5e-3  # of the bounds
 
 @dataclass(frozen=True, eq=False)
 class FitResult:
-    """values, deviations: of the parameters by key; scene: with the values put in; predicted (n,): f at the measured
-    points.
+    """Parameters found by `lubfric.fit`, and how well the data tell them.
 
-    unit (p,): positions between the bounds, whose covariance (p, p) is ``unit_covariance``; slopes (n, p): df/d(unit).
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p where no deviations are given. A parameter whose 95 %
+    interval is as wide as its bounds is one that the data cannot tell.
+
+    Attributes
+    ----------
+    values : the parameters found, {"section.key": value}
+    deviations : their standard deviations, by key
+    scene : the scene with the values put in
+    predicted : f at the measured points, (n,)
+    unit : the parameters as positions between their bounds, 0 to 1, (p,)
+    unit_covariance : covariance of ``unit``, (p, p)
+    slopes : df/d(unit) at the measured points, (n, p)
     """
 
     base: Scene
@@ -114,6 +125,11 @@ class FitResult:
     def __repr__(self) -> str:
         found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
         return f"<FitResult: {found}; cannot tell: {', '.join(self.undetermined) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        found, known = self.values, self.intervals
+        words = {key: f"{found[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}" for key, (low, high) in known.items()}
+        return table(words | {"cannot tell": ", ".join(self.undetermined) or "none"}, "FitResult")
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""

@@ -4,17 +4,21 @@ tolerance."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import budget
+from ..errors import InputError
 from ..line_contact import LineContact
 from ..lubricant import NO_LIQUID, Lubricant, shear_stress
 from .conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
 from .flash import FAST
-from .inlet import InletHeat, inlet_heat
+from .inlet import LARGEST, InletHeat, inlet_heat
 from .stress import heated_stress
+
+NOTHING = 1e-9  # of the film: less heat than that is none
 
 
 @dataclass(frozen=True)
@@ -25,7 +29,7 @@ class WarmFilm:
     """
 
     inlet_viscosity: float
-    stress: object = None
+    stress: Callable | None = None
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ class Heat:
     @property
     def slow(self) -> bool:
         """The surfaces move too slowly for the flash temperature used, which is then too high."""
-        return self.heated is not None and self.peclet < FAST
+        return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:
         """In words, the number beside its budget."""
@@ -98,8 +102,14 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     """The lubricant that the film is solved with: as viscous as it is in the heated inlet, so that Moes' film is
     thinner by the factor of `inlet_at`."""
     found, used = inlet_at(scene, speed)
-    if found is None or not used:
+    if found is None or not used or found.factor > 1 - NOTHING:
         return scene.lubricant
+    if found.factor <= 0:
+        raise InputError(
+            f"heat of the inlet: thermal number eta0 beta U²/k = {found.thermal_number:.3g} leaves no film by the "
+            f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
+            "viscosity, temperature_coefficient and their units?)"
+        )
     bodies, lubricant = scene.bodies, scene.lubricant
     whole = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, lubricant)
 

@@ -13,13 +13,21 @@ from .read import check_history, history
 class Transient:
     """What changes in time in a scene, and for how long.
 
-    duration [s]; outputs: number of output times, spread evenly, beside 0. Histories (numbers or
-    `lubfric.history`; None: the scene's own constant): speed [m/s] entrainment speed; sliding
-    [m/s] u2 - u1 (None: slide-roll ratio x speed); load [N]; radius [m]; viscosity [Pa s], ambient.
-    initial: "steady" (the steady state of the values before t = 0), "rest" (no film pressure, the contact
-    carries the load) or "auto" (steady where there is entrainment, else rest); initial_film [m]: start
-    from the undeformed parabola at this height instead.
-    tolerance: largest local error of the film per step, relative (None: 0.01 x the scene's film tolerance).
+    A history is a number or one of `lubfric.history`. None means the scene's own constant.
+
+    Attributes
+    ----------
+    duration : [s]
+    outputs : number of output times, spread evenly, beside 0
+    speed : entrainment speed [m/s]
+    sliding : u2 - u1 [m/s]; None: slide-roll ratio x speed
+    load : [N]
+    radius : reduced radius [m]
+    viscosity : at ambient pressure [Pa s]
+    initial : "steady": the steady state of the values before t = 0; "rest": no film pressure, the contact carries the
+        load; "auto": steady where there is entrainment, else rest
+    initial_film : start from the undeformed parabola at this height instead [m]
+    tolerance : largest local error of the film in a step, relative; None: 0.01 x the scene's film tolerance
     """
 
     duration: float

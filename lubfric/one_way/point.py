@@ -19,7 +19,7 @@ from ..deterministic.start import dry_contact
 from ..film.rigid import true_pressure
 from ..lubricant import Lubricant, shear_stress
 from ..report import Report
-from ..roots import increasing_root
+from ..roots import Root, increasing_root
 from .film import GapFilm, gap_film
 from .limit import pressure_limit
 
@@ -32,7 +32,7 @@ PRESSED = 50e6  # Pa: a Newtonian film above it is sheared at no more than f_b p
 class OneWay:
     """One operating point. x (nx,) [m]; gap [m], pressure of the contact and of the film [Pa], closed and ruptured
     (bool), (nx, ny); forces per width [N/m]; unknown: ln(F_H/F_C) or, where the bodies are lifted, ln(lift/scale), from
-    which a neighbour starts."""
+    which a neighbour starts, and slope of the balance over it (None: not known)."""
 
     x: np.ndarray
     gap: np.ndarray
@@ -47,6 +47,7 @@ class OneWay:
     rolling: float
     lifted: bool
     unknown: float
+    slope: float | None
     report: Report
 
     @property
@@ -67,6 +68,19 @@ class Trial:
     pressure: np.ndarray
     film_load: float
 
+    @property
+    def ruptured(self) -> np.ndarray:
+        """Where the film has (bool)."""
+        return self.film.ruptured
+
+
+@dataclass(frozen=True)
+class Before:
+    """What a first trial takes from a neighbour on the same cells."""
+
+    ruptured: np.ndarray
+    contact: None = None
+
 
 def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLERANCE) -> OneWay:
     """The division of the load at which contact and film in its gap carry it: |F_C + F_H - F_T| <= tolerance F_T.
@@ -80,9 +94,17 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
     else:
         lifted = _lifted(problem, touching, 1e-3 * scale, None).film_load > problem.load
     for lift in (lifted, not lifted):
-        guess = start.unknown if start is not None and start.lifted == lift else 0.0
         f = partial(_too_thick, problem, touching, scale) if lift else partial(_too_much_film, problem)
-        root = increasing_root(f, guess, step=0.7, bounds=LIFTS if lift else SHARES, tolerance=tolerance)
+        near = start if start is not None and start.lifted == lift else None
+        root = increasing_root(
+            f,
+            near.unknown if near else 0.0,
+            step=0.7,
+            bounds=LIFTS if lift else SHARES,
+            tolerance=tolerance,
+            slope=near.slope if near else None,
+            first=_before(problem, near) if near else None,
+        )
         if abs(root.value) <= tolerance:
             break
     report = Report(
@@ -90,12 +112,17 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
         {"load": abs(root.value)}, root.history, root.payload.film.sets,
         ("the bodies are lifted off each other, undeformed",) if lift else (),
     )  # fmt: skip
-    result = _result(problem, root.payload, lift, root.x, report)
+    result = _result(problem, root.payload, lift, root, report)
     report.raise_if_failed(result)
     return result
 
 
-def _too_much_film(problem: Problem, split: float, last: Trial | None):
+def _before(problem: Problem, near: OneWay) -> Before | None:
+    same = near.gap.shape == problem.heights.shape and np.allclose(near.x, problem.x, atol=1e-3 * problem.spacing[0])
+    return Before(near.ruptured) if same else None
+
+
+def _too_much_film(problem: Problem, split: float, last: Trial | Before | None):
     """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
     contact_load = problem.load / (1 + math.exp(split))
     lighter = replace(problem, contact=replace(problem.contact, load_per_width=contact_load))
@@ -107,20 +134,20 @@ def _too_much_film(problem: Problem, split: float, last: Trial | None):
     return math.log(wanted / trial.film_load), trial
 
 
-def _too_thick(problem: Problem, touching: float, scale: float, log_lift: float, last: Trial | None):
+def _too_thick(problem: Problem, touching: float, scale: float, log_lift: float, last: Trial | Before | None):
     trial = _lifted(problem, touching, scale * math.exp(log_lift), last)
     return math.log(problem.load / trial.film_load), trial
 
 
-def _lifted(problem: Problem, touching: float, lift: float, last: Trial | None) -> Trial:
+def _lifted(problem: Problem, touching: float, lift: float, last: Trial | Before | None) -> Trial:
     gap = problem.rigid_gap - touching + lift
     return _filled(problem, np.maximum(gap, problem.floor), np.zeros(gap.shape, bool), 0.0, None, last)
 
 
-def _filled(problem: Problem, gap, closed, contact_load: float, dry, last: Trial | None) -> Trial:
+def _filled(problem: Problem, gap, closed, contact_load: float, dry, last: Trial | Before | None) -> Trial:
     lubricant = problem.lubricant
     plain = problem.with_lubricant(Lubricant(lubricant.viscosity, viscosity_law="constant"))
-    film = gap_film(plain, gap, closed, last.film.ruptured if last else None)
+    film = gap_film(plain, gap, closed, last.ruptured if last else None)
     law = np.positive if lubricant.viscosity_law == "constant" else true_pressure(lubricant)
     limit = pressure_limit(lubricant, gap, problem.sliding, problem.boundary_friction)
     pressure = np.where(closed, 0.0, np.minimum(law(film.reduced), limit))
@@ -128,7 +155,7 @@ def _filled(problem: Problem, gap, closed, contact_load: float, dry, last: Trial
     return Trial(contact_load, dry, gap, closed, film, pressure, carried)
 
 
-def _result(problem: Problem, at: Trial, lifted: bool, unknown: float, report: Report) -> OneWay:
+def _result(problem: Problem, at: Trial, lifted: bool, root: Root, report: Report) -> OneWay:
     lubricant, p, cell = problem.lubricant, at.pressure, problem.spacing[0] / at.gap.shape[1]
     wet = ~at.closed & ~at.film.ruptured
     tau = shear_stress(lubricant, p, problem.sliding / at.gap)
@@ -150,6 +177,7 @@ def _result(problem: Problem, at: Trial, lifted: bool, unknown: float, report: R
         float(tau[wet].sum()) * cell + lubricant.viscosity * problem.sliding * inlet.shearing,
         float(rolling[film_faces].sum()) / p.shape[1] + inlet.rolling,
         lifted,
-        unknown,
+        root.x,
+        root.slope,
         report,
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..deterministic.point import grids, layer
 from ..deterministic.refine import estimate
 from ..scene import Scene
@@ -18,9 +20,19 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
     found: list[OneWay] = []
     shapes = [shape for shape in grids(scene, surface) if shape[1] <= surface.shape[1]]
     for level, shape in enumerate(shapes):
-        near = start[level] if level < len(start) else found[-1] if found else None
+        near = _near(start, found, level)
         found.append(solve_one_way(lay(shape), near))
         error = estimate([one.coefficient for one in found])
         if scene.numerics.grid != "given" and error is not None and error <= scene.numerics.tolerance:
             break
     return tuple(found)
+
+
+def _near(start: tuple[OneWay, ...], found: list[OneWay], level: int) -> OneWay | None:
+    """What grid ``level`` begins from: the next coarser one, corrected by what the two differed in at the neighbour."""
+    if level >= len(start) or not found:
+        return found[-1] if found else start[0] if start else None
+    coarse, here, coarser = found[-1], start[level], start[level - 1]
+    if not coarse.lifted == here.lifted == coarser.lifted:
+        return coarse
+    return replace(here, unknown=coarse.unknown + here.unknown - coarser.unknown, slope=coarse.slope)

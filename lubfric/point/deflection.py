@@ -9,9 +9,11 @@ is below 0.5 %.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from .. import budget
+from ..errors import LubfricError
 from ..prepared import Prepared
 from .adapt import Solved, solved
 from .balance import Balance
@@ -39,12 +41,12 @@ def solved_as_deflected(
 ) -> tuple[Prepared, Solved]:
     """``prepared`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance
     needs it, and its solution (`solved`). A loose solve by the film's own pressure that is far beyond its share goes to
-    the whole load at once; the choice does not depend on ``start``."""
+    the whole load at once, and so does one that fails; the choice does not depend on ``start``."""
     if prepared.scene.numerics.film_deflection != "auto":
         return prepared, solved(prepared, speed, start, given_grid=given_grid)
     limit, error, option = budget.DEFLECTION * prepared.scene.numerics.tolerance, 0.0, "hydrodynamic"
     if speed != 0:
-        error = own_pressure_error(prepared.scene, solved(_loose(prepared), speed).balance)
+        error = _loose_error(prepared, speed)
     if error <= CERTAIN * limit:
         chosen = deflected_by(prepared, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
@@ -55,6 +57,14 @@ def solved_as_deflected(
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
     return chosen, replace(found, decision=replace(found.decision, deflection=told))
+
+
+def _loose_error(prepared: Prepared, speed: float) -> float:
+    """`own_pressure_error` of a loose solve; infinite where that fails, which says nothing of the point itself."""
+    try:
+        return own_pressure_error(prepared.scene, solved(_loose(prepared), speed).balance)
+    except LubfricError:
+        return math.inf
 
 
 def _loose(prepared: Prepared) -> Prepared:
@@ -71,6 +81,8 @@ def in_words(error: float, limit: float, option: str) -> str:
     """For `Decision.text`."""
     if option == "hydrodynamic":
         return f"deflection: by the film's own pressure, at most {100 * error:.2g} % of f < {100 * limit:.2g} % budget"
+    if error == math.inf:
+        return "deflection: by the whole load (scaled modulus), the safer one: the solve that was to choose failed"
     share = f"{100 * error:.2g} %" if error < SENSIBLE else "far more"
     return (
         "deflection: by the whole load (scaled modulus); by the film's own pressure alone f may be off by "

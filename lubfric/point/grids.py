@@ -119,11 +119,11 @@ def under_the_film(
     tolerance: between grids no more is asked."""
     contact, state = coarser
     film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, contact)
-    thickness, shape = stage.point.imposed_on(part, film)
+    thickness, shape = stage.point.film_on(part, film)
     found = part.close(thickness, load, near or state, shape)
     if part is whole:
         return whole, found
-    thickness, shape = stage.point.imposed_on(whole, film)
+    thickness, shape = stage.point.film_on(whole, film)
     if whole.holds(part, shape, found):
         return part, found
     return whole, whole.close(thickness, load, found, shape)

@@ -7,13 +7,11 @@ import math
 from ..prepared import Prepared
 from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import of_deflection, of_pressure, of_thickness
+from ..validity.film import STRIP_SHARE, of_deflection, of_pressure, of_thickness
 from ..validity.heat import of_heat
 from ..validity.stress import of_shear
 from .balance import Balance
 from .deflection import strip_rise
-
-STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
 
 
 def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:

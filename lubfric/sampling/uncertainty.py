@@ -13,15 +13,21 @@ FEW = 10.0  # participation below which an interval covers less often than it sa
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Of the friction coefficient of one operating point; see docs/uncertainty.md for what is not in it.
+    """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not in it.
 
-    numerical: estimated relative error from film, grids and solvers; sampling: relative standard error because a finite
-    length of rough surface stands for all of it (NaN: cannot be told, ``text`` says why); interval: f at 95 %, from
-    both, by Student's t of ``freedom`` degrees; line_scatter: relative standard deviation of f between lines as wide as
-    that of the scene, another place on the surface each; participation: number of equally loaded spots that would
-    carry as unevenly; length [m] of the line used; area_needed: how many times more of a measured map would be needed
-    (1: enough). model_form: estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the
-    interval; NaN where it is not known.
+    Attributes
+    ----------
+    numerical : estimated relative error from film, grids and solvers
+    sampling : relative standard error because a finite length of rough surface stands for all of it. NaN: it cannot be
+        told, and ``text`` says why
+    interval : f at 95 %, (low, high), from both, by Student's t of ``freedom`` degrees
+    line_scatter : relative standard deviation of f between lines as wide as that of the scene, each at another place on
+        the surface
+    participation : number of equally loaded spots that would carry as unevenly
+    length : of the line used [m]
+    area_needed : how many times more of a measured map would be needed (1: enough)
+    model_form : estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the interval;
+        NaN where it is not known
     """
 
     numerical: float = math.nan

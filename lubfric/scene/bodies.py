@@ -14,11 +14,16 @@ from ..errors import InputError
 class Bodies:
     """The line contact: a cylinder on a plane, or the nominally flat strip under it.
 
-    radius [m] reduced radius; width [m] length of the line; load [N] total load F_T;
-    e_prime [Pa] with 2/E' = (1-nu1^2)/E1 + (1-nu2^2)/E2; hardness [Pa] plastic limit P_u of the
-    contact pressure (None: elastic); boundary_friction_coefficient f_b [-] of the contact spots.
-    conductivity [W/(m K)] and volumetric_heat rho c [J/(m^3 K)] of both bodies, which carry the heat of the film away
-    (steel).
+    Attributes
+    ----------
+    radius : reduced radius R [m]
+    width : length of the line B [m]
+    load : total load F_T [N]
+    e_prime : E' [Pa], 2/E' = (1-nu1²)/E1 + (1-nu2²)/E2
+    hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
+    boundary_friction_coefficient : f_b of the contact spots [-]
+    conductivity : of both bodies [W/(m K)]; they carry the heat of the film away (default: steel)
+    volumetric_heat : rho c of both bodies [J/(m³ K)]
     """
 
     radius: float

@@ -19,14 +19,18 @@ ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 class ContactDomain:
     """The part of the contact that is resolved, and how the two models meet on it.
 
-    geometry "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2);
-    "flat": nominally flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1).
-    region: area A of the volume balance, Eq. (8): "hertz" (the strip |x| <= b of the total load)
-    or "box" (the whole patch). shape (nx, ny) and spacing (dx, dy) [m] of the contact grid; a
-    measured map keeps its own grid where they are left out.
-    model: "half-space" (every point of the surface, with interaction), or independent Hertz contacts of
-    "summits" or "patches" (`lubfric.asperity`); asperity_separation: how the film sets the separation of
-    these, "volume" (Eq. 8 without deflection) or "mean-plane" (the mean film itself).
+    Attributes
+    ----------
+    geometry : "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2); "flat": nominally
+        flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1)
+    region : area A of the volume balance, Eq. (8): "hertz", the strip |x| <= b of the total load, or "box", the whole
+        patch
+    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. A measured map keeps its own grid where they are
+        left out
+    model : "half-space": every point of the surface, with interaction; "summits" or "patches": independent Hertz
+        contacts (`lubfric.asperity`)
+    asperity_separation : how the film sets the separation of independent asperities: "volume" (Eq. 8 without
+        deflection) or "mean-plane" (the mean film itself)
     """
 
     geometry: str = "cylinder"

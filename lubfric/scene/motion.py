@@ -11,12 +11,14 @@ FASTEST = 1e6  # m/s
 
 @dataclass(frozen=True)
 class Motion:
-    """Speeds of the two surfaces.
+    """Speeds of the two surfaces. Surface 2 is the upper one, on which the shear is taken (paper, Eq. 12).
 
-    entrainment_speed U = (u1 + u2)/2 [m/s]; slide_roll_ratio (u2 - u1)/U [-], kept while the
-    entrainment speed varies along a Stribeck curve. Surface 2 is the upper one, on which the shear
-    is taken (paper, Eq. 12). 2: surface 1 stands still, 0: pure rolling. speeds [m/s]: the entrainment
-    speeds of the Stribeck curve.
+    Attributes
+    ----------
+    entrainment_speed : U = (u1 + u2)/2 [m/s]
+    slide_roll_ratio : (u2 - u1)/U [-], kept while the entrainment speed varies along a Stribeck curve. 2: surface 1
+        stands still, 0: pure rolling
+    speeds : the entrainment speeds of the Stribeck curve [m/s]
     """
 
     entrainment_speed: float

@@ -31,22 +31,29 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class Numerics:
-    """Relative tolerances. ``tolerance`` is the one on the friction coefficient; those of film, contact and balance
-    follow from it where they are left out (`tolerances`).
+    """How accurately, and how much, a scene is solved. Tolerances are relative.
 
-    closure: "load" (contact solved at F_T - F_H, volume balanced) or "separation" (the paper's way: film imposed
-    on the contact, loads balanced). film_deflection: of the film's own pressure ("hydrodynamic", the paper) or
-    of the whole load, by Johnson's scaled modulus E' F_H/F_T ("scaled") or of film and contact pressure ("total");
-    "auto": the first where that changes f by less than its share of the tolerance, else the second.
-
-    What is modelled: "auto" takes no more than the tolerance needs (docs/levels.md). model "full": everything, on the
-    scene's own grid; "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md).
-    film_level, contact_level, grid: a level given by name instead. heat: of inlet, film and surfaces, "auto" (where it
-    matters and the lubricant says how its viscosity falls with the temperature), "on", "off". accept: results outside
-    the range of the model are returned, marked, instead of refused.
-
-    What surface it is modelled with: sampling "line", a line of the scene's roughness as long as the standard error
-    ``sampling_tolerance`` of f asks, relative (docs/uncertainty.md); "patch", the one patch of ``contact.shape``.
+    Attributes
+    ----------
+    tolerance : on the friction coefficient. Those of film, contact and balance follow from it where they are left out
+        (`tolerances`)
+    film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
+    sampling : what surface it is modelled with: "line", a line of the scene's roughness as long as
+        ``sampling_tolerance`` asks (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
+    sampling_tolerance : standard error of f that a finite line may leave
+    closure : "load": contact solved at F_T - F_H, volume balanced; "separation": the paper's way, film imposed on the
+        contact, loads balanced; "one-way": one film in the dry contact's own gap
+    film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
+        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total"). "auto": the first where that changes
+        f by less than its share of the tolerance, else the second
+    model : "auto": no more than the tolerance needs (docs/levels.md); "full": everything, on the scene's own grid;
+        "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md)
+    film_level, contact_level, grid : a level given by name instead of "auto"
+    heat : of inlet, film and surfaces: "auto" (where it matters, and the lubricant says how its viscosity falls with
+        the temperature), "on", "off"
+    accept : True: results outside the range of the model are returned and marked, instead of refused
+    cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
+    workers : threads of the Fourier transforms
     """
 
     tolerance: float = 0.01

@@ -20,8 +20,13 @@ from .numerics import Numerics
 class Scene:
     """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
 
-    surface, counterface: the roughness of the two bodies (None: the other one is smooth); the sum of both is in
-    contact.
+    Attributes
+    ----------
+    bodies, lubricant, motion, contact, numerics : the sections of a scene file (docs/scene.md)
+    surface, counterface : the roughness of the two bodies (None: the other body is smooth). The sum of both is in
+        contact
+    transient : what changes in time, a `lubfric.Transient`, or None
+    name : for titles
     """
 
     bodies: Bodies

@@ -16,12 +16,15 @@ from ..short_forms import short_keys
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
+MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
 CASE = "case"  # name of the dimension of keys that go together
 
 
 @dataclass(frozen=True)
 class Between:
-    """A range [low, high] of a key, sampled uniformly in its value (scale "linear") or its logarithm ("log")."""
+    """A range [low, high] of a key, in the unit of the key. scale "linear": sampled evenly in its value; "log": in its
+    logarithm.
+    """
 
     low: float
     high: float
@@ -62,6 +65,12 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
     axes, cases = [], 0
+    points = math.prod(len(values) for values in vary.values() if hasattr(values, "__len__"))
+    if points > MOST_POINTS:
+        raise InputError(
+            f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
+            "(several studies, or lubfric.sample for points of the box)"
+        )
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:
@@ -76,13 +85,25 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
-    """``count`` points of the box of ``ranges``, a list of `Between`, as values for keys that `lubfric.study` varies
-    together:
+    """Points of a box, as values for keys that `lubfric.study` varies together.
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
 
-    sampler "sobol": a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`; ``count`` a power of two), which fills the box
-    evenly, or "random": independent points. Equal ``seed``, equal points.
+    Parameters
+    ----------
+    ranges : a list of `Between`, one for each key
+    count : number of points; a power of two for "sobol"
+    sampler : "sobol", a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`), which fills the box evenly; or "random",
+        independent points
+    seed : equal seeds give equal points
+
+    Returns
+    -------
+    list of tuples, one value for each range
+
+    Raises
+    ------
+    InputError : an argument out of range
     """
     from scipy.stats import qmc
 
@@ -90,7 +111,7 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     if not ranges or not all(isinstance(part, Between) for part in ranges):
         raise InputError(f"ranges = {ranges!r}; allowed: a list of lubfric.Between(low, high)")
     validate.choice("sampler", sampler, SAMPLERS)
-    count = validate.integer("count", count, minimum=1)
+    count = validate.integer("count", count, minimum=1, maximum=MOST_POINTS)
     seed = validate.integer("seed", seed, minimum=0)
     if sampler == "sobol":
         if count & (count - 1):

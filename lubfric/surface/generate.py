@@ -25,29 +25,33 @@ ROUNDING = 1e-13  # of the largest power: what the transform leaves where the sp
 def generate_surface(
     shape, spacing, *, sq, correlation_length, acf="exponential", decay_level=INVERSE_E, seed, cutoff=None
 ) -> Surface:
-    """A periodic Gaussian random surface: white noise filtered with the root of the power spectrum.
+    """A periodic Gaussian random surface: white noise, filtered with the root of the power spectrum.
 
-    Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83-90,
-    doi:10.1016/0890-6955(92)90064-N. The spectrum is the discrete transform of the autocorrelation summed
-    over its periodic images, which is positive and exact at the lags of the grid.
+    Source: Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83-90, doi:10.1016/0890-6955(92)90064-N. The
+    spectrum is the discrete transform of the autocorrelation summed over its periodic images. It is positive, and exact
+    at the lags of the grid.
 
     Parameters
     ----------
     shape, spacing : (nx, ny) points; (dx, dy) or one length [m]
-    sq : root mean square height [m]. The mean is removed and the heights are rescaled, so that Sq is met
-        *exactly* in every realisation (without that it would scatter by about one correlation
-        length over the length of the map).
-    correlation_length : lag [m] at which the ACF falls to ``decay_level``; one, or one along x and y
-    acf : with r^2 = (x/bx)^2 + (y/by)^2: "exponential" exp(-r) (no second derivative: slopes, curvatures
-        and summits depend on the grid) or "gaussian" exp(-r^2)
+    sq : root mean square height [m]. The mean is removed and the heights are rescaled, so that Sq is met *exactly* in
+        every realisation. Without that it would scatter by about one correlation length over the length of the map
+    correlation_length : lag [m] at which the autocorrelation falls to ``decay_level``; one, or one along x and y
+    acf : with r² = (x/bx)² + (y/by)²: "exponential", exp(-r), which has no second derivative, so that slopes,
+        curvatures and summits depend on the grid; or "gaussian", exp(-r²)
     decay_level : 1/e by default; 0.1 and 0.2 (ISO 25178-2 Sal) are other conventions
     seed : whole number; the same input gives the same surface
     cutoff : shortest wavelength kept [m], or None for all that the grid holds
 
-    The length that the *expected* ACF of such a map has (finite size, zero mean, cutoff) and the length found
-    in this realisation are stated in ``notes``. Raises `InputError`, before generating, when the expected
-    length is more than 10 % off the one asked (a map shorter than about 10 lengths (exponential) or 5
-    (gaussian)), or when the grid has fewer than 2 cells per length at 1/e.
+    Returns
+    -------
+    Surface : its ``notes`` state the length that the *expected* autocorrelation of such a map has (finite size, zero
+        mean, cutoff), and the length found in this realisation
+
+    Raises
+    ------
+    InputError : before generating, when the expected length is more than 10 % off the one asked (a map shorter than
+        about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
     checks.points("shape", shape)

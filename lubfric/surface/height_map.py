@@ -19,16 +19,20 @@ HIGHEST = 1e3  # m, of any height
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Surface(FrozenArrays, Shown):
-    """Heights on a uniform grid; x, the direction of motion, is axis 0. Every method returns a new map.
+    """Heights on a uniform grid. x, the direction of motion, is axis 0. Every method returns a new map.
 
-    heights : (nx, ny) [m], upwards, at most 1 km. Read-only. Unmeasured points are NaN until `fill` is called.
-    spacing : (dx, dy) [m]; one number means equal.
-    mask : (nx, ny) True where measured, also after filling; None: everywhere, or where a masked array is not masked.
-    periodic_axes : whether the map continues smoothly onto itself along x and along y.
-    source, seed, notes : where it came from and everything that was done to it.
+    Attributes
+    ----------
+    heights : (nx, ny) [m], upwards, at most 1 km; read-only. Unmeasured points are NaN until `fill` is called
+    spacing : (dx, dy) [m]; one number means equal
+    mask : (nx, ny), True where measured, also after filling. None: everywhere, or where a masked array is not masked
+    periodic_axes : whether the map continues smoothly onto itself along x and along y
+    source, seed, notes : where it came from, and everything that was done to it
 
-    Raises `InputError` for arrays that are not 2-D, values that are not finite at measured points,
-    a mask of another shape or with no point, a spacing that is not positive.
+    Raises
+    ------
+    InputError : arrays that are not 2-D, values that are not finite at measured points, a mask of another shape or with
+        no point, a spacing that is not positive
     """
 
     heights: np.ndarray

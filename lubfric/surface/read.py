@@ -26,7 +26,7 @@ MOST_BYTES = 2**30  # of a file of text
 def read_surface(
     path, *, level=True, form="plane", fill=True, spacing=None, unit=None, decimal=None, missing_value=None
 ) -> Surface:
-    """Read a measured height map; take off its form, then fill what was not measured (the mask stays).
+    """Read a measured height map, take off its form, then fill what was not measured (the mask stays).
 
     ==================== ==================================================================
     .npy                 heights[ix, iy]; needs ``spacing``
@@ -38,26 +38,31 @@ def read_surface(
                          `read_instrument_file` chooses a channel of a file that has several)
     ==================== ==================================================================
 
+    In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
+    noted in ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
+    Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
+
     Parameters
     ----------
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
-    form : "plane", or "quadratic" (second order: cylinder or paraboloid too); least squares. The F-operation of ISO
-        25178-2; `Surface.filtered` has the S- and L-filters
+    form : "plane", or "quadratic" (second order: cylinder or paraboloid too), by least squares. This is the F-operation
+        of ISO 25178-2; `Surface.filtered` has the S- and L-filters
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
-    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN does
-        always
+    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN always
+        does
 
-    Notes
-    -----
-    Text: lines that start with # and titles without numbers above the table are skipped (the latter noted in
-    ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
-    Raises `InputError` for a file that is missing, truncated, of an unknown kind,
-    inconsistent or hostile, for words among the numbers, commas that can be read both ways, a title that names a unit
-    when ``unit`` is not given, infinite heights, non-uniform spacing and spacing given twice or not at all.
-    Nothing is printed: look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before trusting a file.
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    InputError : a file that is missing, truncated, of an unknown kind, inconsistent or hostile; words among the
+        numbers; commas that can be read both ways; a title that names a unit when ``unit`` is not given; infinite
+        heights; non-uniform spacing; spacing given twice or not at all
     """
     path = _existing(path)
     _check_form(level, form)

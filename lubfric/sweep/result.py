@@ -14,6 +14,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..result import FrictionResult
 from ..sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from ..show import Shown
+from ..show.cite import together
 from ..studies.adaptive import FEWEST, samples_of
 from ..validity.entry import Validity
 from ..validity.gather import gathered
@@ -35,13 +36,22 @@ QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NO
 
 @dataclass(frozen=True, repr=False)
 class StribeckResult(Shown):
-    """Arrays over speed (in the order asked for), NaN where a point failed.
+    """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
-    Every number of `FrictionResult` is an array attribute of the same name. ``points`` holds the
-    results themselves (None where failed), ``errors`` {index: the exception raised there}; that of a point outside the
-    range of the model is a `ValidityError` with the point's result. ``validity``: what does not hold, gathered over the
-    speeds; ``uncertainty``: arrays of the numbers of `Uncertainty` (`UncertaintyCurve`), ``field_errors`` {quantity:
-    its relative errors, an array}. One line of the surface serves all speeds, so their errors go up and down together.
+    Every number of `FrictionResult` is an array attribute of the same name and unit. One line of the surface serves all
+    speeds, so their errors go up and down together.
+
+    Attributes
+    ----------
+    speed : entrainment speeds [m/s], (n,)
+    coefficient : friction coefficients [-], (n,)
+    points : the results themselves (None where failed)
+    errors : {index: the exception raised there}. The `ValidityError` of a point outside the range of the model carries
+        the point's result
+    validity : the assumptions that do not hold, gathered over the speeds
+    uncertainty : arrays of the numbers of `Uncertainty`; ``interval`` is (n, 2)
+    field_errors : {quantity: its relative errors, (n,)}
+    report : whether all speeds were solved
     """
 
     speed: np.ndarray
@@ -115,6 +125,10 @@ class StribeckResult(Shown):
         from ..show.axes import curve_axes
 
         return curve_axes(self, ax, **style)
+
+    def cite(self) -> str:
+        """The papers behind what was used at any of the speeds, one a line, the model's first."""
+        return together(point for point in self.points if point is not None)
 
     def _facts(self) -> dict[str, str]:
         facts = {"": f"{self.speed.size} speeds"}

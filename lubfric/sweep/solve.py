@@ -31,22 +31,23 @@ def stribeck(
     on_point=None,
     raise_on_failure: bool = True,
 ) -> StribeckResult:
-    """The Stribeck curve of ``scene`` at entrainment ``speeds`` [m/s] (default: the scene's own).
+    """The Stribeck curve of a scene: friction over the entrainment speed.
 
-    ``speeds="auto"`` chooses them (`lubfric.curve`), mostly 9 to 13, at most 25, so that ``curve.at(speed)`` is within
-    the tolerance on f (on a line of a surface: and the sampling tolerance, root sum of squares) everywhere between the
-    slowest and the fastest of the scene's speeds, or, where it has none, from boundary lubrication to a full film; the
-    knee at lift-off, ``curve.lift_off``, is enclosed. These are solved one after the other, each started from the
-    nearest. Speeds are solved from the fastest down, each started from its neighbour. ``executor``: any
-    `concurrent.futures.Executor`; the speeds are then split into neighbouring runs, and those of a lost worker are
-    solved again here. ``on_point(done, total, speed, outcome)`` is called as points end, the outcome a `FrictionResult`
-    or an exception. ``tolerance``, ``model``: as in `lubfric.friction`. ``fields``: keep film and contact, on the
-    scene's own contact grid, of every point (True) or of the speeds listed. ``store``: a folder that receives every
-    point as it ends; the same call goes on from there, to the same bits (the folder is the caller's to remove).
-    A failing point leaves NaN and its exception in ``errors``; the others are still solved, and then
-    `ConvergenceError`, or `ValidityError` where all that failed is outside the range of the model, is raised with the
-    whole curve as its ``result`` (``raise_on_failure=False`` returns it). A fault of the program, or an interrupt, goes
-    through as it is, with the points so far as its ``result``.
+    Speeds are solved from the fastest down, each started from its neighbour. A point that fails leaves NaN, and its
+    exception in ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene` or `lubfric.prepare`
+    speeds : entrainment speeds [m/s], (n,); None: the scene's own; "auto": at most 25, so that ``curve.at(speed)`` is
+        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed
+    executor : any `concurrent.futures.Executor`, for runs of neighbouring speeds
+    tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
+    store : a folder that receives every point as it ends. The same call goes on from there, to the same bits
+    on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
+    raise_on_failure : False returns a curve with failed points
+
+    Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")

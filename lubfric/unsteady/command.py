@@ -10,16 +10,17 @@ import numpy as np
 
 from .. import __version__
 from ..console import keeping, say
-from ..errors import ConvergenceError
-from ..output import npz_bytes, plain, read_csv, table_bytes
+from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..output import npz_bytes, read_csv, table_bytes
+from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene, scene_as_dict
 from ..store import fingerprint
 from .checkpoint import STATE
+from .moment import UNITS
 from .plot import animate, plot_history
 from .result import TransientResult
-from .row import UNITS
 from .run import transient
 
 SAY_EVERY = 1.0  # s of wall time between two lines of progress
@@ -33,6 +34,7 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
     `ConvergenceError` raised.
     """
     begun, reached = time.perf_counter(), [0.0]
+    failure: LubfricError | None
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     say(prepared.surface.describe())
@@ -46,10 +48,12 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
             say(f"going on from {checkpoint}")
         try:
             result = transient(prepared, checkpoint=checkpoint, on_step=_progress(reached))
-        except ConvergenceError as error:
+        except (ConvergenceError, ValidityError) as error:
             if error.result is None:
                 raise
             result, failure = error.result, error
+        for text in result.validity:
+            say(text)
         _write(folder, scene, result, animation)
         folder.finish(_record(scene, prepared, result, time.perf_counter() - begun))
     say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
@@ -61,7 +65,9 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
 def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
     folder.clear()
-    folder.write("history.csv", table_bytes({f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}))
+    columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
+    texts = [" | ".join(entry.text for entry in entries) for entries in result.entries]
+    folder.write("history.csv", table_bytes(columns | {"validity": np.array(texts, dtype=object)}))
     fields = {
         "time": result.time,
         "x": result.x,
@@ -120,5 +126,6 @@ def _record(scene: Scene, prepared, result: TransientResult, seconds: float) -> 
         },
         "seconds": seconds,
         "report": result.report.as_dict(),
+        "validity": list(result.validity),
     }
     return plain(record)

@@ -1,31 +1,120 @@
-"""Shear of the film at one moment: Couette and rolling part of the friction force."""
+"""Shear of the film at one moment: Couette and rolling part of the friction force, and the heat of the film."""
 
 from __future__ import annotations
+
+import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.tail import outside_shear
-from ..lubricant import shear_stress, viscosity
-from .sharing import Contact, Sharing
+from ..film.shear import ShearForce, rolling_error, spike_error
+from ..heat.point import Heat, point_heat
+from ..lubricant import carried_stress, shear_stress
+from ..rough.contract import ContactState
+from ..scene import Scene
+from .sharing import Sharing
+
+
+@dataclass(frozen=True)
+class FilmNow:
+    """The pressurised film of a moment at its nodes x [m]; what `lubfric.heat.point.point_heat` asks of a film."""
+
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    entrainment_speed: float
+    rupture: float
+
+
+@dataclass(frozen=True)
+class BalanceNow:
+    """Film and contact of a moment, which carries ``contact_load`` [N]."""
+
+    film: FilmNow | None
+    contact: ContactState
+    contact_load: float
 
 
 def film_shear(
-    sharing: Sharing, time: float, sliding: float, solution: StepSolution, contact: Contact
-) -> tuple[float, float]:
-    """Couette and rolling part [N] of the force on the upper surface along +x: B ∫ eta (u2 - u1)/h dx over
-    the pressurised film and B ∫ (h/2) dp/dx dx, both without the share of the width in contact, with the
-    inlet tails."""
-    setting, t, closure = sharing.setting, solution.terms, contact.closure
-    p, grid, now = setting.problem, setting.grid, setting.conditions(time)
+    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution
+) -> tuple[ShearForce, Heat]:
+    """Forces [N] on the upper surface along +x: B ∫ tau dx over the pressurised film, tau of eta (u2 - u1)/h, and B ∫
+    (h/2) dp/dx dx, both without the share of the width in contact, with the inlet tails; and the heat that is in
+    them. ``scene``: of the moment. Film and surfaces are taken to be as hot as in steady motion at the speeds of the
+    moment."""
+    balance = _balance(sharing, scene, solution)
+    isothermal = _shear(sharing, scene, time, sliding, solution)
+    if balance.film is None:
+        return isothermal, Heat()
+    boundary = scene.bodies.boundary_friction_coefficient * balance.contact_load * np.sign(sliding)
+    heat, warm = point_heat(scene, balance, abs(boundary + isothermal.total), isothermal)
+    if warm is None or warm.stress is None:
+        return isothermal, heat
+    along, heated = math.copysign(1.0, balance.film.entrainment_speed), warm.stress
+
+    def stress(x, pressure, thickness):
+        return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
+
+    return _shear(sharing, scene, time, sliding, solution, stress), heat
+
+
+def _balance(sharing: Sharing, scene: Scene, solution: StepSolution) -> BalanceNow:
+    t, p, contact = solution.terms, sharing.setting.problem, solution.payload
+    wet = np.flatnonzero(t.P > 0.0)
+    speed = scene.motion.entrainment_speed
+    if wet.size < 3 or speed == 0.0:
+        return BalanceNow(None, contact.state, contact.load)
+    inside = slice(wet[0], wet[-1] + 1)
+    x = sharing.setting.grid.x[inside] * p.length_unit
+    film = FilmNow(
+        x, t.P[inside] * p.pressure_unit, t.H[inside] * p.film_unit, speed, float(x[-1] if speed > 0 else x[0])
+    )
+    return BalanceNow(film, contact.state, contact.load)
+
+
+def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution, stress=None):
+    """`ShearForce` by trapezes; ``stress(x, pressure, film)`` [Pa]: of the heated film (None: isothermal)."""
+    setting, t, lubricant = sharing.setting, solution.terms, scene.lubricant
+    p, grid = setting.problem, setting.grid
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
-    free = 1.0 - closure.touching(x)
-    rolling = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free))
-    lubricant = setting.contact.lubricant
-    rate = sliding * now.viscosity * p.contact.lubricant.viscosity / lubricant.viscosity / h  # the history scales eta
-    tau = shear_stress(lubricant, pressure, rate)
-    couette = float(np.sum(0.5 * (tau[1:] + tau[:-1]) * free * np.diff(x) * full_part(x, pressure)))
-    ambient = float(viscosity(lubricant, 0.0)) * now.viscosity * p.contact.lubricant.viscosity / lubricant.viscosity
+    free = 1.0 - solution.payload.state.touching(x)
+    rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free
+
+    def of(at, pressed, thickness):
+        with np.errstate(over="ignore"):
+            if stress is not None:
+                return stress(at, pressed, thickness)
+            return shear_stress(lubricant, pressed, sliding / thickness)
+
+    tau, full = of(x, pressure, h), free * np.diff(x) * full_part(x, pressure)
+    couette = float(np.sum(0.5 * (tau[1:] + tau[:-1]) * full))
+    middle = of(*(0.5 * (a[1:] + a[:-1]) for a in (x, pressure, h)))
+    wet = np.flatnonzero(pressure > 0.0)
+    inside = slice(wet[0], wet[-1] + 1) if wet.size else slice(0, 0)
+    off = 2 / 3 * abs(float(np.sum((middle - 0.5 * (tau[1:] + tau[:-1])) * full)))
+    if wet.size > 4:
+        off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside])
+    carried = carried_stress(pressure)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    more, rolling = _tails(sharing, scene, time, sliding, solution)
+    width = sharing.width
+    return ShearForce(
+        width * (couette + more),
+        width * (float(np.sum(rolls)) + rolling),
+        quadrature=width * off,
+        rolling_parts=width * max(float(np.sum(rolls[rolls > 0])), -float(np.sum(rolls[rolls < 0]))),
+        excess=width * float(np.sum(0.5 * (above[1:] + above[:-1]) * full)),
+        stress_ratio=float(np.max(np.where(pressure > 0.0, np.abs(tau) / carried, 0.0))),
+    )
+
+
+def _tails(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution) -> tuple[float, float]:
+    """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid."""
+    setting, t = sharing.setting, solution.terms
+    p, grid, now = setting.problem, setting.grid, setting.conditions(time)
+    couette = rolling = 0.0
     for end, sign in ((0, 1.0), (-1, -1.0)):
         if t.P[end] > 0.0:
             flow = sign * t.flux[end] + t.stored[end]
@@ -38,9 +127,9 @@ def film_shear(
                 flow,
                 t.stored[end] / grid.weights[end],
             )
-            couette += ambient * sliding * reach * p.length_unit / p.film_unit
+            couette += scene.lubricant.viscosity * sliding * reach * p.length_unit / p.film_unit
             rolling -= sign * tail * p.film_unit * p.pressure_unit
-    return sharing.width * couette, sharing.width * rolling
+    return couette, rolling
 
 
 def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:

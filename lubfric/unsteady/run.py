@@ -11,43 +11,56 @@ from ..history.plan import Transient
 from ..march.course import checked_times, steps
 from ..prepared import Prepared, scene_of
 from ..scene import Scene
+from ..validity import Validity, refused
 from .checkpoint import Checkpoint
+from .moment import UNITS
 from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
-from .row import UNITS
 from .setup import Run, begin
 
 
 def transient(
     scene: Scene | Prepared, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
 ) -> TransientResult:
-    """Film, load sharing and friction of ``scene`` while speed, load, radius or viscosity change in time.
+    """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
-    The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.transient.squeeze`: Swift-Stieber
-    complementarity, either side may rupture, no entrainment needed), marched by variable-step BDF2 with error
-    control (`lubfric.march`); at every step film and rough contact share the load of that moment
-    and close the volume of Eq. (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015,
-    doi:10.1007/s11249-015-0536-z).
+    The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.transient.squeeze`: Swift-Stieber complementarity, either
+    side may rupture, no entrainment needed). It is marched by variable-step BDF2 with error control (`lubfric.march`).
+    At every step film and rough contact share the load of that moment, and close the volume of Eq. (8) over A, the
+    strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 
     Parameters
     ----------
-    scene : with a `lubfric.Transient` in ``scene.transient`` (or, with ``times``, without: then nothing
-        changes)
+    scene : with a `lubfric.Transient` in ``scene.transient``; or, with ``times``, without one: then nothing changes
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
-    checkpoint : folder that receives the state after every step; an interrupted run of the same scene and
-        times goes on from there. Removed when the run ends well
-    on_step : called as on_step(time, duration, row) after every step, ``row`` the numbers of an output or
+    checkpoint : folder that receives the state after every step. An interrupted run of the same scene and times goes on
+        from there. It is removed when the run ends well
+    on_step : called as on_step(time, duration, row) after every step; ``row`` holds the numbers of an output, or is
         None
+    raise_on_failure : False returns what was computed, with its report
 
-    Returns a `TransientResult`. Stops a step when max(residuals of `lubfric.ehl.transient.active_set.measure`)
-    <= 1e-7 and |gap - film|/(gap + film) <= volume tolerance; accepts it when the root mean square of the
-    local error over the pressurised film, relative to the film, <= transient.tolerance. report.residuals:
-    "step" the largest accepted local error over that tolerance, "mass" and "volume", the largest at an
-    output, relative to their tolerances, "grid" the discretisation error of the steady start over the film
-    tolerance (where it starts steady).
+    Returns
+    -------
+    TransientResult
 
-    Raises `InputError` before any work; `ConvergenceError`, with the rows so far as its result, when the
-    shortest step fails.
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : the shortest step failed; carries the rows so far as its result
+    ValidityError : at some time an assumption fails so badly that f means nothing, and ``numerics.accept`` is false;
+        carries the whole result
+
+    Notes
+    -----
+    Film and surfaces are as hot as in steady motion at the speeds of the moment (``numerics.heat``).
+
+    A step stops when max(residuals of `lubfric.ehl.transient.active_set.measure`) <= 1e-7 and |gap - film|/(gap + film)
+    <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised film,
+    relative to the film, is <= transient.tolerance. The residuals of the report:
+
+    - step: the largest accepted local error over that tolerance
+    - mass, volume: the largest at an output, relative to their tolerances
+    - grid: the discretisation error of the steady start over the film tolerance (where it starts steady)
     """
     base = scene_of(scene)
     plan, times = _plan(base, times)
@@ -56,9 +69,19 @@ def transient(
     result = _run(run, times, store, on_step)
     if raise_on_failure:
         result.report.raise_if_failed(result)
+        refused(_severe(result), run.prepared.scene.numerics.accept, result)
     if store is not None and result.report.converged:
         store.clear()
     return result
+
+
+def _severe(result: TransientResult) -> tuple[Validity, ...]:
+    """What makes f mean nothing at some time, the worst of each kind."""
+    worst: dict[str, Validity] = {}
+    for entry in (e for at_once in result.entries for e in at_once if e.severe):
+        if entry.what not in worst or entry.value > worst[entry.what].value:
+            worst[entry.what] = entry
+    return tuple(worst.values())
 
 
 def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:

@@ -18,6 +18,8 @@ from ..march.course import Plan, Progress, plan_of
 from ..prepared import Prepared, prepare
 from ..sampling.patch_error import correlation_along_y
 from ..scene import Scene
+from .at_a_time import SceneInTime, inlet_viscosity
+from .line import long_enough
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
 
@@ -32,14 +34,13 @@ class Run:
     prepared: Prepared
     plan: Transient
     sharing: Sharing
-    sliding: History | None
     start: StepSolution
     grid_error: float
 
     def course(self, times: np.ndarray) -> Plan:
         """The march with outputs at ``times`` [s]."""
         setting = self.sharing.setting
-        histories = (*setting.histories, self.sliding) if self.sliding is not None else setting.histories
+        histories = (*setting.histories, *self.in_time.histories)
         tolerance = self.plan.tolerance or TIME_SHARE * self.prepared.scene.numerics.tolerances.film
         return plan_of(times, histories, setting.first_step, tolerance)
 
@@ -48,11 +49,10 @@ class Run:
         setting = self.sharing.setting
         return Progress(March((setting.level(0.0, self.start),), setting.first_step, self.start.payload))
 
-    def sliding_speed(self, time: float) -> float:
-        """u2 - u1 just before ``time`` [m/s]."""
-        if self.sliding is not None:
-            return self.sliding.before(time)
-        return self.prepared.scene.motion.slide_roll_ratio * self.sharing.setting.contact.speed.before(time)
+    @property
+    def in_time(self) -> SceneInTime:
+        """Its scene at every time."""
+        return SceneInTime(self.prepared.scene, self.plan)
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
         """Film and contact at ``time`` (`lubfric.march.bdf.Solver`)."""
@@ -83,7 +83,7 @@ def begin(scene: Scene | Prepared, plan: Transient) -> Run:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
-    prepared = scene if isinstance(scene, Prepared) else prepare(scene)
+    prepared = long_enough(scene if isinstance(scene, Prepared) else prepare(scene), plan)
     tolerance = base.numerics.tolerances.film
     for finer in FINER:
         setting = _setting(prepared, plan, load, finer)
@@ -93,12 +93,12 @@ def begin(scene: Scene | Prepared, plan: Transient) -> Run:
         start, grid_error = first_state(prepared, plan, sharing)
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
-    return Run(prepared, plan, sharing, plan.sliding, start, grid_error)
+    return Run(prepared, plan, sharing, start, grid_error)
 
 
 def _refuse_steady_only(scene: Scene) -> None:
     """Raise `InputError` for what is asked of the steady model by name and a transient does not do."""
-    done = {"film_level": ("auto", "ehl"), "closure": ("load",), "heat": ("auto", "off")}
+    done = {"film_level": ("auto", "ehl"), "closure": ("load",)}
     done["contact_level"] = ("auto", "flat", "semi-periodic")
     for name, allowed in done.items():
         value = getattr(scene.numerics, name)
@@ -120,7 +120,7 @@ def _setting(prepared: Prepared, plan: Transient, load: History, finer: float) -
         plan.radius or Constant(bodies.radius),
         bodies.e_prime,
         plan.speed or Constant(scene.motion.entrainment_speed),
-        plan.viscosity or Constant(lubricant.viscosity),
+        inlet_viscosity(SceneInTime(scene, plan)),
         lubricant,
         plan.duration,
         plan.initial_film,

@@ -10,11 +10,15 @@ from ..errors import ValidityError
 
 @dataclass(frozen=True)
 class Validity:
-    """An assumption that does not hold.
+    """An assumption of the model that does not hold.
 
-    what : the quantity, in words; value and limit [unit] : where it stands and how far the model goes
-    consequence : what that does to the result; remedy : what to change
-    severe : the coefficient means nothing (`ValidityError` unless accepted), else it is a caution
+    Attributes
+    ----------
+    what : the quantity, in words
+    value, limit : where it stands and how far the model goes, both in ``unit``
+    consequence : what that does to the result
+    remedy : what to change
+    severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a caution
     """
 
     what: str

@@ -8,6 +8,8 @@ from .entry import Validity
 ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
 BARUS_LIMIT = 3e8  # Pa
 THICK = 0.1  # of the radius
+STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
+ANOTHER = "numerics.film_deflection = 'scaled' or 'total' (or 'auto', which chooses)"
 
 
 def of_pressure(lubricant, peak: float) -> list[Validity]:
@@ -55,7 +57,7 @@ def of_thickness(bodies, film: float) -> list[Validity]:
     ]
 
 
-def of_deflection(change: float, limit: float) -> list[Validity]:
+def of_deflection(change: float, limit: float, remedy: str = ANOTHER) -> list[Validity]:
     """``change``: of the film's share by which a film deflected by its own pressure alone may be wrong [-]."""
     if not change > limit:
         return []
@@ -66,6 +68,6 @@ def of_deflection(change: float, limit: float) -> list[Validity]:
             limit,
             "",
             "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
-            "numerics.film_deflection = 'scaled' or 'total' (or 'auto', which chooses)",
+            remedy,
         )
     ]

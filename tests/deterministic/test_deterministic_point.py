@@ -9,6 +9,7 @@ import lubfric
 from lubfric.deterministic import lay_out, solve_point
 from lubfric.deterministic.forces import forces
 from lubfric.deterministic.refine import estimate, solve_refined
+from lubfric.deterministic.solve import Start
 from lubfric.deterministic.start import dry_contact
 from lubfric.deterministic.state import look, residuals
 from lubfric.deterministic.transfer import refined_start, state_on
@@ -112,7 +113,7 @@ def test_what_must_not_change_the_coefficient():
 
 def test_neither_start_nor_floor_changes_the_answer():
     fast = solve_point(rough(48, 917.0, 0.03))
-    warm = solve_point(LIGHT, starts=[lambda: state_on(LIGHT, fast)])
+    warm = solve_point(LIGHT, starts=[Start(lambda: state_on(LIGHT, fast), fast.speed)])
     assert warm.coefficient == pytest.approx(FOUND.coefficient, rel=1e-4)
     assert warm.report.iterations < FOUND.report.iterations
     low = solve_point(replace(LIGHT, floor=0.5e-9))
@@ -161,7 +162,7 @@ def test_finer_cells_change_little_and_the_estimate_tells():
     assert abs(fine - middle) < abs(middle - coarse) < 0.1 * fine
     assert found.error == estimate([coarse, middle, fine]) < 0.02
     started = refined_start(rough(24, 917.0, 0.01), LIGHT, found.results[0])
-    assert solve_point(LIGHT, starts=[lambda: started]).report.iterations < FOUND.report.iterations
+    assert solve_point(LIGHT, starts=[Start(lambda: started, LIGHT.speed)]).report.iterations < FOUND.report.iterations
     assert estimate([1.0, 1.2, 1.3]) == pytest.approx(0.1 / 1.3) and estimate([1.0]) is None
 
 

@@ -64,7 +64,7 @@ def test_derivatives_are_those_of_the_residual(name):
     p, h = 1e8 * random.random(shape), 1e-7 + 1e-7 * random.random(shape)
     p[0] *= 0.1
     h[0] = problem.x[0] ** 2 / (2 * RADIUS)
-    by_p, by_h = derivatives(problem, balance(problem, p, h), p)
+    by_p, by_h, _ = derivatives(problem, balance(problem, p, h), p)
     for matrix, base, step, at in (
         (by_p, p, 10.0, lambda v: balance(problem, v, h).residual),
         (by_h, h, 1e-14, lambda v: balance(problem, p, v).residual),
@@ -151,3 +151,36 @@ def test_rigid_waviness_against_christensens_averages(along):
     lift = found.gap + problem.heights - (problem.x**2 / (2 * RADIUS))[:, None]
     assert found.flow_film == pytest.approx(q / SPEED, rel=0.02)
     assert np.median(lift) == pytest.approx(h0, rel=0.02)
+
+
+def test_a_film_ruptures_and_refills_where_its_flow_says():
+    """Two rigid humps: behind the first the gap holds what passed it, and the second film begins where the flow fills
+    enough of its inlet: q = U h where it ruptures, ∫ (U h - q)/h³ dx = 0 over its length (Jakobsson-Floberg-Olsson)."""
+    from scipy.optimize import brentq
+
+    n, step = 600, 1e-6
+    x = (np.arange(n) - 400) * step
+    oil = Lubricant(0.01, viscosity_law="constant")
+    contact = LineContact(12.0, RADIUS, 1e13, SPEED, oil)
+    heights = 2.4e-6 * np.exp(-(((x - 100e-6) / 25e-6) ** 2))[:, None]
+    operator = half_space((n, 1), step, 1e13, ("free", "periodic"))
+    problem = Problem(contact, 2 * SPEED, x, heights, operator, 0.09)
+    found = solve_point(problem)
+    h, p, fill = found.gap[:, 0], found.pressure[:, 0], found.fill[:, 0]
+    q = found.flow_film
+    carried = np.where(fill < 1, fill * (h + np.diff(h, prepend=h[0]) / 2), q)
+    assert np.count_nonzero(np.abs(carried / q - 1) > 1e-6) <= 1  # but where the second film pushes back into a cell
+    second = np.flatnonzero((p > 0) & (x > x[np.argmax(fill < 1)]))
+    fine = np.linspace(x[0], x[-1], 200001)
+    gap = np.interp(fine, x, h)
+    narrowest = fine[np.argmin(np.where(fine > 50e-6, gap, np.inf))]
+    behind = fine > narrowest
+    end = fine[behind][np.argmax(gap[behind] > q)]
+
+    def mean_slope(begin):
+        inside = (fine >= begin) & (fine <= end)
+        return np.trapezoid((gap[inside] - q) / gap[inside] ** 3, fine[inside])
+
+    begin = brentq(mean_slope, 40e-6, narrowest)
+    assert x[second[0]] == pytest.approx(begin, abs=3 * step) and x[second[-1]] == pytest.approx(end, abs=3 * step)
+    assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0

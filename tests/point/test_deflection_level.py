@@ -92,3 +92,21 @@ def test_films_in_time_keep_their_own_pressure():
     assert np.array_equal(first[0].start.terms.P, first[1].start.terms.P)
     with pytest.raises(lubfric.InputError, match="auto"):
         begin(small.with_(numerics={"film_deflection": "scaled"}), Transient(duration=1e-3))
+
+
+@pytest.mark.parametrize("error", [lubfric.ConvergenceError("no", None), lubfric.InputError("edge columns")])
+def test_a_choice_that_fails_does_not_fail_the_point(monkeypatch, error):
+    """The loose solve that chooses is broken; the point is the answer of the safer level, and says so."""
+    from lubfric.point import deflection
+
+    whole = deflection.solved
+
+    def broken(prepared, *args, **keywords):
+        if prepared.scene.numerics.tolerance == deflection.LOOSE["tolerance"]:
+            raise error
+        return whole(prepared, *args, **keywords)
+
+    monkeypatch.setattr(deflection, "solved", broken)
+    found = by(HEAVY, "auto", 1e-3)
+    assert found.coefficient == by(HEAVY, "scaled", 1e-3).coefficient
+    assert "the solve that was to choose failed" in found.decision.text

@@ -6,6 +6,7 @@ import pytest
 
 import lubfric
 from lubfric.heat import Surroundings, heated_film
+from lubfric.heat.point import film_lubricant
 from lubfric.oil import from_grade
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
@@ -116,3 +117,11 @@ def test_the_result_tells_oil_and_ranges(model):
 def test_heat_needs_to_know_the_oil():
     with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
         lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(numerics={"heat": "on"})
+
+
+def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():
+    for speed in (1e-9, 1e-7):
+        inlet = film_lubricant(BASE.with_(numerics={"heat": "on"}), speed)
+        assert inlet.viscosity == pytest.approx(BASE.lubricant.viscosity, rel=1e-7)
+    with pytest.raises(lubfric.InputError, match="thermal number.*numerics.heat = 'off'"):
+        film_lubricant(BASE.with_(numerics={"heat": "on"}), 1e4)

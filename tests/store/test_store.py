@@ -120,10 +120,11 @@ with Records(sys.argv[1]) as records:
 def test_several_writers_and_a_kill(tmp_path):
     ending = [started(ADDER, tmp_path, name, 40) for name in "ab"]
     killed = started(ADDER, tmp_path, "c", 10**6)
-    killed.stdout.readline()
-    time.sleep(0.1)
+    for _ in range(4):  # "ready" and three records, however long they take
+        said = killed.stdout.readline()
     killed.kill()
-    last = int(killed.communicate()[0].decode().rpartition("\n")[0].rpartition("\n")[2])
+    said = (said + killed.communicate()[0]).decode()
+    last = int(said.rpartition("\n")[0].rpartition("\n")[2])
     for process in ending:
         process.communicate()
     found = dict(Records(tmp_path).read())

@@ -327,7 +327,7 @@ def test_several_maps(tmp_path):
         ([1], None, "a dict"),
         ({}, [0.1, 0.1], "twice"),
         ({}, ["a"], "speeds"),
-        ({}, "auto", "lubfric.stribeck takes 'auto'"),
+        ({}, "aut", "speeds in m/s, or 'auto'"),
     ],
 )
 def test_what_cannot_be_varied_is_said_before_any_work(vary, speeds, words, tmp_path):

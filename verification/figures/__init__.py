@@ -43,13 +43,13 @@ def main(argv: list[str] | None = None) -> int:
 
 def figure(level: str, name: str) -> Iterator[Item]:
     """One figure of the paper: its checks, its data, its picture."""
-    begun = time.perf_counter()
+    begun = time.process_time()
     module, _, function = FIGURES[name].partition(":")
     made = getattr(importlib.import_module(module), function)(level == "quick")
     yield from made.checks
     for stem, (headings, rows) in made.tables.items():
         yield Table(stem, made.title, headings, tuple(rows))
-    yield Figure(made.name, markdown(made, time.perf_counter() - begun), made.picture, "png")
+    yield Figure(made.name, markdown(made, time.process_time() - begun), made.picture, "png")
 
 
 def _options(parser: ArgumentParser) -> None:

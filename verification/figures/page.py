@@ -53,7 +53,7 @@ def markdown(figure: PaperFigure, seconds: float, images: str = "images/") -> st
     return (
         f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n"
         f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
-        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}. {seconds:.0f} s.\n"
+        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}. {seconds:.0f} s of processor time.\n"
     )
 
 

@@ -36,7 +36,7 @@ def main(argv: list[str]) -> int:
 
 def model_error(level: str) -> Iterator[Item]:
     """f, share of the contact and mean gap by every model, over surfaces, speeds and loads."""
-    from . import charts, measure, summary
+    from . import charts, held_out, measure, summary
 
     found = [p for s in settings(level) for p in measure.points(s)]
     gathered = summary.deviations(found)
@@ -54,6 +54,7 @@ def model_error(level: str) -> Iterator[Item]:
     worst = max(d.rms / summary.told(d) for d in gathered if d.method in summary.TOLD_BY and d.surfaces > 1)
     words = "largest rms of f over uncertainty.model_form"
     yield Check(words, worst, MOST_OVER, 0.0, "lubfric.validity.model_form", AT_MOST if level != "quick" else TOLD)
+    yield from held_out.held_out(level)
     yield charts.over_speed("light", light, "5.5 N, Newtonian")
     for load in sorted({d.load for d in gathered if d.load > 10}):
         mine = [d for d in gathered if d.load == load]

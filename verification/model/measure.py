@@ -10,6 +10,7 @@ from lubfric.prepared import Prepared
 from lubfric.scene import Scene
 
 WIDTH = 90e-6  # of the patch, both ways
+LENGTH, SQ = 8e-6, 100e-9  # m, of the surfaces
 REFERENCE = "deterministic"
 METHODS = {
     REFERENCE: {"model": "deterministic", "grid": "given"},
@@ -26,7 +27,8 @@ TOTAL_LEAST = 20.0  # N: below it the three deflections are the same within a po
 
 @dataclass(frozen=True)
 class Setting:
-    """What is solved: one surface, one load [N], one law of the fluid, speeds [m/s] from the fastest down."""
+    """What is solved: one surface (correlation length and Sq [m]), one load [N], one law of the fluid, speeds [m/s]
+    from the fastest down."""
 
     seed: int
     acf: str
@@ -34,6 +36,8 @@ class Setting:
     fluid: str
     speeds: tuple[float, ...]
     cells: int
+    length: float = LENGTH
+    sq: float = SQ
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,7 @@ def scene_of(setting: Setting, method: str) -> Scene:
 def surface_of(setting: Setting):
     """100 nm, 8 µm, made on 256 cells and taken to those of the setting, so that grids see one surface."""
     fine = lubfric.generate_surface(
-        (256, 256), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf=setting.acf, seed=setting.seed
+        (256, 256), WIDTH / 256, sq=setting.sq, correlation_length=setting.length, acf=setting.acf, seed=setting.seed
     )
     return fine.resampled(shape=(setting.cells, setting.cells))
 

@@ -51,7 +51,7 @@ def replaced(text: str, name: str, new: str) -> str:
 def body(name: str, table: Table) -> str:
     """A table as Markdown, and the line beneath that says where it comes from."""
     rows = [table.columns, ["---"] * len(table.columns), *table.rows]
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    lines = ["| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows]
     return "\n" + "\n".join(lines) + f"\n\n{source(f'tables --only {name}')}\n\n"
 
 

@@ -111,6 +111,14 @@ def model_error() -> Table:
     return Table(*table(deviations([p for setting in settings("default") for p in points(setting)])))
 
 
+def held_out() -> Table:
+    """How often the told error of the model holds on surfaces it was not read off (`verification.model.held_out`)."""
+    from ..model.held_out import COLUMNS, table
+
+    rows, _ = table("default")
+    return Table(list(COLUMNS), [[str(cell) for cell in row] for row in rows])
+
+
 def mutants() -> Table:
     """What catches each mutant (minutes)."""
     from .. import mutations
@@ -125,5 +133,6 @@ TABLES: dict[str, Callable[[], Table]] = {
     "hertz-line": hertz_line,
     "times": times,
     "model-error": model_error,
+    "held-out": held_out,
     "mutants": mutants,
 }

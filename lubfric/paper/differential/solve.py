@@ -67,27 +67,30 @@ def solve_differential_deflection(
 ) -> EHLResult:
     """Film of a smooth line contact by differential deflection, on a uniform grid.
 
-    The same problem and result as `lubfric.solve_ehl`, by the method of `lubfric.paper.differential.equations`, whose
-    answer is that of the full integral for any ``bandwidth``. ``x`` in the result is the uniform grid with the rupture
-    point added. Checked for M = 1e-3 to 1000, L = 0 to 20; at M = 1000 it needs about 50 times the nodes of a graded
-    grid. Parameters beyond those of `lubfric.solve_ehl`:
+    Problem and result are those of `lubfric.solve_ehl`. Reynolds' equation is coupled to the second difference of the
+    film, whose weights decay like 1/k² with the distance k in nodes (`lubfric.paper.differential` has sources, method
+    and residuals). Stops when the largest residual is <= tolerance. Checked for M = 1e-3 to 1000, L = 0 to 20.
 
-    nodes : at least 65, or None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
+    Parameters
+    ----------
+    load_per_width, radius, e_prime, entrainment_speed, viscosity : as in `lubfric.solve_ehl`, SI units
+    pressure_viscosity_coefficient, viscosity_law, density_law, tolerance, inlet_length : as in `lubfric.solve_ehl`
+    start, max_iterations : a neighbouring result, used on the coarsest grid; Newton steps per grid
+    nodes : at least 65; None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry contact.
-        None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream, to somewhat behind the expected rupture.
-        Not together with inlet_length, which says where the lubricant begins.
-    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; changes only the time
-    max_iterations : Newton steps per grid; start : used on the coarsest grid; its x, pressure and film
+        None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream. Not together with inlet_length
+    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; it changes only the time
+    most_nodes : largest number of nodes that is tried
+    raise_on_failure : False returns an unconverged result with its report
 
-    report.residuals, all relative, must be <= tolerance (the last four <= 1e-3 of it where Newton's method converged):
-    discretisation : largest change of min_film, central_film and flow_film against the grid of half the cells, or a
-        quarter of the change before that; domain : estimated effect of the finite inlet on flow_film (0 with
-        inlet_length); mass : largest |flux through a face before rupture/q - 1|; load : |∫ p dx/load - 1|; film :
-        largest |h - full integral|/h; complementarity : largest of -p/p_max and of 1 - flux/q behind rupture.
-    report.evaluations counts banded solves, each with one convolution.
+    Returns
+    -------
+    EHLResult : its ``x`` is the uniform grid with the rupture point added as a node
 
-    Raises `InputError` before any work; `ConvergenceError` for residuals above tolerance, with report and result,
-    unless raise_on_failure is False.
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : residuals above tolerance; carries report and result
     """
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)

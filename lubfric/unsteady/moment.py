@@ -9,8 +9,10 @@ import numpy as np
 from ..ehl.result import smallest
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import WET
+from ..heat.point import inlet_at
 from ..march.course import Progress
 from ..sampling.moment_error import moment_error
+from ..scene import Scene
 from .film_shear import film_shear
 from .sharing import Sharing
 
@@ -43,30 +45,32 @@ UNITS = {
     "mass_residual": "-",
     "cavity_growth": "m2/s",
     "sampling_error": "-",
+    "inlet_film_factor": "-",
+    "flash_temperature_rise": "K",
+    "film_temperature_rise": "K",
+    "heat_change": "-",
+    "peclet": "-",
+    "shear_excess": "N",
+    "shear_stress_ratio": "-",
+    "shear_error": "-",
     "time_error": "-",
     "steps": "-",
 }
 
 
-def moment(
-    sharing: Sharing,
-    time: float,
-    sliding: float,
-    boundary_coefficient: float,
-    solution: StepSolution,
-    now: Progress,
-) -> dict[str, float]:
-    """One row of the result, by name in the order of ``UNITS``."""
+def moment(sharing: Sharing, scene: Scene, sliding: float, solution: StepSolution, now: Progress) -> dict[str, float]:
+    """One row of the result, by name in the order of ``UNITS``; ``scene``: of the moment, ``sliding`` u2 - u1 [m/s]."""
+    time = now.time
     setting, t, contact = sharing.setting, solution.terms, solution.payload
     p, grid, total = setting.problem, setting.grid, sharing.total(time)
     wet = np.flatnonzero(t.P > 0.0)
     film_load = t.carried * sharing.unit
-    couette, rolling = film_shear(sharing, time, sliding, solution, contact)
-    boundary = boundary_coefficient * contact.load * np.sign(sliding)
-    force = boundary + couette + rolling
+    shear, heat = film_shear(sharing, scene, time, sliding, solution)
+    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
+    force = boundary + shear.total
     sense = np.sign(sliding) if sliding else 1.0
-    closure = contact.closure
-    balance = closure.volume_residual if contact.load > 0.0 else 0.0
+    state = contact.state
+    balance = state.volume_residual if contact.load > 0.0 else 0.0
     return {
         "time": time,
         "entrainment_speed": setting.contact.speed.before(time),
@@ -77,32 +81,48 @@ def moment(
         "coefficient": force * sense / total,
         "friction_force": force,
         "boundary_force": boundary,
-        "couette_force": couette,
-        "rolling_force": rolling,
+        "couette_force": shear.couette,
+        "rolling_force": shear.rolling,
         "min_film": smallest(grid.x, t.H) * p.film_unit,
         "central_film": t.H[grid.n // 2] * p.film_unit,
-        "mean_film": closure.mean_film,
-        "mean_gap": closure.mean_gap if contact.load > 0.0 else closure.mean_film,
+        "mean_film": state.mean_film,
+        "mean_gap": state.mean_gap if contact.load > 0.0 else state.mean_film,
         "max_pressure": float(t.P.max()) * p.pressure_unit,
         "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
         "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        "real_contact_area_fraction": closure.real_contact_area_fraction,
-        "plastic_area_fraction": closure.plastic_area_fraction,
+        "real_contact_area_fraction": state.real_contact_area_fraction,
+        "plastic_area_fraction": state.plastic_area_fraction,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
         "sampling_error": moment_error(
             sharing.patch,
-            closure,
+            state,
             (contact.load, film_load),
             contact.softness,
             sharing.width,
             sharing.correlation_length,
-            (boundary, couette + rolling),
+            (boundary, shear.total),
         ),
+        "inlet_film_factor": _inlet_factor(sharing, scene, time),
+        "flash_temperature_rise": heat.flash,
+        "film_temperature_rise": heat.film,
+        "heat_change": heat.change,
+        "peclet": heat.peclet if heat.heated else math.nan,
+        "shear_excess": shear.excess,
+        "shear_stress_ratio": shear.stress_ratio,
+        "shear_error": shear.quadrature / abs(force) if force else 0.0,
         "time_error": now.error,
         "steps": now.steps,
     }
+
+
+def _inlet_factor(sharing: Sharing, scene: Scene, time: float) -> float:
+    """On the film, by the heat of the inlet that it is solved with."""
+    if sharing.setting.contact.viscosity.before(time) == scene.lubricant.viscosity:
+        return 1.0
+    inlet, _ = inlet_at(scene, scene.motion.entrainment_speed)
+    return 1.0 if inlet is None else inlet.factor
 
 
 def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:

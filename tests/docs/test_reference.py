@@ -1,0 +1,37 @@
+"""The API reference has every public name, and every public function says what it takes, gives and raises."""
+
+import inspect
+import re
+import sys
+
+import pytest
+from pages import ROOT
+
+import lubfric
+
+sys.path.insert(0, str(ROOT / "docs"))
+from docstrings import numpydoc  # noqa: E402
+
+FUNCTIONS = [name for name in lubfric.__all__ if inspect.isfunction(getattr(lubfric, name))]
+
+
+def test_every_public_name_is_in_the_reference():
+    page = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"auto\w+:: lubfric\.(\w+)$", page, re.MULTILINE))
+    assert set(lubfric.__all__) <= shown
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_every_parameter_is_told(name):
+    function = getattr(lubfric, name)
+    lines = numpydoc(inspect.getdoc(function).splitlines())
+    begin = lines.index("Parameters")
+    told = [line for line in lines[begin:] if line and not line.startswith((" ", "-"))]
+    assert set(inspect.signature(function).parameters) <= set(told)
+    assert "Returns" in "".join(lines) and "Raises" in "".join(lines)
+
+
+def test_an_entry_is_a_name_and_its_text():
+    made = numpydoc(["Parameters", "----------", "a, b : both [m]", "    more", "c : one; d : two", "", "Then."])
+    both = ["    both [m]", "    more"]
+    assert made == ["Parameters", "----------", "a", *both, "b", *both, "c", "    one", "d", "    two", "", "", "Then."]

@@ -1,0 +1,131 @@
+"""Heat and validity of a run in time: steady motion held, slow changes, reversal; what is refused and told."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric import cli
+from lubfric.history import Harmonic, Ramp
+
+BASE = lubfric.load_scene("flat").with_(
+    bodies={"load": 3000.0, "radius": 1e-2, "width": 1e-2},
+    lubricant={
+        "grade": "ISO VG 68",
+        "viscosity_index": 95,
+        "temperature": 330.0,
+        "eyring_stress": 5e6,
+        "limiting_stress_coefficient": 0.06,
+    },
+    motion={"entrainment_speed": 2.0, "slide_roll_ratio": 0.2, "speeds": ()},
+    surface={"sq": 2e-7, "correlation_length": 8e-6, "acf": "gaussian"},
+    contact={"shape": (48, 48), "spacing": 2e-6},
+    numerics={"film_deflection": "hydrodynamic", "accept": True},
+)
+
+
+def in_time(scene, **plan):
+    return lubfric.transient(scene.with_(transient=lubfric.Transient(**({"duration": 1e-4, "outputs": 1} | plan))))
+
+
+@pytest.mark.parametrize("speed, ratio", [(2.0, 0.2), (-2.0, 0.2), (2.0, -1.0)])
+def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
+    scene = BASE.with_(motion={"entrainment_speed": speed, "slide_roll_ratio": ratio})
+    steady, cold = lubfric.friction(scene), lubfric.friction(scene.with_(numerics={"heat": "off"}))
+    found = in_time(scene)
+    assert found.coefficient[-1] == pytest.approx(steady.coefficient, rel=5e-3)
+    assert abs(cold.coefficient / steady.coefficient - 1) > 0.08
+    assert found.inlet_film_factor[-1] == pytest.approx(steady.inlet_film_factor, rel=1e-6) and steady.decision
+    assert found.flash_temperature_rise[-1] == pytest.approx(steady.flash_temperature_rise, rel=0.05)
+    assert found.central_film[-1] == pytest.approx(steady.central_film, rel=0.01)
+    off = in_time(scene.with_(numerics={"heat": "off"}))
+    assert off.coefficient[-1] == pytest.approx(cold.coefficient, rel=5e-3) and off.flash_temperature_rise[-1] == 0
+
+
+def test_a_slow_ramp_is_as_hot_as_every_speed_it_passes():
+    found = in_time(BASE, duration=1.0, outputs=4, speed=Ramp(start=1.0, end=3.0, until=1.0))
+    steady = [lubfric.friction(BASE, float(u)) for u in found.entrainment_speed]
+    np.testing.assert_allclose(found.coefficient, [p.coefficient for p in steady], rtol=0.01)
+    np.testing.assert_allclose(found.inlet_film_factor, [p.inlet_film_factor for p in steady], rtol=1e-6)
+    assert found.inlet_film_factor[-1] < found.inlet_film_factor[0] < 1
+
+
+def test_a_viscosity_history_is_the_cold_one():
+    thin = BASE.lubricant.viscosity / 2
+    plan = {"viscosity": thin}
+    twin = BASE.with_(lubricant=lubfric.Lubricant(**{f: getattr(BASE.lubricant, f) for f in FIELDS} | plan))
+    assert in_time(BASE, **plan).coefficient[-1] == pytest.approx(lubfric.friction(twin).coefficient, rel=5e-3)
+
+
+FIELDS = [name for name in BASE.lubricant.__dataclass_fields__ if name != "oil"]
+
+
+def test_a_reversal_is_warm_on_both_sides_and_cold_at_rest():
+    found = in_time(
+        BASE.with_(bodies={"load": 200.0}, numerics={"tolerance": 0.05}),
+        duration=0.02,
+        outputs=8,
+        tolerance=3e-3,
+        speed=Harmonic(amplitude=2.0, frequency=50.0, phase=math.pi / 2),
+        sliding=0.4,
+    )
+    assert np.all(np.isfinite(found.coefficient))
+    fast, still = np.abs(found.entrainment_speed) > 1.9, np.abs(found.entrainment_speed) < 1e-9
+    assert np.all(found.inlet_film_factor[fast] < 0.96) and np.all(found.inlet_film_factor[still] == 1)
+    assert np.all(found.flash_temperature_rise[fast] > 0.2) and still.sum() == 2 and fast.sum() == 3
+    assert any("slide-roll ratio" in text and "times" in text for text in found.validity)
+
+
+def test_no_heat_without_knowing_the_oil():
+    plain = BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, 2e-8, eyring_stress=5e6))
+    assert in_time(plain).coefficient[-1] == pytest.approx(lubfric.friction(plain).coefficient, rel=5e-3)
+    with pytest.raises(lubfric.InputError, match="heat = 'on' needs"):
+        plain.with_(numerics={"heat": "on"})
+
+
+NEWTONIAN = BASE.with_(
+    lubricant={"eyring_stress": None, "limiting_stress_coefficient": None},
+    numerics={"accept": False, "heat": "off"},
+)
+
+
+def test_what_no_oil_carries_is_refused_with_the_run_attached():
+    with pytest.raises(lubfric.ValidityError, match="no oil carries") as caught:
+        in_time(NEWTONIAN)
+    result = caught.value.result
+    assert result.coefficient[-1] > 0.5 and any(entry.severe for entry in result.entries[-1])
+    told = in_time(NEWTONIAN.with_(numerics={"accept": True}))
+    assert told.coefficient[-1] == result.coefficient[-1] and told.validity == result.validity
+
+
+def test_the_command_writes_a_refused_run_marked(tmp_path, capsys):
+    scene = NEWTONIAN.with_(transient=lubfric.Transient(1e-4, outputs=1))
+    path = tmp_path / "scene.toml"
+    path.write_text(scene.to_toml())
+    assert cli.main(["run", str(path), "--out", str(tmp_path / "out")]) != 0
+    assert "no oil carries" in capsys.readouterr().err
+    record = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert any("no oil carries" in text for text in record["validity"])
+    assert "not valid" in (tmp_path / "out" / "history.csv").read_text().splitlines()[-1]
+    assert cli.main(["run", str(path), "--accept", "--out", str(tmp_path / "kept")]) == 0
+    assert cli.main(["plot", str(tmp_path / "kept")]) == 0
+
+
+def test_an_unresolved_spike_is_told():
+    """A Newtonian film at 1 GPa has f in its spike alone, which the grid of a run does not hold; Eyring's is no more
+    off than it says."""
+    scene = BASE.with_(
+        bodies={"load": 500.0},
+        motion={"entrainment_speed": 1.0, "slide_roll_ratio": 0.02},
+        surface={"sq": 1e-8},
+        numerics={"heat": "off"},
+    )
+    eyring, steady = in_time(scene), lubfric.friction(scene).coefficient
+    assert abs(eyring.coefficient[-1] / steady - 1) < 2 * eyring.shear_error[-1] + 5e-3
+    assert not any("sum of the film's shear stress" in text for text in eyring.validity)
+    newtonian = scene.with_(lubricant={"eyring_stress": None, "limiting_stress_coefficient": None})
+    found = in_time(newtonian)
+    assert abs(found.coefficient[-1] / lubfric.friction(newtonian).coefficient - 1) > 1
+    assert found.shear_error[-1] > 0.3 and any("sum of the film's shear stress" in text for text in found.validity)
