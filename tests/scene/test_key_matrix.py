@@ -316,12 +316,14 @@ FILM = BASE.with_(
 )
 
 
-FILM_IN_CONTACT = FILM.with_(surface={"sq": 1e-7}, motion={"entrainment_speed": 0.03})
+FILM_IN_CONTACT = FILM.with_(
+    surface={"sq": 1e-7}, motion={"entrainment_speed": 0.03}, numerics={"tolerance": 0.02, "model": "full"}
+)
 NEWTONIAN = FILM.with_(
-    bodies={"load": 1500.0},
+    bodies={"load": 1000.0},
     lubricant={"viscosity_law": "roelands", "pressure_viscosity_coefficient": 2e-8},
     surface={"sq": 2e-8},
-    numerics={"accept": False, "tolerance": 0.01},
+    numerics={"accept": False, "tolerance": 0.05},
 )
 
 
@@ -495,10 +497,10 @@ def test_tolerances_and_grid_reach_the_solvers(mode):
     """Tighter ones bring a residual or the number of cells where they ask for it; a looser tolerance on f costs
     cells."""
     cells = {}
-    for film in (1e-2, 1e-3):
+    for film in (2e-2, 2e-3):
         scene = FILM_IN_CONTACT.with_(numerics={"film_tolerance": film})
         cells[film] = _cells(scene, mode)
-    assert cells[1e-3] > cells[1e-2]
+    assert cells[2e-3] > cells[2e-2]
     tight = BASE.with_(numerics={"balance_tolerance": 1e-6, "contact_tolerance": 1e-7})
     assert abs(_volume(tight, mode)) <= 1.5e-6
     with pytest.raises(lubfric.ValidityError):
@@ -536,7 +538,11 @@ def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
     """A looser tolerance on the line is met by a shorter one, in a sweep as at a point; a run in time has the pilot of
     the line, told with its standard error, and lies within three of them of the steady answer."""
     line = CYLINDER.with_(
-        numerics={"sampling": "line", "sampling_tolerance": 0.2}, contact={"region": "hertz"}, surface={"oversize": 1}
+        bodies={"load": 20.0},
+        motion={"entrainment_speed": 0.05},
+        numerics={"sampling": "line", "sampling_tolerance": 0.2},
+        contact={"region": "hertz"},
+        surface={"oversize": 1},
     )
     point, swept = lubfric.friction(line), lubfric.stribeck(line, [line.motion.entrainment_speed]).points[0]
     assert swept.coefficient == point.coefficient and point.uncertainty.sampling > 0
