@@ -16,7 +16,7 @@ def main(argv: list[str]) -> int:
     Exit code 0: coverage, reported error over scatter and bias of every case within its bounds
     (`verification.sampling.verdict`).
     """
-    from . import cases, charts, cost, lengths, measure, pieces, verdict
+    from . import cases, charts, cost, lengths, measure, pieces, quantities, verdict
 
     parser = argparse.ArgumentParser("python -m verification sampling", description=__doc__)
     level = parser.add_mutually_exclusive_group()
@@ -41,6 +41,8 @@ def main(argv: list[str]) -> int:
     if not options.quick:
         maps = pieces.run(6 if options.full else 2, options.seed, options.out, _tell)
         lines.append(verdict.of_pieces(maps))
+        scenes = quantities.run(100 if options.full else 24, quantities.SEED, options.out, _tell)
+        lines.append(verdict.of_quantities(quantities.counted(scenes)))
         charts.bias(lengths.run(24 if options.full else 8, options.seed, truths, _tell), options.out)
         charts.cost(cost.run(8 if options.full else 3, options.seed, truths, _tell), options.out)
     table = verdict.table(lines)

@@ -66,9 +66,22 @@ def solve(scene, speed: float, asked: float) -> dict:
     }
 
 
+def kept(case, seed: int, out: Path) -> Result | None:
+    """What `run` left in ``out``; None where it has no truth or no trials."""
+    file = _file(case, seed, out)
+    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
+    truths = [r for r in rows if r["kind"] == "truth"]
+    trials = [r for r in rows if r["kind"] == "trial"]
+    return Result(case, trials, truths[0]["f"], truths[0]["error"]) if truths and len(trials) > 1 else None
+
+
+def _file(case, seed: int, out: Path) -> Path:
+    return out / f"{''.join(c if c.isalnum() else '-' for c in case.name)}-{seed}.jsonl"
+
+
 def run(case, trials: int, seed: int, out: Path, tell) -> Result:
     """Rows kept in ``out`` as they come (one line each): those found there are not solved again."""
-    file = out / f"{''.join(c if c.isalnum() else '-' for c in case.name)}-{seed}.jsonl"
+    file = _file(case, seed, out)
     rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
     known = {(r["kind"], r["seed"]) for r in rows}
     wanted = [("truth", seed + REPORTED), *(("trial", seed + i) for i in range(trials))]

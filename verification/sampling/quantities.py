@@ -8,6 +8,8 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 import lubfric
 from lubfric.errors import LubfricError
 from lubfric.sampling.uncertainty import FIELDS
@@ -65,3 +67,15 @@ def within(row: dict) -> dict[str, bool | None]:
             size = max(abs(reference), 1e-300)
             result[name] = bool(abs(value - reference) <= max(error, FLOOR) * max(size, abs(value)))
     return result
+
+
+def counted(rows) -> list[tuple[str, int, float, float]]:
+    """(quantity, scenes that state an error, share of them within it, median stated error)."""
+    found = []
+    for name in FIELDS:
+        told = [row for row in rows if within(row).get(name) is not None]
+        if not told:
+            continue
+        held = sum(bool(within(row)[name]) for row in told) / len(told)
+        found.append((name, len(told), held, float(np.median([row["beside"][name][1] for row in told]))))
+    return found
