@@ -26,7 +26,7 @@ def areas_on_own_cells(prepared: Prepared, speed: float, point: Solved) -> dict[
     coarse, grid = point.contact.coarsened() if decision.grid_error is not None else None, point.contact.grid
     if coarse is None or grid is None or coarse.grid is None or balance.contact_load == 0 or balance.lubricated is None:
         return {}
-    thickness, shape = at(prepared, speed, coarse, balance.lubricated).imposed_on(coarse, balance.lubricated.film)
+    thickness, shape = at(prepared, speed, coarse, balance.lubricated).film_on(coarse, balance.lubricated.film)
     state = coarse.close(thickness, balance.contact_load, balance.contact, shape)
     times, longer = math.sqrt(math.prod(decision.coarsening)), _cell(coarse.grid) / _cell(grid)
     share, width = (times - 1) / (times * (longer - 1)), prepared.scene.bodies.width
