@@ -55,11 +55,11 @@ def test_killed_dask_workers_lose_nothing(serial, tmp_path):
     them waits for new ones, as a nanny whose worker dies while it starts gives up."""
     distributed = pytest.importorskip("distributed")
     rng, killed = np.random.default_rng(1), []
-    with cluster() as workers, distributed.Client(workers) as client:
-        for run in range(100):
-            store, ended = tmp_path / str(run), threading.Event()
+    for run in range(100):
+        store, ended = tmp_path / str(run), threading.Event()
+        with cluster() as workers, distributed.Client(workers) as client:
 
-            def kill(store=store, ended=ended):
+            def kill(store=store, ended=ended, workers=workers):
                 while not list((store / "points").glob("*")) and not ended.is_set():
                     time.sleep(0.01)
                 while len(killed) < 20 and not ended.wait(rng.exponential(0.5)):
@@ -75,11 +75,11 @@ def test_killed_dask_workers_lose_nothing(serial, tmp_path):
             same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=store), serial)
             ended.set()
             killer.join()
-            lines = [line for path in (store / "points").iterdir() for line in path.read_bytes().splitlines()]
-            keys = [line.split(b'"')[3] for line in lines if line.count(b'"') > 3]
-            assert len(keys) == len(set(keys)) == serial.status.size
-            if len(killed) >= 20:
-                break
+        lines = [line for path in (store / "points").iterdir() for line in path.read_bytes().splitlines()]
+        keys = [line.split(b'"')[3] for line in lines if line.count(b'"') > 3]
+        assert len(keys) == len(set(keys)) == serial.status.size
+        if len(killed) >= 20:
+            break
     assert len(killed) == 20
 
 
