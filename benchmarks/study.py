@@ -2,9 +2,10 @@
 
     python benchmarks/study.py [--points 10000] [--workers 2] [--out FOLDER]
 
-Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; ten curves of it
-are run in this process too, whose processor time a point is the serial reference, so that a busy machine does not blur
-the comparison. Prints one table.
+Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; every tenth of its
+batches is run in this process too, and its processor time is set beside the processor time that the same batches took
+there, so that a busy machine does not blur the comparison; idle is the share of the time in which a process held no
+batch. Cut at any moment, the same command goes on from there. Prints one table and draws study.png into FOLDER.
 """
 
 import os
@@ -13,19 +14,26 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 import argparse
+import json
 import resource
 import tempfile
 import time
+from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
+from lubfric.studies import run
+
+FEW = 10  # every so many batches are run here too
+solve = run.run_piece
 
 
-def plan(points: int, curves: int | None = None):
-    """5 loads x 5 viscosities x 4 maps x speeds; with ``curves``: only so many of them."""
+def plan(points: int):
+    """5 loads x 5 viscosities x 4 maps x speeds."""
     scene = lubfric.load_scene("paper").with_(
         contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"sampling": "patch"}
     )
@@ -34,20 +42,52 @@ def plan(points: int, curves: int | None = None):
         "lubricant.viscosity": np.geomspace(0.05, 0.4, 5),
         "surface.seed": [1, 2, 3, 4],
     }
-    if curves:
-        vary = {"surface.seed": [1, 2], "lubricant.viscosity": vary["lubricant.viscosity"][: curves // 2]}
     return lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, max(points // 100, 1)))
 
 
-def cpu(who: int) -> float:
-    """Processor seconds of this process or its children."""
-    used = resource.getrusage(who)
-    return used.ru_utime + used.ru_stime
+def timed(piece):
+    """`run_piece`, with a line in times.jsonl: who, what, when, processor time, memory [MiB]."""
+    began, used = time.time(), time.process_time()
+    rows = solve(piece)
+    told = {
+        "process": os.getpid(),
+        "piece": piece.batch.curves[0].name,
+        "whole": not any(piece.done.values()),
+        "began": began,
+        "ended": time.time(),
+        "cpu": time.process_time() - used,
+        "memory": int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20,
+    }
+    with (Path(piece.folder) / "times.jsonl").open("a") as file:
+        file.write(json.dumps(told) + "\n")
+    return rows
 
 
-def memory(who: int) -> float:
-    """Largest resident memory so far [MiB]."""
-    return resource.getrusage(who).ru_maxrss / 1024
+def idle(pieces: list[dict]) -> float:
+    """Share of the time between first and last batch in which a process held none."""
+    by_process = defaultdict(list)
+    for piece in pieces:
+        by_process[piece["process"]].append(piece)
+    held = sum(piece["ended"] - piece["began"] for piece in pieces)
+    ends = [(min(p["began"] for p in own), max(p["ended"] for p in own)) for own in by_process.values()]
+    first, last = min(b for b, _ in ends), max(e for _, e in ends)
+    return 1 - held / ((last - first) * len(ends))
+
+
+def draw(folder: Path, result) -> None:
+    """Curves of all loads and viscosities on the first map, over viscosity x speed, from the Dataset."""
+    import matplotlib.pyplot as plt
+
+    data = result.to_xarray()
+    figure, ax = plt.subplots(figsize=(7, 5))
+    for i, load in enumerate(data["bodies.load"].values):
+        for viscosity in data["lubricant.viscosity"].values:
+            curve = data.coefficient.sel({"bodies.load": load, "lubricant.viscosity": viscosity, "surface.seed": 1})
+            ax.semilogx(viscosity * data.speed, curve, color=f"C{i}", lw=0.8)
+        ax.plot([], [], color=f"C{i}", label=f"{load:g} N")
+    ax.set(xlabel="viscosity x speed (N/m)", ylabel="friction coefficient (-)", title=f"{result.status.size} points")
+    ax.legend(frameon=False)
+    figure.savefig(folder / "study.png", dpi=120)
 
 
 def main() -> None:
@@ -58,30 +98,43 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     arguments = parser.parse_args()
     folder = arguments.out or Path(tempfile.mkdtemp())
-    few, whole = plan(arguments.points, 10), plan(arguments.points)
-    begun = cpu(resource.RUSAGE_SELF)
+    whole = plan(arguments.points)
+    few = replace(whole, batches=whole.batches[::FEW])
+    run.run_piece = timed
     lubfric.study(few, store=folder / "few")
-    serial = (cpu(resource.RUSAGE_SELF) - begun) / few.points
-    began, own = time.perf_counter(), cpu(resource.RUSAGE_SELF)
     with ProcessPoolExecutor(arguments.workers) as executor:
         result = lubfric.study(whole, executor=executor, store=folder / "all")
-    wall, own = time.perf_counter() - began, cpu(resource.RUSAGE_SELF) - own
-    spread = cpu(resource.RUSAGE_CHILDREN) / whole.points
     begun = time.perf_counter()
     again = lubfric.open_study(folder / "all")
     opened = time.perf_counter() - begun
     size = sum(path.stat().st_size for path in (folder / "all").rglob("*"))
+    alone, pieces = (
+        [json.loads(line) for line in (folder / part / "times.jsonl").read_text().splitlines()]
+        for part in ("few", "all")
+    )
+    pieces.sort(key=lambda piece: piece["ended"])
+    here = {piece["piece"]: piece["cpu"] for piece in alone if piece["whole"]}
+    there = {piece["piece"]: piece["cpu"] for piece in pieces if piece["whole"]}
+    both = sorted(here.keys() & there.keys())
+    ratio = sum(here[name] for name in both) / sum(there[name] for name in both)
+    wall, used = pieces[-1]["ended"] - min(p["began"] for p in pieces), sum(p["cpu"] for p in pieces)
+    tenth = max(len(pieces) // 10, 1)
     rows = [
         ("points", f"{whole.points}, {result.failed} failed, {again.missing} missing"),
-        ("processes", str(arguments.workers)),
+        ("processes", str(len({piece["process"] for piece in pieces}))),
         ("wall time", f"{wall:.1f} s, {whole.points / wall:.0f} points a second"),
-        ("processor time a point, in the processes", f"{1e3 * spread:.2f} ms"),
-        ("processor time a point, serial", f"{1e3 * serial:.2f} ms"),
-        ("efficiency: serial over (processes + share of this one)", f"{serial / (spread + own / whole.points):.0%}"),
-        ("largest memory of a process", f"{memory(resource.RUSAGE_CHILDREN):.0f} MiB"),
-        ("largest memory of this one", f"{memory(resource.RUSAGE_SELF):.0f} MiB"),
+        ("processor time", f"{1e3 * used / whole.points:.2f} ms a point: {used / wall:.2f} cores' worth were had"),
+        ("processor time of the same batches, serial over there", f"{ratio:.1%} ({len(both)} batches)"),
+        ("idle", f"{idle(pieces):.1%} of the time of a process"),
+        (
+            "memory of a process",
+            f"{np.median([p['memory'] for p in pieces[:tenth]]):.0f} MiB in the first tenth, "
+            f"{np.median([p['memory'] for p in pieces[-tenth:]]):.0f} MiB in the last, "
+            f"{max(p['memory'] for p in pieces):.0f} MiB at most",
+        ),
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),
     ]
+    draw(folder, again)
     print("| | |\n|---|---|")
     for name, value in rows:
         print(f"| {name} | {value} |")

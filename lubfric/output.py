@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 import platform
 from dataclasses import asdict
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import InputError
+from .plain import plain
 from .prepared import Prepared
 from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
@@ -170,16 +170,3 @@ def _point(curve: StribeckResult, index: int) -> dict:
         "errors": asdict(point.errors),
     }
     return {name: getattr(point, name) for name in QUANTITIES} | known | {"report": point.report.as_dict()} | told
-
-
-def plain(value):
-    """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
-    if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 
@@ -18,6 +19,13 @@ def _figure(*args, **kwargs):
     figure = Figure(*args, layout="constrained", **kwargs)
     FigureCanvasAgg(figure)
     return figure
+
+
+def make_ready() -> None:
+    """Import what draws, and its letters: half a second that can pass while something else is computed."""
+    figure = _figure(figsize=(1, 1))
+    figure.subplots()
+    figure.savefig(io.BytesIO())
 
 
 def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:

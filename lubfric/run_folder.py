@@ -30,6 +30,13 @@ OUTPUTS = (
 )
 
 
+def drawn(plot: Callable, *arguments) -> bytes:
+    """The figure of ``plot(file, *arguments)``."""
+    buffer = io.BytesIO()
+    plot(buffer, *arguments)
+    return buffer.getvalue()
+
+
 class RunFolder:
     """``path`` and the names of the files ``written`` to it. Made by `run_folder`."""
 
@@ -51,9 +58,7 @@ class RunFolder:
 
     def draw(self, name: str, plot: Callable, *arguments) -> None:
         """A figure: ``plot(file, *arguments)``."""
-        buffer = io.BytesIO()
-        plot(buffer, *arguments)
-        self.write(name, buffer.getvalue())
+        self.write(name, drawn(plot, *arguments))
 
     def make(self, name: str, save: Callable, *arguments) -> None:
         """A file that ``save(path, *arguments)`` can only write by name."""

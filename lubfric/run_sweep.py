@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,9 +15,10 @@ from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
-from .plot import plot_contact, plot_stribeck
+from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
-from .run_folder import RunFolder, run_folder
+from .result import FrictionResult
+from .run_folder import RunFolder, drawn, run_folder
 from .scene import FASTEST, Scene
 from .show.report import report_page
 from .store import fingerprint
@@ -50,15 +52,23 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     def on_point(done, total, speed, outcome):
         counted[0] = done
         _progress(done, total, speed, outcome)
+        if speed == chosen[0] and isinstance(outcome, FrictionResult) and outcome.balance is not None:
+            pictures[speed] = artist.submit(drawn, plot_contact, prepared, outcome)
 
     def kept() -> str:
         return f"interrupted; {counted[0]} of {total} points are kept in {out}: the same command goes on from there"
 
-    with keeping(kept), run_folder(out, fingerprint(prepared, asked, chosen)) as folder:
+    pictures: dict[float, Future[bytes]] = {}
+    with (
+        keeping(kept),
+        ThreadPoolExecutor(1) as artist,
+        run_folder(out, fingerprint(prepared, asked, chosen)) as folder,
+    ):
+        artist.submit(make_ready)  # while the speeds are solved
         curve = stribeck(
             prepared, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
         )
-        _write(folder, prepared, curve, chosen)
+        _write(folder, prepared, curve, chosen, pictures)
         record = curve_record(prepared, curve, time.perf_counter() - begun)
         _write_more(folder, prepared, curve, record, more)
         folder.finish(record)
@@ -100,8 +110,8 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
     return asked, chosen
 
 
-def _write(folder: RunFolder, prepared, curve, chosen) -> None:
-    """All but the result."""
+def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Future[bytes]]) -> None:
+    """All but the result; ``pictures``: of contacts by speed, drawn or being drawn."""
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
@@ -110,7 +120,8 @@ def _write(folder: RunFolder, prepared, curve, chosen) -> None:
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", fields_bytes(prepared, points))
-        folder.draw("contact.png", plot_contact, prepared, points[0])
+        ready = pictures.get(points[0].speed)
+        folder.write("contact.png", ready.result() if ready else drawn(plot_contact, prepared, points[0]))
     whole = [p for p in curve.points if p is not None and p.deterministic is not None]
     if whole:
         whole.sort(key=lambda p: chosen.index(p.speed))

@@ -16,6 +16,7 @@ from ..result import FrictionResult
 from ..sampling.estimate import of_line
 from ..sampling.line_friction import line_friction
 from ..sampling.other_cells import by_half_cells, too_coarse
+from ..sampling.patch_area import areas_on_own_cells
 from ..sampling.patch_error import of_patch
 from ..scene import Scene
 from ..validity.model_form import load_sharing_error
@@ -35,7 +36,9 @@ def load_sharing_answer(
     else:
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
-        result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point)
+        areas = areas_on_own_cells(chosen, speed, point)
+        result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point, areas)
+        result = replace(result, **{name: value for name, (value, _) in areas.items()})  # type: ignore[arg-type]
         change = by_half_cells(chosen, speed, point)
     cautions = too_coarse(change, prepared.scene.numerics.tolerance)
     result = replace(result, validity=(*result.validity, *cautions))

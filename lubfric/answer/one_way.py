@@ -8,13 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from ..deterministic.refine import estimate
+from ..film.shear import ShearForce
 from ..one_way.point import OneWay
 from ..one_way.refine import one_way_point
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
+from ..scene import Scene
 from ..validity.bodies import of_motion
+from ..validity.entry import Validity
 from ..validity.model_form import one_way_error
+from ..validity.stress import of_shear
 from .resolved import Resolved, resolved_result
 
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
@@ -59,5 +63,12 @@ def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None)
         mean_gap=float(one.gap[strip].mean()),
         load_residual=(one.contact_load + one.film_load) * bodies.width / bodies.load - 1,
         report=one.report,
-        entries=(*prepared.known, *of_motion(prepared.scene, speed, central)),
+        entries=(*prepared.known, *of_motion(prepared.scene, speed, central), *_of_shear(prepared.scene, one)),
     )
+
+
+def _of_shear(scene: Scene, one: OneWay) -> list[Validity]:
+    """A film that drags more than any lubricant."""
+    newtonian = scene.lubricant.eyring_stress is None and scene.lubricant.limiting_stress_coefficient is None
+    force = abs(one.coefficient) * (one.contact_load + one.film_load)
+    return of_shear(ShearForce(one.couette, one.rolling), one.film_load, force, scene.numerics.tolerance, newtonian)

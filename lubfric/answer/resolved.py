@@ -6,10 +6,12 @@ import math
 import time
 from dataclasses import dataclass, replace
 
+from ..heat.point import inlet_at
 from ..point.decision import Decision
 from ..prepared import Prepared
 from ..report import Report
 from ..result import FrictionResult
+from ..scene import Scene
 from ..validity.entry import Validity
 
 
@@ -47,6 +49,7 @@ def resolved_result(prepared: Prepared, speed: float, found: Resolved, begun: fl
     """The numbers of ``found``, of the whole width, isothermal; ``begun``: when the solve did, by
     `time.perf_counter`."""
     scene, width, sq = prepared.scene, prepared.scene.bodies.width, prepared.surface.sq
+    entries = (*found.entries, *_heat_left_out(scene, speed, found))
     decision = Decision(
         film=found.film,
         contact=found.contact,
@@ -77,7 +80,31 @@ def resolved_result(prepared: Prepared, speed: float, found: Resolved, begun: fl
         load_residual=found.load_residual,
         volume_residual=math.nan,
         seconds=time.perf_counter() - begun,
-        report=replace(found.report, notes=(decision.text, *(entry.text for entry in found.entries))),
+        report=replace(found.report, notes=(decision.text, *(entry.text for entry in entries))),
         decision=decision,
-        validity=found.entries,
+        validity=entries,
+    )
+
+
+def _heat_left_out(scene: Scene, speed: float, found: Resolved) -> tuple[Validity, ...]:
+    """Told where heat, which these models leave out, would matter: by the inlet, or by the viscosity that the mean rise
+    of the film over its walls, ``tau du h/(12 k)``, takes away."""
+    inlet, _ = inlet_at(scene, speed)
+    if inlet is None:
+        return ()
+    lubricant, sliding = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
+    stress = abs(found.couette) / (2 * scene.bodies.half_width)
+    rise = stress * sliding * found.central_gap / (12 * lubricant.conductivity)
+    change = max(1 - inlet.factor, rise * (lubricant.temperature_coefficient or 0.0))
+    if not change > scene.numerics.tolerance:
+        return ()
+    return (
+        Validity(
+            "heat, by what it takes off the film or its viscosity,",
+            change,
+            scene.numerics.tolerance,
+            "",
+            "this model is isothermal: the film is thinner and shears more easily than it says",
+            "load sharing (numerics.model = 'auto', closure = 'load') has the heat; heat = 'off' asks for none",
+        ),
     )

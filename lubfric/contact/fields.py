@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-BLOCK = 32768  # cells
+BLOCK = 16384  # cells
 
 
 @dataclass

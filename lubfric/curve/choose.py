@@ -9,7 +9,7 @@ from .interpolate import Interpolant, Samples, knee_of
 CLOSE = 1.06  # ratio of the slowest film without contact to lift-off that pins the knee down
 ENOUGH = 4  # speeds within a tenth of the knee: more would not tell it better
 APART = 1.015  # least ratio of neighbouring speeds
-SHARE = 0.7  # of the tolerance that the estimate of the error may reach
+SHARE = 0.8  # of the tolerance that the estimate of the error may reach
 GRID = 400
 
 
@@ -19,7 +19,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     ``tried``: speeds that failed, which are left alone.
 
     First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which
-    the error is estimated to be largest, until that is below ``tolerance`` times 0.7 everywhere.
+    the error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

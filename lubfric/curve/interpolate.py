@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 EXPONENT, POWER = 0.6, 2.0 / 3.0
+NEAR, BEYOND = 1.003, 1.03  # an estimate of lift-off below NEAR times a speed with contact is put BEYOND it
 CLOSER = 1.0 / 5.0  # error between points over that with every other one left out, of a cubic or better
 
 
@@ -118,7 +119,9 @@ def knee_of(samples: Samples) -> float | None:
         found = max(x[0] - clear[0] * (x[1] - x[0]) / (clear[1] - clear[0]), 0.0) ** (1 / EXPONENT)
     else:
         found = float(np.sqrt(low * high))
-    return float(np.clip(found, low * (1 + 1e-6), high))
+    if found < NEAR * low:
+        found = min(BEYOND * low, float(np.sqrt(low * high)))
+    return float(min(found, high))
 
 
 def knee_range(samples: Samples) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from ..errors import InputError
 from ..line_contact import LineContact
-from ..prepared import Prepared
+from ..scene import Scene
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
 MIXED = (0.4, 1.2, 2.5, 4.5)  # the same where the contact carries about 0.9, 0.6, 0.2 and nothing of the load
@@ -16,37 +16,36 @@ FEWEST = 5  # speeds to begin with
 SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
-def span(prepared: Prepared) -> tuple[float, float]:
+def span(scene: Scene, sq: float) -> tuple[float, float]:
     """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that
     Moes' formula gives the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for a smooth surface without speeds, which has no such range.
     """
-    speeds = sorted({abs(u) for u in prepared.scene.motion.speeds if u != 0})
+    speeds = sorted({abs(u) for u in scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
-    sq = prepared.surface.sq
     if sq <= 0:
         raise InputError(
             "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
         )
-    if _ratio(prepared, SLOWEST) > THIN or _ratio(prepared, FASTEST) < THICK:
+    if _ratio(scene, sq, SLOWEST) > THIN or _ratio(scene, sq, FASTEST) < THICK:
         raise InputError(
             "speeds = 'auto' finds no range from boundary lubrication to a full film; allowed: motion.speed_range"
         )
-    return _speed_of(prepared, THIN, SLOWEST, FASTEST), _speed_of(prepared, THICK, SLOWEST, FASTEST)
+    return _speed_of(scene, sq, THIN, SLOWEST, FASTEST), _speed_of(scene, sq, THICK, SLOWEST, FASTEST)
 
 
-def first_speeds(prepared: Prepared) -> tuple[float, ...]:
+def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.4,
     1.2, 2.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
-    low, high = span(prepared)
+    low, high = span(scene, sq)
     found = [low, high]
-    if prepared.surface.sq > 0:
+    if sq > 0:
         inside = [
-            ratio for ratio in MIXED if _ratio(prepared, low) < 0.9 * ratio and 1.1 * ratio < _ratio(prepared, high)
+            ratio for ratio in MIXED if _ratio(scene, sq, low) < 0.9 * ratio and 1.1 * ratio < _ratio(scene, sq, high)
         ]
-        found += [_speed_of(prepared, ratio, low, high) for ratio in inside]
+        found += [_speed_of(scene, sq, ratio, low, high) for ratio in inside]
     while len(found) < FEWEST:
         found.sort()
         _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(found, found[1:])))
@@ -54,17 +53,17 @@ def first_speeds(prepared: Prepared) -> tuple[float, ...]:
     return tuple(sorted(found, reverse=True))
 
 
-def _ratio(prepared: Prepared, speed: float) -> float:
+def _ratio(scene: Scene, sq: float, speed: float) -> float:
     """Moes' film of the whole load over Sq."""
-    bodies = prepared.scene.bodies
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
-    return line.moes_film / prepared.surface.sq
+    bodies = scene.bodies
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
+    return line.moes_film / sq
 
 
-def _speed_of(prepared: Prepared, ratio: float, low: float, high: float) -> float:
+def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:
     """The speed [m/s] between ``low`` and ``high`` at which `_ratio` is ``ratio``."""
 
     def excess(log_speed: float) -> float:
-        return math.log(_ratio(prepared, math.exp(log_speed)) / ratio)
+        return math.log(_ratio(scene, sq, math.exp(log_speed)) / ratio)
 
     return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-6))

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..console import say
 from ..errors import ConvergenceError
-from ..output import UNITS, plain
+from ..output import UNITS
+from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import run_folder
 from ..run_sweep import parse_speeds

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..report import Report
 from ..scene import Scene
+from ..show.shown import table
 from .measured import Measured
 from .parameters import Parameters
 
@@ -124,6 +125,11 @@ class FitResult:
     def __repr__(self) -> str:
         found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
         return f"<FitResult: {found}; cannot tell: {', '.join(self.undetermined) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        found, known = self.values, self.intervals
+        words = {key: f"{found[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}" for key, (low, high) in known.items()}
+        return table(words | {"cannot tell": ", ".join(self.undetermined) or "none"}, "FitResult")
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""

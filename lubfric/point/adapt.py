@@ -16,7 +16,14 @@ from .forces import dry_forces
 from .grids import coarser_grids, on_enough_cells
 from .one_grid import Stage
 from .operating_point import OperatingPoint, Settings
-from .tolerances import allowed_left_out, film_alone_tolerance, first_film_tolerance, least_cells
+from .tolerances import (
+    allowed_left_out,
+    felt_share,
+    film_alone_tolerance,
+    film_tolerance,
+    first_film_tolerance,
+    least_cells,
+)
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 
@@ -98,16 +105,18 @@ def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solv
 
 
 def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_grid: bool) -> Solved:
-    """Film and contact: first with the level that a neighbour's film load needs, or the simplest, which costs next to
-    nothing and tells what is needed."""
+    """Film and contact: first with the level and the tolerances that a neighbour needs, or the simplest, which costs
+    next to nothing and tells what is needed."""
     numerics = prepared.scene.numerics
     level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
     settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)
     point = OperatingPoint(prepared, speed, prepared.contact, settings)
     if start is not None and start.film is not None and start.contact_load > 0:
-        allowed, line = allowed_left_out(numerics, start.forces.sensitivity), point.line(start.film_load)
+        share = felt_share(numerics, start)
+        allowed, line = allowed_left_out(numerics, share), point.line(start.film_load)
         level, _ = level_for(prepared.film_levels, numerics, line, allowed)
-        point = replace(point, settings=replace(settings, level=level))
+        settings = replace(settings, level=level, film_tolerance=film_tolerance(numerics, share))
+        point = replace(point, settings=settings)
     own = given_grid or numerics.grid == "given" or numerics.model == "full"
     grids = [prepared.contact] if own else coarser_grids(prepared.contact, prepared.surface.sq)
     stage, index, error = on_enough_cells(point, grids, start)

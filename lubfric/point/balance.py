@@ -25,7 +25,8 @@ FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a nei
 class Balance:
     """One operating point in balance, loads in N; film and its level are None without entrainment.
 
-    slope: of the residual over ``split``, from the last two points of the root (None: not known).
+    slope: of the residual over ``split``, from the last two points of the root (None: not known). ``states``: the
+    contact as found on the grids on the way here, the coarsest first, from which those of a neighbour start.
     """
 
     film_load: float
@@ -36,6 +37,7 @@ class Balance:
     forces: Forces
     level: FilmLevel | None
     slope: float | None = None
+    states: tuple[ContactState, ...] = ()
 
     @property
     def closure(self) -> ContactState:

@@ -11,6 +11,7 @@ from ..rough.contract import ContactState, RoughContact
 from .balance import Balance
 from .one_grid import Stage, on_grid
 from .operating_point import OperatingPoint
+from .tolerances import balance_tolerance, felt_share
 
 LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
 LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
@@ -44,13 +45,28 @@ def on_enough_cells(
     point: OperatingPoint, grids: Sequence[RoughContact], start: Balance | None
 ) -> tuple[Stage, int, float]:
     """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid,
-    and that error (infinite: unknown)."""
-    limit = budget.CONTACT_GRID * point.scene.numerics.tolerance
+    and that error (infinite: unknown).
+
+    On the coarsest of several the volume is closed loosely: the balance is moved from there to the next by the residual
+    left, what the grid changes it by, and its slope.
+    """
+    numerics = point.scene.numerics
+    limit, movable = budget.CONTACT_GRID * numerics.tolerance, numerics.closure == "load"
+    sensitivity = 1.0 if start is None or start.film is None else felt_share(numerics, start)
     index, last = 0, len(grids) - 1
+    known = () if start is None else start.states
+    if start is not None and known:
+        start = replace(start, contact=known[0])
     point = replace(point, contact=grids[0])
     changes: tuple[float, ...] = ()
     while True:
-        stage = on_grid(point, grids[index], start)
+        states = () if start is None or not index else start.states
+        loosest = budget.LOOSEST_VOLUME if movable and index < last and not changes else 0.0
+        tolerance = max(balance_tolerance(numerics, sensitivity), loosest)
+        point = replace(point, settings=replace(point.settings, balance_tolerance=tolerance))
+        stage = on_grid(point, grids[index], start, loosest)
+        sensitivity = felt_share(numerics, stage.balance)
+        stage = replace(stage, balance=replace(stage.balance, states=(*states, stage.balance.contact)))
         error = grid_error(changes, stage.balance, limit) if changes else math.inf
         if index == last or error <= limit:
             grids[index].check(stage.balance.contact)
@@ -58,43 +74,56 @@ def on_enough_cells(
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
             index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None
         else:
-            finer = refined(stage, grids, index, changes, limit)
+            finer = refined(stage, grids, (index, changes, limit), known)
             index, changes, point, start = finer.index, finer.changes, finer.point, finer.balance
 
 
 def refined(
-    stage: Stage, grids: Sequence[RoughContact], index: int, changes: tuple[float, ...], limit: float
+    stage: Stage,
+    grids: Sequence[RoughContact],
+    at: tuple[int, tuple[float, ...], float],
+    known: Sequence[ContactState] = (),
 ) -> Refined:
-    """Contact on grids finer than ``grids[index]`` under the film and load of ``stage``, until the rest is within
-    ``limit``.
+    """Contact on grids finer than that of ``stage`` under its film and load, until the rest is within the limit.
+
+    ``at``: index of the grid, changes of the residual so far, and limit. ``known``: states of a neighbour, to start
+    from.
 
     What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
     load would: no film is solved.
     """
-    balance, contact, state, total = stage.balance, stage.point.contact, stage.balance.contact, 0.0
+    index, changes, limit = at
+    balance, contact, state = stage.balance, stage.point.contact, stage.balance.contact
+    states = list(balance.states)
     while index < len(grids) - 1:
         index += 1
-        contact, found = under_the_film(stage, grids[index], contact, state)
+        near = known[index] if index < len(known) else None
+        contact, found = under_the_film(stage, grids[index], (contact, state), near)
         change = found.volume_residual - state.volume_residual
-        changes, total, state = (*changes, change), total + change, found
+        changes, state = (*changes, change), found
+        states.append(found)
         if grid_error(changes, balance, limit) <= limit:
             break
-    step = 0.0 if not balance.slope else min(max(-total / balance.slope, -LARGEST_MOVE), LARGEST_MOVE)
+    step = 0.0 if not balance.slope else -state.volume_residual / balance.slope
+    step = min(max(step, -LARGEST_MOVE), LARGEST_MOVE)
     point = replace(stage.point, contact=contact)
-    return Refined(index, changes, point, replace(balance, contact=state).moved(step))
+    moved = replace(balance, contact=state, states=tuple(states[:-1])).moved(step)
+    return Refined(index, changes, point, moved)
 
 
 def under_the_film(
-    stage: Stage, whole: RoughContact, coarser: RoughContact, state: ContactState
+    stage: Stage, whole: RoughContact, coarser: tuple[RoughContact, ContactState], near: ContactState | None
 ) -> tuple[RoughContact, ContactState]:
     """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state;
-    from ``state``, found on ``coarser``. It is solved to its own tolerance: between grids no more is asked."""
-    film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, coarser)
-    thickness, shape = stage.point.imposed_on(part, film)
-    found = part.close(thickness, load, state, shape)
+    from that found on a ``coarser`` one, or ``near``, that of a neighbour on such a grid. It is solved to its own
+    tolerance: between grids no more is asked."""
+    contact, state = coarser
+    film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, contact)
+    thickness, shape = stage.point.film_on(part, film)
+    found = part.close(thickness, load, near or state, shape)
     if part is whole:
         return whole, found
-    thickness, shape = stage.point.imposed_on(whole, film)
+    thickness, shape = stage.point.film_on(whole, film)
     if whole.holds(part, shape, found):
         return part, found
     return whole, whole.close(thickness, load, found, shape)

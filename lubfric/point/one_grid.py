@@ -11,7 +11,14 @@ from ..film.ladder import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
 from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
-from .tolerances import allowed_left_out, balance_tolerance, contact_tolerance, film_tolerance, least_cells
+from .tolerances import (
+    allowed_left_out,
+    balance_tolerance,
+    contact_tolerance,
+    felt_share,
+    film_tolerance,
+    least_cells,
+)
 
 ROUNDS = 8  # each with a higher level or tighter tolerances
 
@@ -25,10 +32,11 @@ class Stage:
     left_out: LeftOut
 
 
-def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -> Stage:
+def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None, loosest: float = 0.0) -> Stage:
     """The balance on the point's contact, a part of ``whole``; on all of it where the part is not enough.
 
-    It is found again, from the last, until its settings are those that it shows to be needed.
+    It is found again, from the last, until its settings are those that it shows to be needed. ``loosest``: volume
+    residual that is good enough whatever f needs, where finer grids follow.
     """
     for _ in range(ROUNDS):
         balance = balanced(point, start)
@@ -37,26 +45,26 @@ def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None) -
             continue
         line = point.line(balance.film_load)
         stage = Stage(point, balance, point.settings.level.left_out(balance.film, line, math.inf))
-        settings = needed_settings(stage)
+        settings = needed_settings(stage, loosest)
         if settings is None:
             break
         point, start = replace(point, settings=settings), balance
     return stage
 
 
-def needed_settings(stage: Stage) -> Settings | None:
+def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
     """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its
     own will do. Beside a level given, the levels are those that leave out no more than is allowed."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
     numerics, levels = point.scene.numerics, point.prepared.film_levels
-    sensitivity = max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
+    sensitivity = felt_share(numerics, balance)
     allowed = allowed_left_out(numerics, sensitivity)
     if given_level(levels, numerics) is None and not stage.left_out.total <= allowed:
         lowest = lowest_level(levels, point.line(balance.film_load), allowed)[0]
         level = higher(levels, settings.level, lowest)
         if level != settings.level:  # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.tolerances.film))
-    film, volume = film_tolerance(numerics, sensitivity), balance_tolerance(numerics, sensitivity)
+    film, volume = film_tolerance(numerics, sensitivity), max(balance_tolerance(numerics, sensitivity), loosest)
     cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells

@@ -84,7 +84,7 @@ class OperatingPoint:
         """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load``
         [N] under it."""
         found = self.film(film_load, start, imposed)
-        film, shape = self.imposed_on(self.contact, found)
+        film, shape = self.film_on(self.contact, found)
         contact = self._contact.close(film, contact_load, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
 
@@ -92,11 +92,11 @@ class OperatingPoint:
         """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then
         has."""
         found = self.film(film_load, start)
-        film, shape = self.imposed_on(self.contact, found)
+        film, shape = self.film_on(self.contact, found)
         contact_load, contact = self._contact.carry(film, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
 
-    def imposed_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
+    def film_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
         """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or
         less.
 
@@ -113,7 +113,7 @@ class OperatingPoint:
 
     def suffices(self, whole: RoughContact, film: Film, state: ContactState) -> bool:
         """Nothing of ``whole`` outside the point's own contact, a part of it in ``state`` under ``film``, touches."""
-        return self.contact is whole or whole.holds(self.contact, self.imposed_on(whole, film)[1], state)
+        return self.contact is whole or whole.holds(self.contact, self.film_on(whole, film)[1], state)
 
     def guessed_split(self) -> float:
         """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""

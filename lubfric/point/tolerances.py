@@ -6,8 +6,15 @@ from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
 from ..validity.stress import meaningless
-from .balance import Lubricated
+from .balance import Balance, Lubricated
 from .operating_point import OperatingPoint, Settings
+
+
+def felt_share(numerics: Numerics, balance: Balance) -> float:
+    """Share of a film's error that reaches f; all of it where nothing is to be left out, or contact just begins."""
+    if balance.contact_load == 0:
+        return 1.0
+    return max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
 
 
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:

@@ -68,8 +68,10 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name in FILMS:
         errors[name] = errors.get(name, 0.0) + numerical.film
-    for name in (*SHEAR, *HEAT):
+    for name in HEAT:
         errors[name] = errors.get(name, 0.0) + numerical.film
+    for name, of_sums in shear_errors(balance.forces, numerical.film).items():
+        errors[name] = errors.get(name, 0.0) + of_sums
     load = balance.contact_load / together.contact_load if together.contact_load else 0.0
     for name, value, error, slope in (
         (AREAS[0], together.area_fraction, together.area.error, response.slopes.area),
@@ -95,7 +97,20 @@ def dry_errors(together: Pooled) -> dict[str, float]:
 
 def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
     """Without contact everything hangs on the film, of relative error ``film``."""
-    return dict.fromkeys(FILMS, film) | dict.fromkeys((*SHEAR, *HEAT), film + found.quadrature) | {"film_load": 0.0}
+    return dict.fromkeys((*FILMS, *HEAT), film) | shear_errors(found, film) | {"film_load": 0.0}
+
+
+def shear_errors(found: Forces, film: float) -> dict[str, float]:
+    """Relative errors of the film's friction and its parts from a film of relative error ``film`` and the sums over its
+    nodes; the rolling part is a small difference of large ones."""
+    shear = found.shear
+    rolling = film * max(abs(shear.rolling), shear.rolling_parts)
+    parts = {
+        "shear_force": (shear.total, film * abs(shear.couette) + rolling),
+        "couette_force": (shear.couette, film * abs(shear.couette)),
+        "rolling_force": (shear.rolling, rolling),
+    }
+    return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
 def uncertainty_of(

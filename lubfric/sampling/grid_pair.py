@@ -81,7 +81,7 @@ def grid_step(
         if rest <= enough and surface.heights.size / math.prod(factors) > MOST_CELLS:
             break
         contact = thinned(scene, surface, lines.cells, factors)
-        thickness, under = point.imposed_on(contact, film)
+        thickness, under = point.film_on(contact, film)
         state = contact.close(thickness, contact_load, None, under)
         rows.append(_by_row(contact, state, gap_slope, lines.cells.factors[1] // factors[1]))
         if len(rows) > 1:

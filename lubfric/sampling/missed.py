@@ -8,7 +8,8 @@ import numpy as np
 
 from .influence import SPOT
 
-FEWEST = 14  # blocks: of 25 correlation lengths
+FEWEST, ENOUGH = 4, 14  # blocks, the latter of 25 correlation lengths
+UNSURE = 2.0  # times the scale that fewer blocks than enough show
 OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
@@ -37,7 +38,7 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     moments: of what lies below zero, exp(-...) blocks in number and its scale a in height, each carries as much as a
     sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5
     1.33.
-    An order of magnitude, and no more.
+    Fewer than 14 blocks may show too small a scale: twice theirs is taken. An order of magnitude, and no more.
     """
     height, step = heights - film[:, None], spacing[1]
     size = max(1, round(SPOT * correlation_length / step))
@@ -45,7 +46,7 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
     if blocks.size < FEWEST:
         return math.nan
-    scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi
+    scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi * (UNSURE if blocks.size < ENOUGH else 1.0)
     place = float(blocks.mean()) - EULER * scale
     if scale == 0:
         return 0.0

@@ -31,7 +31,7 @@ def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
         coarse = point.contact.thinned(every)
         if coarse is None:
             break
-        thickness, shape = at(prepared, speed, coarse, balance.lubricated).imposed_on(coarse, balance.lubricated.film)
+        thickness, shape = at(prepared, speed, coarse, balance.lubricated).film_on(coarse, balance.lubricated.film)
         found.append(coarse.close(thickness, balance.contact_load, None, shape).volume_residual)
     if len(found) == 1:
         return math.nan

@@ -4,6 +4,7 @@ was given."""
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -30,12 +31,16 @@ from .response import Response, Slopes
 from .sample import response_of
 from .uncertainty import FieldErrors, Uncertainty, field_errors_of
 
-NO_AREA = "contact areas need the scene's own grid: fields=True, numerics.grid = 'given'"
+NO_AREA = "contact areas need the scene's own grid here: fields=True, numerics.grid = 'given'"
 UNKNOWN = "not known: {}"
+PLASTIC = 3.0  # a relative change of the load on the plastic part, at most about
+DOUBT = 2.0  # times the estimated error of the grid: of what is no share of f
 
 
-def of_patch(prepared, speed: float, point: Solved) -> tuple[Uncertainty, FieldErrors]:
-    """Uncertainty and errors by field of a point on one patch.
+def of_patch(
+    prepared, speed: float, point: Solved, areas: dict[str, tuple[float, float]]
+) -> tuple[Uncertainty, FieldErrors]:
+    """Uncertainty and errors by field of a point on one patch; ``areas``: `lubfric.sampling.patch_area`.
 
     The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half
     of a mirrored map counts. Nothing more is made of the surface: it is all there is.
@@ -65,10 +70,10 @@ def of_patch(prepared, speed: float, point: Solved) -> tuple[Uncertainty, FieldE
                 point.contact, balance.contact, balance.contact_load, response.slopes, correlation, rows=slice(0, rows)
             )
             gap_error = there.gap
-    return _told(prepared, point, response, gap_error, there, why)
+    return _told(prepared, point, response, gap_error, there, why, areas)
 
 
-def _told(prepared, point: Solved, response, gap_error, there, why):
+def _told(prepared, point: Solved, response, gap_error, there, why, areas):
     scene, balance = prepared.scene, point.balance
     found = balance.forces
     numerical = _numerical(point, response)
@@ -76,10 +81,14 @@ def _told(prepared, point: Solved, response, gap_error, there, why):
     known: dict[str, float] = {}
     if response is not None:
         finite = gap_error if math.isfinite(gap_error.error) else BlockError(0.0, 1)
-        known = field_errors(balance, numerical, finite, together, response)
+        doubtful = replace(numerical, gap=DOUBT * numerical.gap)
+        known = field_errors(balance, doubtful, finite, together, response)
         sampling = response.relative("coefficient", gap_error.error) if not why else math.nan
         if not math.isfinite(known.get(AREAS[0], math.nan)) and point.decision.grid_error is None:
             known |= dict.fromkeys(AREAS, known["contact_load"])
+            if balance.contact.plastic_area_fraction > 0:
+                known["plastic_area_fraction"] = PLASTIC * known["contact_load"]
+        known |= {name: math.hypot(known["contact_load"], error) for name, (_, error) in areas.items()}
     elif balance.film is None:
         sampling, known = 0.0, dry_errors(together)
     else:

@@ -141,7 +141,7 @@ def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
         thickness = under = contact.x**2 / (2 * scene.bodies.radius)
     else:
         point = at(prepared, speed, contact, wet)
-        thickness, under = point.imposed_on(contact, wet.film)
+        thickness, under = point.film_on(contact, wet.film)
 
     def close(load):
         return contact.close(thickness, load, balance.contact, under)

@@ -19,7 +19,31 @@ FREEDOM = (
 )
 
 
-def cited(*, contact: bool, heated: bool, sampled: bool) -> tuple[str, ...]:
-    """The papers, the model's first: of a rough half-space in contact, a heated inlet, an interval."""
-    parts = ((True, MODEL), (contact, CONTACT), (heated, INLET), (sampled, FREEDOM))
-    return tuple(text for used, text in parts if used)
+RIGID = "H. M. Martin, Engineering 102 (1916) 119-121: film between rigid cylinders"
+MODULUS = (
+    "K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0: "
+    "film deflected by the whole load"
+)
+SHEARED = (
+    "T. F. Conry, S. Wang, C. Cusano, Journal of Tribology 109 (1987) 648-654, doi:10.1115/1.3261526: "
+    "Reynolds' equation of an Eyring fluid"
+)
+
+
+def cited(**used: bool) -> tuple[str, ...]:
+    """The papers, the model's first: of a rough half-space in ``contact``, a ``heated`` inlet, an interval
+    (``sampled``), a ``rigid`` film, Johnson's ``modulus``, a film whose flow is ``sheared``."""
+    papers = {
+        "contact": CONTACT,
+        "rigid": RIGID,
+        "modulus": MODULUS,
+        "sheared": SHEARED,
+        "heated": INLET,
+        "sampled": FREEDOM,
+    }
+    return (MODEL, *(paper for name, paper in papers.items() if used.get(name)))
+
+
+def together(points) -> str:
+    """The papers of several results, each once, one a line."""
+    return "\n".join(dict.fromkeys(line for point in points for line in point.cite().splitlines()))

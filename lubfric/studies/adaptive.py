@@ -18,7 +18,7 @@ from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
 
 AUTO = "auto"
-MOST = 25  # speeds at most
+MOST, CHOSEN = 25, 12  # speeds at most, and about
 FEWEST = 3  # solved speeds that an interpolation needs
 
 
@@ -49,7 +49,7 @@ def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> 
     tolerance = numerics.tolerance
     if prepared.lines is not None:
         tolerance = math.hypot(tolerance, numerics.sampling_tolerance)
-    return Search(first_speeds(prepared), tolerance, wanted, name)
+    return Search(first_speeds(prepared.scene, prepared.surface.sq), tolerance, wanted, name)
 
 
 def curve_key(name: str) -> str:
@@ -57,13 +57,15 @@ def curve_key(name: str) -> str:
     return digest([name, "complete"])
 
 
-def run_adaptive(prepared: Prepared, search: Search, journal: Journal | None) -> Iterator[tuple[float, object]]:
+def run_adaptive(
+    prepared: Prepared, search: Search, journal: Journal | None, known: dict[str, dict]
+) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
-    Each point starts from the nearest one before it. Points that the ``journal`` knows are taken from there: the
-    choices, and so the rest, come out the same.
+    Each point starts from the nearest one before it. Points among the ``known`` records, those of the ``journal`` by
+    key, are taken from there: the choices, and so the rest, come out the same.
     """
-    trail = Trail(prepared, search, journal)
+    trail = Trail(prepared, search, journal, known)
     ahead = search.ahead
     while len(trail.speeds) < MOST:
         speed = ahead.pop(0) if ahead else _next(trail, search.tolerance)
@@ -76,11 +78,11 @@ def run_adaptive(prepared: Prepared, search: Search, journal: Journal | None) ->
 class Trail:
     """The points so far. ``speeds`` [m/s] and ``outcomes``, without fields where these are not wanted."""
 
-    def __init__(self, prepared: Prepared, search: Search, journal: Journal | None):
+    def __init__(self, prepared: Prepared, search: Search, journal: Journal | None, known: dict[str, dict]):
         self.speeds: list[float] = []
         self.outcomes: list = []
         self._prepared, self._search, self._journal = prepared, search, journal
-        self._known = {} if journal is None else dict(journal.records.read())
+        self._known = known
         self._keys: list[str] = []
         self._whole: dict[int, object] = {}  # outcomes with all that a neighbour starts from
 

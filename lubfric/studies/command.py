@@ -13,6 +13,7 @@ from .file import load_study
 from .pool import pool
 from .result import StudyResult, open_study
 from .run import study
+from .table_row import CONVERGED, UNUSED
 from .tables import to_netcdf
 
 SAY_EVERY = 1.0  # s between two lines of progress
@@ -35,9 +36,9 @@ def run_study(arguments) -> int:
     written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
     say(f"wrote {', '.join(written)} to {arguments.out} in {time.perf_counter() - begun:.1f} s")
     if result.failed:
-        first = next(status for status in result.status.flat if status != "converged")
-        report = Report("study", ITERATION_LIMIT, result.status.size - result.failed, float("inf"), 0.0)
-        raise ConvergenceError(f"{result.failed} of {result.status.size} points failed; first: {first}", report, result)
+        first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))
+        report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
+        raise ConvergenceError(f"{result.failed} of {result.solved} points failed; first: {first}", report, result)
     return 0
 
 
@@ -58,10 +59,8 @@ def _kept(folder) -> str:
     if not (Path(folder) / "study.json").is_file():
         return "interrupted before the first point"
     found = open_study(folder)
-    done = found.status.size - found.missing
-    return (
-        f"interrupted; {done} of {found.status.size} points are kept in {folder}: the same command goes on from there"
-    )
+    left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
+    return f"interrupted; {found.solved} points are kept in {folder}, {left}: the same command goes on from there"
 
 
 def _progress(begun: float):

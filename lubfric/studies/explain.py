@@ -1,41 +1,44 @@
-"""What a study will cost, before anything is solved."""
+"""What a study will cost, before any of its points is solved."""
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
-from scipy import fft
 
+from ..curve.span import first_speeds
 from ..errors import InputError
-from ..rough.height_map import contact_map
+from ..scene import Scene
+from .adaptive import CHOSEN
+from .cost import Ground, by_curve, film_clock, ground_of, point_seconds
 
-FILM = 4e-3  # s for the films of a point, of which no grid is larger than some hundred nodes
-WARM, COLD = 40, 120  # transforms of the patch for a point started from its neighbour, and for the first of a chain
-RECORD = 3000  # bytes of a point on disk
+SAMPLED = 2000  # points at most whose cost is foretold one by one
+RECORD = 4000  # bytes of a point on disk
 FIELD = 8 * 4  # bytes a cell of the state of a chain under way
 
 
 def explain(plan) -> str:
-    """Points, what they share, predicted cost and disk of a `StudyPlan`, in words; one map of each size is made, none
-    solved."""
+    """Points, what they share, predicted cost and disk of a `StudyPlan`, in words. Its maps are made, and one film is
+    solved as a clock of this machine; no point is."""
     curves = [curve for batch in plan.batches for curve in batch.curves]
     chains = sum(len(curve.chains) for curve in curves)
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
-    lines = [f"study of {plan.scene.name}: {plan.points} points"]
+    about = "" if plan.speeds else "about "
+    lines = [f"study of {plan.scene.name}: {about}{plan.points} points"]
     for axis in plan.axes:
         first, last = axis.values[0], axis.values[-1]
         shown = ", ".join(f"{key} from {_short(a)} to {_short(b)}" for key, a, b in zip(axis.keys, first, last))
         lines.append(f"  {len(axis.values):6d} x {shown}")
-    lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
-    cells, seconds, failed = _costs(plan, maps)
+    if plan.speeds:
+        lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
+        longest = max(len(c.speeds) for k in curves for c in k.chains)
+        started = f"{chains} warm-started chains of at most {longest} points"
+    else:
+        lines.append(f"      about {CHOSEN} speeds that each curve chooses")
+        started = "each point started from the nearest of its curve"
+    cells, seconds, failed = _costs(plan)
     lines += [
-        f"  shared         {len(maps)} height maps ({cells} cells the largest), {len(plan.batches)} batches that "
-        f"share map and operator, {chains} warm-started chains of at most "
-        f"{max(len(c.speeds) for k in curves for c in k.chains)} points",
-        f"  time           about {_time(seconds)} on one core (within a factor of 3), divided by the number of "
-        "processes "
-        f"up to {len(plan.batches)}",
+        f"  shared         {len(maps)} height maps ({cells} cells the largest grid), {len(plan.batches)} batches that "
+        f"share map and operator, {started}",
+        f"  time           {_foretold(plan, seconds)}",
         f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process "
         "while it runs",
         *(f"  cannot be solved: {reason}" for reason in failed),
@@ -43,34 +46,50 @@ def explain(plan) -> str:
     return "\n".join(lines)
 
 
-def _costs(plan, maps) -> tuple[int, float, list[str]]:
-    """(cells of the largest map, seconds, reasons of maps that cannot be made)."""
-    seconds, largest, failed, transform = 0.0, 0, [], {}
+def _foretold(plan, seconds: float) -> str:
+    if plan.scene.numerics.model == "deterministic" or plan.scene.numerics.closure == "one-way":
+        return "not foretold where the fluid between the asperities is solved for"
+    return (
+        f"about {_time(seconds)} on one core (within a factor of 3), divided by the number of processes up to "
+        f"{len(plan.batches)}"
+    )
+
+
+def _costs(plan) -> tuple[int, float, list[str]]:
+    """(cells of the largest grid, processor seconds, reasons of maps that cannot be made)."""
+    grounds: dict[str, Ground | None] = {}
+    failed: list[str] = []
+    curves, seconds = [], 0.0
     for batch in plan.batches:
-        name = repr((batch.leader.surface, batch.leader.counterface, batch.leader.contact))
-        if name not in transform:
+        leader = batch.leader
+        name = repr((leader.surface, leader.counterface, leader.contact, leader.numerics, leader.bodies))
+        if name not in grounds:
             try:
-                shape = contact_map(batch.leader).shape
-                transform[name] = _transform(shape)
-                largest = max(largest, int(np.prod(shape)))
+                grounds[name] = ground_of(leader, by_curve(leader))
             except InputError as error:
-                transform[name] = 0.0
+                grounds[name] = None
                 failed.append(str(error))
-        for curve in batch.curves:
-            points, chains = sum(len(c.speeds) for c in curve.chains), len(curve.chains)
-            seconds += points * (FILM + WARM * transform[name]) + chains * COLD * transform[name]
+        ground = grounds[name]
+        if ground is not None:
+            seconds += ground.making
+            curves += [(curve.scene, ground) for curve in batch.curves]
+    some = curves[:: max(1, len(curves) * len(plan.speeds) // SAMPLED)]
+    if some:
+        seconds += len(curves) / len(some) * _points(some, plan.speeds)
+    largest = max((int(np.prod(ground.shape)) for ground in grounds.values() if ground is not None), default=0)
     return largest, seconds, failed
 
 
-def _transform(shape) -> float:
-    """Seconds of one Fourier transform there and back of a patch twice as long, on a grid about half as fine."""
-    values = np.zeros((max(2, shape[0]), max(2, shape[1] // 2)))
-    best = np.inf
-    for _ in range(3):
-        begun = time.perf_counter()
-        fft.irfft2(fft.rfft2(values), values.shape)
-        best = min(best, time.perf_counter() - begun)
-    return best
+def _points(curves: list[tuple[Scene, Ground]], speeds: tuple[float, ...]) -> float:
+    """Processor seconds of the points of some curves; ``speeds`` [m/s]: none where they are chosen."""
+    scene, ground = curves[len(curves) // 2]
+    known = [abs(u) for u in (speeds or first_speeds(scene, ground.sq)) if u]
+    film = film_clock(scene, float(np.exp(np.mean(np.log(known)))) if known else 0.0)
+    found = 0.0
+    for scene, ground in curves:
+        at = speeds or first_speeds(scene, ground.sq)
+        found += sum(point_seconds(scene, ground, u, film) for u in at) * (1.0 if speeds else CHOSEN / len(at))
+    return found
 
 
 def _short(value) -> str:

@@ -12,7 +12,9 @@ from ..errors import InputError
 from ..prepared import scene_of
 from ..scene import Scene
 from ..store import fingerprint
+from .adaptive import AUTO, CHOSEN, MOST, curve_key
 from .chain import Chain, make_chain
+from .cost import by_curve
 from .vary import Axis, axes_of
 
 CHAIN = 25  # points at most that are solved one after the other
@@ -21,11 +23,18 @@ BATCH = 50  # points at least, where curves that share a map are solved by one p
 
 @dataclass(frozen=True)
 class Curve:
-    """The speeds of one combination of values. ``index``: its position along each axis."""
+    """The speeds of one combination of values. ``index``: its position along each axis; ``whole``: fingerprint of all
+    that it depends on; ``chains``: its points, none where it chooses its speeds itself."""
 
     index: tuple[int, ...]
     scene: Scene
+    whole: str
     chains: tuple[Chain, ...]
+
+    @property
+    def name(self) -> str:
+        """Of its state in a journal."""
+        return self.chains[0].name if self.chains else self.whole
 
 
 @dataclass(frozen=True)
@@ -42,7 +51,7 @@ class StudyPlan:
     """All of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it out.
 
     The chains of warm starts depend on the values and speeds alone, never on how many processes share the work. So
-    every executor gives the same bits.
+    every executor gives the same bits. ``speeds``: none where every curve chooses its own.
     """
 
     scene: Scene
@@ -52,16 +61,23 @@ class StudyPlan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the results: the axes, then the speeds."""
-        return (*(len(axis.values) for axis in self.axes), len(self.speeds))
+        """Of the results: the axes, then the speeds, or the most that a curve may choose."""
+        return (*(len(axis.values) for axis in self.axes), len(self.speeds) or MOST)
 
     @property
     def points(self) -> int:
-        """Number of points."""
-        return int(np.prod(self.shape))
+        """Number of points; about that where they are chosen."""
+        return int(np.prod(self.shape[:-1])) * (len(self.speeds) or CHOSEN)
 
     def keys(self) -> np.ndarray:
-        """Key of each point, an array of ``shape``."""
+        """Key of each point, an array of ``shape``; where speeds are chosen, that of each complete curve, over the
+        axes."""
+        if not self.speeds:
+            ends = np.empty(self.shape[:-1], dtype=object)
+            for batch in self.batches:
+                for curve in batch.curves:
+                    ends[curve.index] = curve_key(curve.whole)
+            return ends
         found = np.empty(self.shape, dtype=object)
         at = {speed: i for i, speed in enumerate(self.speeds)}
         for batch in self.batches:
@@ -98,21 +114,30 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
             "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
         )
     axes = axes_of(scene, {} if vary is None else vary)
-    if isinstance(speeds, str):
-        raise InputError(f"speeds = {speeds!r} of a study; allowed: speeds in m/s (lubfric.stribeck takes 'auto')")
-    if speeds is None:
-        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
-    if np.unique(speeds).size < speeds.size:
-        raise InputError("speeds hold a value twice; allowed: each once, in m/s")
+    speeds = _speeds(scene, speeds)
     scenes = {}
     for index in product(*(range(len(axis.values)) for axis in axes)):
         varied = scene
         for axis, i in zip(axes, index):
             varied = axis.apply(varied, i)
         scenes[index] = replace(varied, transient=None)
-    speeds = tuple(float(u) for u in speeds)
     return StudyPlan(scene, axes, speeds, tuple(_batches(scenes, speeds)))
+
+
+def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
+    """In m/s, those of the scene for None, none for "auto"."""
+    if isinstance(speeds, str):
+        if speeds != AUTO:
+            raise InputError(
+                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
+            )
+        return ()
+    if speeds is None:
+        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    if np.unique(speeds).size < speeds.size:
+        raise InputError("speeds hold a value twice; allowed: each once, in m/s")
+    return tuple(float(u) for u in speeds)
 
 
 def _batches(scenes: dict, speeds: tuple[float, ...]):
@@ -123,7 +148,7 @@ def _batches(scenes: dict, speeds: tuple[float, ...]):
         groups.setdefault(_shared(scene), []).append((index, scene))
     for group in groups.values():
         leader = max((scene for _, scene in group), key=lambda scene: scene.bodies.mean_hertz_pressure)
-        size = len(group) if by_curve(leader) else max(1, -(-BATCH // len(speeds)))
+        size = len(group) if by_curve(leader) else max(1, -(-BATCH // (len(speeds) or CHOSEN)))
         curves = [_curve(index, scene, leader, speeds, maps) for index, scene in group]
         for first in range(0, len(curves), size):
             piece = tuple(curves[first : first + size])
@@ -132,7 +157,7 @@ def _batches(scenes: dict, speeds: tuple[float, ...]):
 
 def _curve(index, scene, leader, speeds, maps) -> Curve:
     order = sorted(speeds, key=lambda u: -abs(u))
-    pieces = np.array_split(np.array(order), -(-len(order) // CHAIN))
+    pieces = np.array_split(np.array(order), -(-len(order) // CHAIN)) if order else []
     rough = repr((scene.surface, scene.counterface))
     if rough not in maps:  # a file is read once, however many curves it serves
         maps[rough] = fingerprint(scene.surface, scene.counterface)
@@ -141,12 +166,7 @@ def _curve(index, scene, leader, speeds, maps) -> Curve:
     if by_curve(leader):  # the contact curve reaches to the heaviest load of the group
         parts.append(leader.bodies)
     whole = fingerprint(*parts)
-    return Curve(index, scene, tuple(make_chain(whole, piece) for piece in pieces))
-
-
-def by_curve(scene: Scene) -> bool:
-    """Its contact is read from one periodic contact curve."""
-    return scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
+    return Curve(index, scene, whole, tuple(make_chain(whole, piece) for piece in pieces))
 
 
 def _shared(scene: Scene) -> str:

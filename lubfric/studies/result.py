@@ -10,29 +10,35 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..plain import plain
 from ..scene import scene_as_dict
+from ..show import Shown
 from ..store import Records
 from ..version import __version__
+from .adaptive import AUTO
 from .journal import POINTS
 from .quantities import QUANTITIES
-from .row import CONVERGED, SPEED, STATUS, row_of
+from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
 PLAN = "study.json"
-MISSING = "not computed"
+POINT = "point"  # the last dimension where speeds are chosen
 
 
-@dataclass(frozen=True)
-class StudyResult:
+@dataclass(frozen=True, repr=False)
+class StudyResult(Shown):
     """Numbers of a study: arrays over the varied values and, last, the speed.
 
     ``result["coefficient"]`` is such an array, ``result.dims`` names its axes, ``result.coords`` holds the values along
-    them. `to_xarray`, `to_frame`, `to_csv` and `to_parquet` make tables for other tools.
+    them. Where each curve chose its speeds, the last dimension is "point", ``result["speed"]`` is such an array too,
+    and ``result.at(speeds)`` puts all curves on the same speeds. `to_xarray`, `to_frame`, `to_csv` and `to_parquet`
+    make tables for other tools.
 
     Attributes
     ----------
     plan : what was studied, as in study.json
     columns : every number of a `FrictionResult` by name; NaN where a point failed
-    status : "converged", or why a point has no numbers
+    status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
+        numbers
     """
 
     plan: dict
@@ -42,40 +48,55 @@ class StudyResult:
     @classmethod
     def of_rows(cls, plan: dict, rows: dict[str, dict]) -> StudyResult:
         """The result of the ``rows`` (`row_of`) by key, as a plan puts them in order."""
-        shape, keys = tuple(plan["shape"]), plan["keys"]
-        columns = {name: np.full(len(keys), np.nan) for name in QUANTITIES}
-        status = np.full(len(keys), MISSING, dtype=object)
-        for at, key in enumerate(keys):
-            row = rows.get(key, {})
+        shape = tuple(plan["shape"])
+        size = int(np.prod(shape))
+        columns = {name: np.full(size, np.nan) for name in QUANTITIES}
+        chosen = plan["speeds"] == AUTO
+        if chosen:
+            columns = {SPEED: np.full(size, np.nan), **columns}
+        placed, status = (_on_curves if chosen else _on_speeds)(plan, rows)
+        for at, row in placed:
             for name, value in row.items():
                 if name == STATUS:
                     status[at] = value
-                    continue
-                columns.setdefault(name, np.full(len(keys), np.nan))[at] = value
-        return cls(plan, {k: v.reshape(shape) for k, v in columns.items()}, status.reshape(shape))
+                elif name not in (CURVE, AT):
+                    columns.setdefault(name, np.full(size, np.nan))[at] = value
+        status = status.reshape(shape)
+        most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=tuple(range(status.ndim - 1)))).max(initial=0))
+        return cls(plan, {k: v.reshape(shape)[..., :most] for k, v in columns.items()}, status[..., :most])
+
+    @property
+    def chosen(self) -> bool:
+        """Each curve chose its own speeds."""
+        return self.plan["speeds"] == AUTO
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the axes of the arrays."""
-        return (*(axis["name"] for axis in self.plan["axes"]), SPEED)
+        return (*(axis["name"] for axis in self.plan["axes"]), POINT if self.chosen else SPEED)
 
     @property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
-        """{key: (dimension, values along it)} of every varied key and the speed [m/s]."""
+        """{key: (dimension, values along it)} of every varied key and, unless chosen, the speed [m/s]."""
         found = {}
         for axis in self.plan["axes"]:
             for i, key in enumerate(axis["keys"]):
                 found[key] = (axis["name"], _column([row[i] for row in axis["values"]]))
-        return found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
+        return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
 
     @property
     def failed(self) -> int:
         """Number of points that could not be solved."""
-        return int(np.count_nonzero((self.status != CONVERGED) & (self.status != MISSING)))
+        return int(np.count_nonzero(~np.isin(self.status, (CONVERGED, MISSING, UNUSED))))
+
+    @property
+    def solved(self) -> int:
+        """Number of points that have been solved, or failed."""
+        return int(np.count_nonzero(~np.isin(self.status, (MISSING, UNUSED))))
 
     @property
     def missing(self) -> int:
-        """Number of points that a study which was interrupted has not come to."""
+        """Number of points (of curves, where speeds are chosen) that a study which was interrupted has not come to."""
         return int(np.count_nonzero(self.status == MISSING))
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -83,9 +104,35 @@ class StudyResult:
             raise InputError(f"a study has no column {name!r}{validate.nearest(name, self.columns)}; see .columns")
         return self.columns[name]
 
-    def __repr__(self) -> str:
-        shape = " x ".join(f"{n} {d}" for n, d in zip(self.status.shape, self.dims))
-        return f"<StudyResult: {shape}; {self.failed} failed, {self.missing} not computed>"
+    def _facts(self) -> dict[str, str]:
+        facts = {"": " x ".join(f"{n} {d}" for n, d in zip(self.status.shape, self.dims))}
+        good = np.isfinite(self["coefficient"])
+        if good.any():
+            f = self["coefficient"][good]
+            facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
+        return facts | {"failed": str(self.failed), "not computed": str(self.missing)}
+
+    def plot(self, ax=None, **style):
+        """f over speed, a line for each curve (at most 50 of them, evenly picked), on ``ax`` or new axes, which are
+        returned; ``style``: of the lines."""
+        from .draw import curves_axes
+
+        return curves_axes(self, ax, **style)
+
+    def at(self, speed) -> np.ndarray:
+        """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
+        the axes, and over the speeds where these are several. NaN outside the speeds that a curve is known for."""
+        from .between import coefficient_at
+
+        return coefficient_at(self, speed)
+
+    @property
+    def lift_off(self) -> np.ndarray:
+        """The speed [m/s], over the axes, at which the film lifts the surfaces off each other; NaN where a curve does
+        not reach it."""
+        from .between import lift_offs
+
+        return lift_offs(self)
 
     def to_xarray(self):
         """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
@@ -138,8 +185,28 @@ def open_study(folder) -> StudyResult:
         raise InputError(
             f"{path} is damaged; allowed: run the study again on this store, which writes it anew"
         ) from None
-    rows = {key: row_of(value) for key, value in Records(Path(folder) / POINTS).read() if key in keys}
+    rows = {key: row_of(value) for key, value in Records(Path(folder) / POINTS).read()}
+    rows = {key: row for key, row in rows.items() if key in keys or row.get(CURVE) in keys}
     return StudyResult.of_rows(plan, rows)
+
+
+def _on_speeds(plan: dict, rows: dict[str, dict]):
+    """(place in the flat arrays, row) of the known points, and the status of all before these are put in."""
+    status = np.full(len(plan["keys"]), MISSING, dtype=object)
+    return [(at, rows[key]) for at, key in enumerate(plan["keys"]) if key in rows], status
+
+
+def _on_curves(plan: dict, rows: dict[str, dict]):
+    """The same of curves that chose their speeds: the first free place of an unfinished one is not computed."""
+    most = plan["shape"][-1]
+    first = {key: most * i for i, key in enumerate(plan["keys"])}
+    placed = [(first[row[CURVE]] + row[AT], row) for row in rows.values() if AT in row and row[CURVE] in first]
+    status = np.full(most * len(first), UNUSED, dtype=object)
+    ended, taken = {row[CURVE] for row in rows.values() if COUNT in row}, {at for at, _ in placed}
+    for key, begin in first.items():
+        if key not in ended:
+            status[next(at for at in range(begin, begin + most) if at not in taken)] = MISSING
+    return placed, status
 
 
 def plan_as_dict(plan) -> dict:
@@ -148,9 +215,9 @@ def plan_as_dict(plan) -> dict:
         "format": 1,
         "lubfric": __version__,
         "name": plan.scene.name,
-        "scene": json.loads(json.dumps(scene_as_dict(plan.scene), default=str)),
-        "axes": [{"name": a.name, "keys": list(a.keys), "values": json.loads(json.dumps(a.values))} for a in plan.axes],
-        "speeds": list(plan.speeds),
+        "scene": plain(scene_as_dict(plan.scene)),
+        "axes": [{"name": a.name, "keys": list(a.keys), "values": plain(a.values)} for a in plan.axes],
+        "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
         "keys": list(plan.keys().flat),
     }

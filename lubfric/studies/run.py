@@ -12,25 +12,38 @@ from ..prepared import prepare
 from ..scene import Scene
 from ..store import FolderLock, write_whole
 from ..store.whole import clear_parts
+from .adaptive import curve_key, run_adaptive, search_of
 from .chain import Chain, run_chain
-from .journal import Journal, record_of
-from .plan import Batch, StudyPlan, plan_study
+from .journal import PLACE, Journal, record_of
+from .plan import Batch, Curve, StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
-from .row import row_of
 from .spread import spread
+from .table_row import named, row_of
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A batch as it is handed out. ``folder`` of the store, or None; ``done``: finished points by name of the chain."""
+    """A batch as it is handed out. ``folder`` of the store, or None; ``done``: finished points by name of the chain, 1
+    by name of a curve that chose its speeds and is complete; ``partly``: the store holds points of such a curve that is
+    not."""
 
     batch: Batch
     folder: str | None
     done: dict[str, int] = field(default_factory=dict)
+    partly: bool = False
+
+    @property
+    def name(self) -> str:
+        """Of its mark in a journal."""
+        return self.batch.curves[0].name
 
     def left(self, chain: Chain) -> bool:
         """Whether points of ``chain`` remain to be solved."""
         return self.done.get(chain.name, 0) < len(chain.keys)
+
+    def open(self, curve: Curve) -> bool:
+        """Whether points of ``curve`` remain to be solved."""
+        return any(self.left(chain) for chain in curve.chains) if curve.chains else not self.done.get(curve.name)
 
 
 def study(
@@ -47,12 +60,13 @@ def study(
     vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for keys
         that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...}, {...}]} for
         whole sections, such as several height maps
-    speeds : entrainment speeds [m/s]; None: those of the scene
+    speeds : entrainment speeds [m/s]; None: those of the scene; "auto": each curve chooses its own, as in
+        `lubfric.stribeck`, and the result has a dimension "point" instead of "speed"
     executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
         ``mpi4py.futures.MPIPoolExecutor``). The plan fixes the chains of warm starts, so all give the same bits
     store : folder that receives every finished point at once. The same study goes on from there and computes nothing
         twice. On a cluster all processes must see it
-    on_progress : called as on_progress(done, total) when points have ended
+    on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
 
     Returns
     -------
@@ -81,8 +95,9 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
     folder = None if store is None else os.path.abspath(store)
     known = {} if store is None else _rows(folder)
     pieces = [_piece(batch, folder, known) for batch in plan.batches]
-    pieces = [piece for piece in pieces if any(piece.left(chain) for chain in _chains(piece.batch))]
-    done = sum(key in known for key in plan.keys().flat)
+    pieces = [piece for piece in pieces if any(piece.open(curve) for curve in piece.batch.curves)]
+    keys = set(plan.keys().flat)
+    done = len(keys & known.keys())
 
     def again(piece: Piece) -> Piece:
         if folder is None:
@@ -91,16 +106,20 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
         return _piece(piece.batch, folder, known)
 
     if on_progress:
-        on_progress(done, plan.points)
+        on_progress(done, len(keys))
     for rows in spread(executor, run_piece, pieces, again):
+        done += len(keys & (rows.keys() - known.keys()))
         known.update(rows)
         if on_progress:
-            on_progress(sum(key in known for key in plan.keys().flat), plan.points)
+            on_progress(done, len(keys))
+    if folder is not None:  # only now: an executor that loses the rows of a piece hands it out again
+        for piece in pieces:
+            Journal(folder).finish(piece.name)
     return StudyResult.of_rows(plan_as_dict(plan), known)
 
 
 def _rows(folder) -> dict[str, dict]:
-    return {key: row_of(record) for key, record in Journal(folder).records.read()}
+    return named({key: row_of(record) for key, record in Journal(folder).records.read()})
 
 
 def _piece(batch: Batch, folder, known) -> Piece:
@@ -110,7 +129,10 @@ def _piece(batch: Batch, folder, known) -> Piece:
         while count < len(chain.keys) and chain.keys[count] in known:
             count += 1
         done[chain.name] = count
-    return Piece(batch, folder, done)
+    chosen = [curve for curve in batch.curves if not curve.chains]
+    done |= {curve.name: 1 for curve in chosen if curve_key(curve.whole) in known}
+    partly = any(f"{curve_key(curve.whole)} 0" in known for curve in chosen if curve.name not in done)
+    return Piece(batch, folder, done, partly)
 
 
 def _chains(batch: Batch):
@@ -121,36 +143,58 @@ def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
     journal = None if piece.folder is None else Journal(piece.folder)
     rows: dict[str, dict] = {}
-    leader, name = None, piece.batch.curves[0].chains[0].name
-    if journal is not None and journal.begin(name):  # by a worker that is gone: what it finished is taken over
+    leader = None
+    if journal is not None and journal.begin(piece.name):  # by a worker that is gone: what it finished is taken over
         rows = _rows(piece.folder)
         piece = _piece(piece.batch, piece.folder, rows)
     try:
         for curve in piece.batch.curves:
-            chains = [chain for chain in curve.chains if piece.left(chain)]
-            if not chains:
+            if not piece.open(curve):
                 continue
             try:
                 leader = leader or prepare(piece.batch.leader)
                 prepared = leader if curve.scene == piece.batch.leader else prepare(curve.scene, like=leader)
+                search = None if curve.chains else search_of(prepared, curve.whole)
             except LubfricError as error:
-                for chain in chains:
-                    rows |= _all_failed(chain, error, journal, piece.done.get(chain.name, 0))
+                rows |= _all_failed(curve, error, journal, piece)
                 continue
-            for chain in chains:
+            if search is not None:
+                known = dict(journal.records.read()) if journal is not None and piece.partly else {}
+                rows |= _chosen(prepared, search, journal, known)
+            for chain in (chain for chain in curve.chains if piece.left(chain)):
                 for index, outcome in run_chain(prepared, chain, journal, piece.done.get(chain.name, 0)):
                     rows[chain.keys[index]] = row_of(record_of(outcome))
-        if journal is not None:
-            journal.finish(name)
     finally:
         if journal is not None:
             journal.close()
     return rows
 
 
-def _all_failed(chain: Chain, error: LubfricError, journal, done: int) -> dict[str, dict]:
+def _chosen(prepared, search, journal, known) -> dict[str, dict]:
+    """The rows of a curve that chooses its speeds, and the one that says that it is complete; ``known``: records."""
+    rows, key = {}, curve_key(search.name)
+    for at, (speed, outcome) in enumerate(run_adaptive(prepared, search, journal, known)):
+        place = {"curve": key, "place": at, "speed": speed}
+        rows[f"{key} {at}"] = row_of(record_of(outcome) | {PLACE: place})
+    return rows | {key: _ended(key, len(rows), journal)}
+
+
+def _ended(key: str, points: int, journal) -> dict:
+    record = {PLACE: {"curve": key, "points": points}}
+    if journal is not None:
+        journal.records.add(key, record)
+    return row_of(record)
+
+
+def _all_failed(curve: Curve, error: LubfricError, journal, piece: Piece) -> dict[str, dict]:
+    """The rows of a curve that cannot be begun; one where it would have chosen its speeds."""
     record = record_of(error)
-    for key in chain.keys[done:]:
+    keys = [key for chain in curve.chains for key in chain.keys[piece.done.get(chain.name, 0) :]]
+    if not curve.chains:
+        end = curve_key(curve.whole)
+        keys, record = [f"{end} 0"], record | {PLACE: {"curve": end, "place": 0, "speed": None}}
+    for key in keys:
         if journal is not None:
             journal.records.add(key, record)
-    return dict.fromkeys(chain.keys[done:], row_of(record))
+    rows = dict.fromkeys(keys, row_of(record))
+    return rows if curve.chains else rows | {end: _ended(end, 1, journal)}

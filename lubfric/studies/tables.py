@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError
 from ..store import whole_file, write_whole
 from .quantities import KEYS, QUANTITIES, described
-from .row import SPEED
+from .table_row import SPEED, UNUSED
 
 
 def to_xarray(result):
@@ -57,14 +57,16 @@ def to_csv(result, path) -> None:
 
 
 def columns_of(result) -> dict[str, np.ndarray]:
-    """One value a point in every column: the varied keys, the speed, the numbers, the status."""
+    """One value a point in every column: the varied keys, the speed, the numbers, the status; no row for places that
+    a curve did not need."""
     shape, columns = result.status.shape, {}
     for key, (dim, values) in result.coords.items():
         along = [1] * len(shape)
         along[result.dims.index(dim)] = values.size
         columns[key] = np.broadcast_to(values.reshape(along), shape).ravel()
     numbers = {name: values.ravel() for name, values in result.columns.items()}
-    return columns | numbers | {"status": result.status.astype(str).ravel()}
+    found, used = columns | numbers | {"status": result.status.astype(str).ravel()}, result.status.ravel() != UNUSED
+    return found if used.all() else {name: values[used] for name, values in found.items()}
 
 
 def _attributes(name: str, result) -> dict[str, str]:
@@ -74,7 +76,7 @@ def _attributes(name: str, result) -> dict[str, str]:
             "units": "m" if part == "length" else "1",
             "long_name": f"uncertainty of the friction coefficient: {part}",
         }
-    return described(name, QUANTITIES)
+    return described(name, KEYS if name == SPEED else QUANTITIES)
 
 
 def _heading(name: str) -> str:

@@ -16,6 +16,7 @@ from ..short_forms import short_keys
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
+MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -64,6 +65,12 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
     axes, cases = [], 0
+    points = math.prod(len(values) for values in vary.values() if hasattr(values, "__len__"))
+    if points > MOST_POINTS:
+        raise InputError(
+            f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
+            "(several studies, or lubfric.sample for points of the box)"
+        )
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:
@@ -104,7 +111,7 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     if not ranges or not all(isinstance(part, Between) for part in ranges):
         raise InputError(f"ranges = {ranges!r}; allowed: a list of lubfric.Between(low, high)")
     validate.choice("sampler", sampler, SAMPLERS)
-    count = validate.integer("count", count, minimum=1)
+    count = validate.integer("count", count, minimum=1, maximum=MOST_POINTS)
     seed = validate.integer("seed", seed, minimum=0)
     if sampler == "sobol":
         if count & (count - 1):

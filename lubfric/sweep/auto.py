@@ -23,8 +23,9 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
     search = search_of(prepared, fingerprint(prepared), wanted)
     journal, found = (None if store is None else Journal(store)), {}
+    known = {} if journal is None else dict(journal.records.read())
     try:
-        for speed, outcome in run_adaptive(prepared, search, journal):
+        for speed, outcome in run_adaptive(prepared, search, journal, known):
             found[speed] = outcome
             if on_point:
                 on_point(len(found), len(found), speed, outcome)

@@ -14,6 +14,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..result import FrictionResult
 from ..sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
 from ..show import Shown
+from ..show.cite import together
 from ..studies.adaptive import FEWEST, samples_of
 from ..validity.entry import Validity
 from ..validity.gather import gathered
@@ -124,6 +125,10 @@ class StribeckResult(Shown):
         from ..show.axes import curve_axes
 
         return curve_axes(self, ax, **style)
+
+    def cite(self) -> str:
+        """The papers behind what was used at any of the speeds, one a line, the model's first."""
+        return together(point for point in self.points if point is not None)
 
     def _facts(self) -> dict[str, str]:
         facts = {"": f"{self.speed.size} speeds"}

@@ -42,7 +42,8 @@ class Checkpoint:
         path = self.folder / STATE
         if not path.is_file():
             for name in (ROWS, FIELDS):
-                (self.folder / name).unlink(missing_ok=True)
+                with saying(f"{self.folder / name} of an earlier run was not removed"):
+                    (self.folder / name).unlink(missing_ok=True)
                 self._hashes[name] = hashlib.sha256()
             return None
         content = read_checked(path)

@@ -11,15 +11,16 @@ import numpy as np
 from .. import __version__
 from ..console import keeping, say
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..output import npz_bytes, plain, read_csv, table_bytes
+from ..output import npz_bytes, read_csv, table_bytes
+from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene, scene_as_dict
 from ..store import fingerprint
 from .checkpoint import STATE
+from .moment import UNITS
 from .plot import animate, plot_history
 from .result import TransientResult
-from .row import UNITS
 from .run import transient
 
 SAY_EVERY = 1.0  # s of wall time between two lines of progress

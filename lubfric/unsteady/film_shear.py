@@ -65,13 +65,13 @@ def _balance(sharing: Sharing, scene: Scene, solution: StepSolution) -> BalanceN
     wet = np.flatnonzero(t.P > 0.0)
     speed = scene.motion.entrainment_speed
     if wet.size < 3 or speed == 0.0:
-        return BalanceNow(None, contact.closure, contact.load)
+        return BalanceNow(None, contact.state, contact.load)
     inside = slice(wet[0], wet[-1] + 1)
     x = sharing.setting.grid.x[inside] * p.length_unit
     film = FilmNow(
         x, t.P[inside] * p.pressure_unit, t.H[inside] * p.film_unit, speed, float(x[-1] if speed > 0 else x[0])
     )
-    return BalanceNow(film, contact.closure, contact.load)
+    return BalanceNow(film, contact.state, contact.load)
 
 
 def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution, stress=None):
@@ -79,7 +79,7 @@ def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
     setting, t, lubricant = sharing.setting, solution.terms, scene.lubricant
     p, grid = setting.problem, setting.grid
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
-    free = 1.0 - solution.payload.closure.touching(x)
+    free = 1.0 - solution.payload.state.touching(x)
     rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(pressure) * free
 
     def of(at, pressed, thickness):

@@ -9,7 +9,7 @@ import numpy as np
 from ..march.bdf import Level, March
 from ..march.course import Progress
 from ..rough.contract import ContactState
-from .row import UNITS, moment
+from .moment import UNITS, moment
 from .setup import Run
 from .sharing import Contact
 
@@ -25,7 +25,7 @@ class Outputs:
 def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
     """Add the output at the time of ``now``: its row and its fields."""
     in_time = run.in_time
-    run.sharing.patch.check(solution.payload.closure)
+    run.sharing.patch.check(solution.payload.state)
     row = moment(run.sharing, in_time.at(now.time), in_time.sliding(now.time), solution, now)
     outputs.rows.append(np.array(list(row.values()), dtype=float))
     outputs.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
@@ -35,8 +35,8 @@ def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
 
 def state_of(run: Run, outputs: Outputs, now: Progress) -> dict:
     """All that `resume` needs, as plain numbers and arrays."""
-    contact, closure = now.march.payload, now.march.payload.closure
-    pressure = closure.pressure
+    contact, state = now.march.payload, now.march.payload.state
+    pressure = state.pressure
     return {
         "outputs": len(outputs.rows),
         "row_size": len(UNITS),
@@ -49,13 +49,13 @@ def state_of(run: Run, outputs: Outputs, now: Progress) -> dict:
             [
                 contact.load,
                 contact.softness,
-                closure.mean_gap,
-                closure.mean_film,
-                closure.real_contact_area_fraction,
-                closure.plastic_area_fraction,
+                state.mean_gap,
+                state.mean_film,
+                state.real_contact_area_fraction,
+                state.plastic_area_fraction,
             ]
         ),
-        "contact_fraction": closure.contact_fraction,
+        "contact_fraction": state.contact_fraction,
         "contact_pressure": np.zeros((0, 0)) if pressure is None else pressure,
     }
 
@@ -69,7 +69,7 @@ def resume(run: Run, store) -> tuple[Progress, Outputs] | None:
     steps, rejected, worst, step = state["steps"]
     load, softness, gap, film, real, plastic = (float(v) for v in state["contact"])
     pressure = state["contact_pressure"]
-    closure = ContactState(
+    contact = ContactState(
         gap,
         film,
         run.sharing.patch.x,
@@ -81,5 +81,5 @@ def resume(run: Run, store) -> tuple[Progress, Outputs] | None:
     levels = tuple(
         Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])
     )
-    march = March(levels, float(step), Contact(load, closure, softness))
+    march = March(levels, float(step), Contact(load, contact, softness))
     return Progress(march, int(steps), int(rejected), float(worst)), Outputs(list(rows), list(fields))

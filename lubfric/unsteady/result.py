@@ -2,28 +2,46 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import validate
 from ..march.course import Plan, Progress, report_of
+from ..prepared import Prepared
 from ..report import Report
 from ..sampling.uncertainty import UncertaintyCurve, percent, student
 from ..show import Shown
 from ..show.axes import history_axes, loop_axes
 from ..validity import Validity, gathered
 from .judge import judged_outputs
+from .moment import UNITS
 from .progress import Outputs
-from .row import UNITS
 from .setup import Run
 
 MANY = 30  # blocks less one: of a line
 
 
+@dataclass(frozen=True)
+class TimeAverage:
+    """The mean of f over a run in time, and relative standard deviations.
+
+    sampling: of ``coefficient``, because one finite line of rough surface stands for all of it: at all times the same,
+    so no time makes it smaller. fixed_scatter: how the averages of real lines of the contact's width differ from place
+    to place where the same spots stay in contact; moving_scatter: the same where the rough surface moves through the
+    contact with the entrainment speed and other spots carry the load every `TransientResult.renewal`.
+    """
+
+    coefficient: float
+    sampling: float
+    fixed_scatter: float
+    moving_scatter: float
+
+
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.row.UNITS`, also as attributes.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.unsteady.moment.UNITS`, also as attributes.
 
     Attributes
     ----------
@@ -41,6 +59,8 @@ class TransientResult(Shown):
     pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
+    line_length, width, renewal : of the line of rough surface, of the contact, and how far a surface moves until other
+        spots carry the load [m]; NaN where not known
     """
 
     columns: dict[str, np.ndarray]
@@ -49,6 +69,18 @@ class TransientResult(Shown):
     film_thickness: np.ndarray
     report: Report
     entries: tuple[tuple[Validity, ...], ...] = ()
+    line_length: float = math.nan
+    width: float = math.nan
+    renewal: float = math.nan
+
+    def average(self) -> TimeAverage:
+        """Of f over the run, and what its scatter is, fixed and moving."""
+        weight = np.gradient(self.time) if self.time.size > 1 else np.ones(1)
+        mean = float(np.average(self.coefficient, weights=weight))
+        sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
+        fixed = sampling * math.sqrt(self.line_length / self.width)
+        moved = float(np.sum(weight * np.abs(self.entrainment_speed)))
+        return TimeAverage(mean, sampling, fixed, fixed / math.sqrt(max(1.0, moved / self.renewal)))
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -62,9 +94,13 @@ class TransientResult(Shown):
         half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
         both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
         told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
-        known = ("sampling", "interval", "text")
+        known = ("sampling", "interval", "text", "line_scatter", "length")
+        scatter = self.sampling_error * math.sqrt(self.line_length / self.width)
+        length = np.full(self.time.size, self.line_length)
         others = {name: unknown for name in UncertaintyCurve.__dataclass_fields__ if name not in known}
-        return UncertaintyCurve(sampling=self.sampling_error, interval=both, text=told, **others)
+        return UncertaintyCurve(
+            sampling=self.sampling_error, interval=both, text=told, line_scatter=scatter, length=length, **others
+        )
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
@@ -112,4 +148,14 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
         fields[:, n:] * p.film_unit,
         report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
         judged_outputs(run.prepared, run.in_time, columns),
+        **_of_the_line(run.prepared),
     )
+
+
+def _of_the_line(prepared: Prepared) -> dict[str, float]:
+    """Length, width and renewal [m]: the Hertz strip and a correlation length along the motion."""
+    bodies = prepared.scene.bodies
+    known = {"line_length": prepared.surface.size[1], "width": bodies.width}
+    if prepared.lines is not None:
+        known["renewal"] = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.lines.lengths[0]
+    return known

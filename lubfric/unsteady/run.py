@@ -13,9 +13,9 @@ from ..prepared import Prepared, scene_of
 from ..scene import Scene
 from ..validity import Validity, refused
 from .checkpoint import Checkpoint
+from .moment import UNITS
 from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
-from .row import UNITS
 from .setup import Run, begin
 
 

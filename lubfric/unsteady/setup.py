@@ -19,6 +19,7 @@ from ..prepared import Prepared, prepare
 from ..sampling.patch_error import correlation_along_y
 from ..scene import Scene
 from .at_a_time import SceneInTime, inlet_viscosity
+from .line import long_enough
 from .sharing import Contact, Sharing, make_sharing, share_step
 from .start import first_state
 
@@ -82,7 +83,7 @@ def begin(scene: Scene | Prepared, plan: Transient) -> Run:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
-    prepared = scene if isinstance(scene, Prepared) else prepare(scene)
+    prepared = long_enough(scene if isinstance(scene, Prepared) else prepare(scene), plan)
     tolerance = base.numerics.tolerances.film
     for finer in FINER:
         setting = _setting(prepared, plan, load, finer)

@@ -23,10 +23,10 @@ MOST_TRIALS = 16
 
 @dataclass(frozen=True)
 class Contact:
-    """The contact's part of a step: load [N], closure, and softness -d(gap)/d(ln load) [m]."""
+    """The contact's part of a step: load [N], state, and softness -d(gap)/d(ln load) [m]."""
 
     load: float
-    closure: ContactState
+    state: ContactState
     softness: float
 
 
@@ -84,7 +84,7 @@ def share_step(sharing: Sharing, time: float, memory: Memory, z: np.ndarray, pas
     """
     touch, softness, seen = past.load, past.softness, None
     total = sharing.total(time)
-    closure, mean = past.closure, past.closure.mean_gap
+    state, mean = past.state, past.state.mean_gap
     solution: StepSolution
     for _ in range(MOST_TRIALS):
         spring = None
@@ -97,25 +97,25 @@ def share_step(sharing: Sharing, time: float, memory: Memory, z: np.ndarray, pas
         if spring is not None and load < LAST_TOUCH * total:
             load = 0.0
         film = sharing.film_on_patch(solution.terms.H)
-        found = _close(sharing, film, load, closure)
+        found = _close(sharing, film, load, state)
         if found is None:
             return replace(solution, status=ITERATION_LIMIT)
         if load == 0.0:
             if found.volume_residual <= 0.0:
                 if spring is None:
                     return replace(solution, payload=Contact(0.0, found, softness))
-                touch, z, closure, seen = 0.0, solution.z, found, None
+                touch, z, state, seen = 0.0, solution.z, found, None
                 continue
             load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
             touching = found.mean_gap
-            found = _close(sharing, film, load, closure)
+            found = _close(sharing, film, load, state)
             if found is None:
                 return replace(solution, status=ITERATION_LIMIT)
             softness = max(touching - found.mean_gap, 1e-3 * touching)
         elif abs(found.volume_residual) <= sharing.tolerance:
             return replace(solution, payload=Contact(load, found, _softness(softness, seen, load, found)))
         softness = _softness(softness, seen, load, found)
-        seen, touch, mean, closure, z = (load, found.mean_gap), load, found.mean_gap, found, solution.z
+        seen, touch, mean, state, z = (load, found.mean_gap), load, found.mean_gap, found, solution.z
     return replace(solution, status=ITERATION_LIMIT)
 
 

@@ -28,18 +28,18 @@ def first_state(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[
 
 
 def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
-    closure = sharing.patch.close(sharing.film_on_patch(H), 0.0)
-    return Contact(0.0, closure, max(0.3 * closure.mean_gap, 1e-12))
+    state = sharing.patch.close(sharing.film_on_patch(H), 0.0)
+    return Contact(0.0, state, max(0.3 * state.mean_gap, 1e-12))
 
 
 def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
     """No pressure anywhere, the gap as it is."""
     found = sharing.setting.at_rest(z)
     contact = _untouched(sharing, found.terms.H)
-    if contact.closure.volume_residual > 0.0:
+    if contact.state.volume_residual > 0.0:
         raise InputError(
-            f"transient.initial_film: the surfaces touch at {contact.closure.mean_film:g} m of mean film; "
-            f"allowed: a film above {contact.closure.mean_gap:g} m, or initial = 'rest'"
+            f"transient.initial_film: the surfaces touch at {contact.state.mean_film:g} m of mean film; "
+            f"allowed: a film above {contact.state.mean_gap:g} m, or initial = 'rest'"
         )
     return replace(found, payload=contact)
 
@@ -49,18 +49,18 @@ def _resting(sharing: Sharing) -> StepSolution:
     pressure."""
     setting = sharing.setting
     radius = setting.contact.radius.before(0.0)
-    closure = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
+    state = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
     z = parabola(setting, 0.0)
     flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
-    z[-1] = (closure.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
+    z[-1] = (state.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
     if z[-1] <= 0.0:
         raise InputError(
             "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
             "initial = 'steady' with an entrainment speed, or transient.initial_film"
         )
     found = setting.at_rest(z)
-    closure = replace(closure, mean_film=float(sharing.mean_row @ found.terms.H))
-    return replace(found, payload=Contact(sharing.total(0.0), closure, 0.3 * closure.mean_gap))
+    state = replace(state, mean_film=float(sharing.mean_row @ found.terms.H))
+    return replace(found, payload=Contact(sharing.total(0.0), state, 0.3 * state.mean_gap))
 
 
 def _steady(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:

@@ -64,6 +64,21 @@ def test_curves_without_a_knee(lift_off):
     np.testing.assert_allclose(Interpolant(samples, None).at(at), sum(curve.at(at)), rtol=0.01)
 
 
+@pytest.mark.parametrize("beyond", [0.99, 1.0, 1.001, 1.1])
+def test_contact_at_speeds_beyond_the_knee_that_the_clearance_tells(beyond):
+    """On lines of different lengths a longer one may still touch where a shorter one is clear."""
+    curve = Made(0.05, 0.8)
+    speeds = np.sort([*FIRST, 0.03, 0.045, 0.05 * beyond, 0.06, 0.08])
+    samples = curve.samples(speeds)
+    touching = speeds <= 0.05 * beyond
+    clearance = 3.0 * ((speeds / 0.05) ** 0.65 - 1)
+    samples = Samples(speeds, samples.boundary, samples.film, touching, np.where(touching, np.nan, clearance))
+    found, at = Interpolant(samples, knee_of(samples)), np.geomspace(1e-4, 1.0, 2000)
+    assert 0.05 * beyond < found.lift_off < 0.06
+    np.testing.assert_allclose(found.at(at), sum(curve.at(at)), rtol=0.1)
+    assert np.isfinite(found.error(at)).all()
+
+
 def test_speeds_that_failed_are_left_alone():
     curve = Made(0.05, 0.8)
     samples = curve.samples(FIRST)
@@ -115,26 +130,26 @@ def test_fields_of_an_adaptive_curve():
 
 def test_the_first_speeds_are_where_the_film_is_so_thick():
     """Judged by solved films of the whole load, which the formula meets within a quarter."""
-    model = lubfric.prepare(SCENE)
-    bodies, found = SCENE.bodies, first_speeds(model)
+    sq = lubfric.prepare(SCENE).surface.sq
+    bodies, found = SCENE.bodies, first_speeds(SCENE, sq)
     assert found == tuple(sorted(found, reverse=True)) and found[0] == 1.0 and found[-1] == pytest.approx(1e-4)
     contacts = [
         LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, SCENE.lubricant) for u in found
     ]
     films = [solve_line_contact(contact).central_film for contact in contacts[1:-1]]
-    np.testing.assert_allclose(np.array(films) / model.surface.sq, [4.5, 2.5, 1.2, 0.4], rtol=0.25)
-    narrow = first_speeds(lubfric.prepare(SCENE.with_(motion={"speeds": (0.5, 1.0)})))
+    np.testing.assert_allclose(np.array(films) / sq, [4.5, 2.5, 1.2, 0.4], rtol=0.25)
+    narrow = first_speeds(SCENE.with_(motion={"speeds": (0.5, 1.0)}), sq)
     assert len(narrow) == 5 and narrow[0] == 1.0 and narrow[-1] == 0.5
 
 
 def test_the_range_where_a_scene_has_no_speeds():
     scene = SCENE.with_(motion={"speeds": ()})
-    low, high = span(lubfric.prepare(scene))
+    low, high = span(scene, lubfric.prepare(scene).surface.sq)
     ends = lubfric.stribeck(scene, [low, high])
     assert ends.coefficient[0] == pytest.approx(0.09, rel=0.02)
     assert 5 < ends.film_to_roughness_ratio[1] < 12 and ends.contact_load[1] == 0
     with pytest.raises(lubfric.InputError, match="speed_range"):
-        span(lubfric.prepare(scene.with_(surface={"sq": 0.0})))
+        span(scene, 0.0)
 
 
 def test_what_an_interpolation_refuses(auto):

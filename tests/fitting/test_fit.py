@@ -41,6 +41,12 @@ def test_the_true_values_are_in_the_region(fitted):
     assert np.all(low < fitted.predicted) and np.all(fitted.predicted < high)
 
 
+def test_a_fit_prints_as_one_line_and_a_table(fitted):
+    (low, high), value = fitted.intervals["lubricant.viscosity"], fitted.values["lubricant.viscosity"]
+    assert "\n" not in repr(fitted) and f"lubricant.viscosity = {value:.4g}" in repr(fitted)
+    assert f"<td>{value:.4g}, 95 % interval {low:.4g} to {high:.4g}</td>" in fitted._repr_html_()
+
+
 def test_the_fit_is_a_minimum(fitted):
     """No neighbour within the bounds comes closer to the data, judged by curves of another tolerance."""
 

@@ -145,3 +145,22 @@ def test_the_reynolds_number_is_that_of_the_film():
     entry = of_motion(scene, 100.0, 30e-6)[0]
     assert entry.value == pytest.approx(number) and entry.severe
     assert of_motion(PAPER, 1.0, 1e-6) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [0.0, 0.1])
+def test_cold_and_warm_agree_at_4_5_gpa(ratio):
+    """Pure rolling and slow sliding where the film is a spike's neighbour: from anywhere the same f."""
+    scene = lubfric.load_scene("flat").with_(
+        bodies={"hertz_pressure": 4.5e9, "radius": 5e-3, "width": 1e-2, "hardness": None},
+        lubricant={"viscosity": 0.05, "pressure_viscosity_coefficient": 1.8e-8, "eyring_stress": 5e6},
+        motion={"slide_roll_ratio": ratio, "speeds": ()},
+        surface={"sq": 5e-8, "correlation_length": 1e-5, "acf": "gaussian"},
+        contact={"shape": (32, 32), "spacing": 3e-6},
+        numerics={"accept": True, "film_deflection": "hydrodynamic"},
+    )
+    prepared = lubfric.prepare(scene)
+    cold = lubfric.friction(prepared, 0.3)
+    for other in (0.5,):
+        warm = lubfric.friction(prepared, 0.3, start=lubfric.friction(prepared, other))
+        assert warm.coefficient == pytest.approx(cold.coefficient, rel=0.01)

@@ -86,6 +86,23 @@ CYLINDER = lubfric.load_scene("paper").with_(
     contact={"region": "box", "shape": (64, 24), "spacing": (2e-6, 2.5e-6)},
     numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "sampling": "patch"},
 )
+WARM = BASE.with_(
+    bodies={"load": 3000.0, "radius": 1e-2, "width": 1e-2, "conductivity": (12.0, 12.0), "volumetric_heat": (2e6, 2e6)},
+    lubricant={"viscosity_law": "roelands", "grade": "ISO VG 68", "viscosity_index": 95, "temperature": 330.0}
+    | {"conductivity": 0.2, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+    motion={"entrainment_speed": 2.0, "slide_roll_ratio": 0.6},
+    surface={"sq": 2e-7},
+    numerics={"heat": "on"},
+)
+WARM_UNDONE = {  # key: what it is instead
+    ("bodies", "conductivity"): (46.0, 46.0),
+    ("bodies", "volumetric_heat"): (3.6e6, 3.6e6),
+    ("lubricant", "conductivity"): 0.12,
+    ("lubricant", "temperature"): 345.0,
+    ("lubricant", "temperature_coefficient"): 0.02,
+    ("lubricant", "oil"): "mineral-220",
+    ("numerics", "heat"): "off",
+}
 ASPERITIES = BASE.with_(contact={"model": "summits", "asperity_separation": "mean-plane"})
 
 
@@ -182,6 +199,10 @@ CORNERS = {
             ("contact", "region"): lambda: CYLINDER.with_(contact={"region": "hertz"}),
             ("surface", "oversize"): lambda: CYLINDER.with_(surface={"oversize": 3}),
         },
+    ),
+    "warm": (
+        WARM,
+        {(s, k): lambda s=s, k=k, value=value: WARM.with_(**{s: {k: value}}) for (s, k), value in WARM_UNDONE.items()},
     ),
     "asperities": (
         ASPERITIES,
@@ -292,6 +313,17 @@ FILM = BASE.with_(
     lubricant={"viscosity": 0.08, "pressure_viscosity_coefficient": 1.5e-8},
     surface={"sq": 0.0},
     numerics={"tolerance": 2e-3},
+)
+
+
+FILM_IN_CONTACT = FILM.with_(
+    surface={"sq": 1e-7}, motion={"entrainment_speed": 0.03}, numerics={"tolerance": 0.02, "model": "full"}
+)
+NEWTONIAN = FILM.with_(
+    bodies={"load": 1000.0},
+    lubricant={"viscosity_law": "roelands", "pressure_viscosity_coefficient": 2e-8},
+    surface={"sq": 2e-8},
+    numerics={"accept": False, "tolerance": 0.05},
 )
 
 
@@ -418,41 +450,108 @@ def test_speeds_are_those_of_the_sweep():
     assert lubfric.stribeck(scene).speed.tolist() == [0.3, 0.003, 0.03]
 
 
-@pytest.mark.parametrize(
-    "numerics",
-    [
-        {"closure": "separation"},
-        {"workers": 2},
-        {"model": "full"},
-        {"film_level": "ehl"},
-        {"grid": "given"},
-        {"contact_level": "flat"},
-        {"film_tolerance": 1e-3},
-        {"contact_tolerance": 1e-6},
-        {"balance_tolerance": 1e-5},
-        {"tolerance": 1e-3},
-        {"heat": "auto"},
-        {"film_deflection": "auto"},
-    ],
-    ids=str,
-)
-def test_how_it_is_solved_does_not_change_the_answer(numerics):
+SOLVED_OTHERWISE = [
+    {"closure": "separation"},
+    {"workers": 2},
+    {"model": "full"},
+    {"film_level": "ehl"},
+    {"grid": "given"},
+    {"contact_level": "flat"},
+    {"film_tolerance": 1e-3},
+    {"contact_tolerance": 1e-6},
+    {"balance_tolerance": 1e-5},
+    {"tolerance": 1e-3},
+    {"heat": "auto"},
+    {"film_deflection": "auto"},
+    {"sampling": "line"},
+    {"sampling_tolerance": 0.1},
+    {"accept": False},
+]
+STEADY_ONLY = [  # a run in time refuses them by name
+    {"closure": "separation"},
+    {"closure": "one-way"},
+    {"model": "deterministic"},
+    {"film_level": "isoviscous"},
+    {"contact_level": "none"},
+    {"film_deflection": "scaled"},
+    {"film_deflection": "total"},
+    {"cavitated_shear": "striated"},
+]
+
+
+@pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
+@pytest.mark.parametrize("numerics", SOLVED_OTHERWISE, ids=str)
+def test_how_it_is_solved_does_not_change_the_answer(numerics, mode):
     """Another method, more cells, tighter tolerances: within the tolerance of the scene."""
     scene = BASE.with_(numerics=numerics)
-    found = lubfric.friction(scene)
-    assert found.coefficient == pytest.approx(answer(BASE), rel=0.01)
-    assert abs(found.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
+    if mode == "transient" and numerics in STEADY_ONLY:
+        return
+    assert answer(scene, mode) == pytest.approx(answer(BASE), rel=0.01)
+    if mode == "steady":
+        found = lubfric.friction(scene)
+        assert abs(found.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
 
 
-@pytest.mark.parametrize(
-    "numerics",
-    [{"film_level": "isoviscous"}, {"closure": "separation"}, {"contact_level": "none"}, {"film_deflection": "total"}],
-    ids=str,
-)
+@pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
+def test_tolerances_and_grid_reach_the_solvers(mode):
+    """Tighter ones bring a residual or the number of cells where they ask for it; a looser tolerance on f costs
+    cells."""
+    cells = {}
+    for film in (2e-2, 2e-3):
+        scene = FILM_IN_CONTACT.with_(numerics={"film_tolerance": film})
+        cells[film] = _cells(scene, mode)
+    assert cells[2e-3] > cells[2e-2]
+    tight = BASE.with_(numerics={"balance_tolerance": 1e-6, "contact_tolerance": 1e-7})
+    assert abs(_volume(tight, mode)) <= 1.5e-6
+    with pytest.raises(lubfric.ValidityError):
+        _volume(NEWTONIAN, mode)
+    assert np.isfinite(_volume(NEWTONIAN.with_(numerics={"accept": True}), mode))
+
+
+def _cells(scene, mode):
+    if mode == "transient":
+        return lubfric.transient(scene.with_(transient=lubfric.Transient(1e-5, outputs=1))).x.size
+    return _point(scene, mode).balance.film.cells
+
+
+def _volume(scene, mode):
+    if mode == "transient":
+        found = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-5, outputs=1)))
+        return float(found.volume_residual[-1])
+    return _point(scene, mode).volume_residual
+
+
+def _point(scene, mode):
+    if mode == "steady":
+        return lubfric.friction(scene)
+    return lubfric.stribeck(scene, [scene.motion.entrainment_speed], fields=True).points[0]
+
+
+@pytest.mark.parametrize("numerics", STEADY_ONLY, ids=str)
 def test_what_a_transient_does_not_do_it_refuses(numerics):
-    plan = lubfric.Transient(1e-4, outputs=1)
-    with pytest.raises(lubfric.InputError, match=f"numerics.{next(iter(numerics))}"):
-        lubfric.transient(BASE.with_(numerics=numerics, transient=plan))
+    plan, cylinder = lubfric.Transient(1e-4, outputs=1), numerics.get("model") or numerics.get("closure") == "one-way"
+    with pytest.raises(lubfric.InputError, match=f"numerics.{next(iter(numerics))}|{next(iter(numerics))} "):
+        lubfric.transient((CYLINDER if cylinder else BASE).with_(numerics=numerics, transient=plan))
+
+
+def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
+    """A looser tolerance on the line is met by a shorter one, in a sweep as at a point; a run in time has the pilot of
+    the line, told with its standard error, and lies within three of them of the steady answer."""
+    line = CYLINDER.with_(
+        bodies={"load": 20.0},
+        motion={"entrainment_speed": 0.05},
+        numerics={"sampling": "line", "sampling_tolerance": 0.2},
+        contact={"region": "hertz"},
+        surface={"oversize": 1},
+    )
+    point, swept = lubfric.friction(line), lubfric.stribeck(line, [line.motion.entrainment_speed]).points[0]
+    assert swept.coefficient == point.coefficient and point.uncertainty.sampling > 0
+    tight = line.with_(numerics={"sampling_tolerance": point.uncertainty.sampling / 1.5})
+    for longer in (lubfric.friction(tight), lubfric.stribeck(tight, [tight.motion.entrainment_speed]).points[0]):
+        assert longer.uncertainty.length > point.uncertainty.length
+    run = lubfric.transient(line.with_(transient=lubfric.Transient(1e-4, outputs=1)))
+    assert run.sampling_error[-1] > 0
+    assert abs(run.coefficient[-1] / point.coefficient - 1) < 3 * run.sampling_error[-1] + 0.012
 
 
 # --- the list -------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
+from lubfric import cli
 from lubfric.prepared import prepare
 from lubfric.store import (
     FolderLock,
@@ -37,7 +39,8 @@ SCENE = lubfric.load_scene("paper").with_(
 
 def started(code, *arguments):
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    return subprocess.Popen([sys.executable, "-c", code, *map(str, arguments)], env=environment, stdout=subprocess.PIPE)
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
 
 # whole files
@@ -120,10 +123,11 @@ with Records(sys.argv[1]) as records:
 def test_several_writers_and_a_kill(tmp_path):
     ending = [started(ADDER, tmp_path, name, 40) for name in "ab"]
     killed = started(ADDER, tmp_path, "c", 10**6)
-    killed.stdout.readline()
-    time.sleep(0.1)
+    for _ in range(4):  # "ready" and three records, however long they take
+        said = killed.stdout.readline()
     killed.kill()
-    last = int(killed.communicate()[0].decode().rpartition("\n")[0].rpartition("\n")[2])
+    said = (said + killed.communicate()[0]).decode()
+    last = int(said.rpartition("\n")[0].rpartition("\n")[2])
     for process in ending:
         process.communicate()
     found = dict(Records(tmp_path).read())
@@ -163,11 +167,11 @@ def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
 # lock
 
 HOLDER = """
-import sys, time
+import sys
 from lubfric.store import FolderLock
 with FolderLock(sys.argv[1]):
     print("ready", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
 
 
@@ -253,3 +257,30 @@ def test_nothing_but_dataclasses_of_the_package_is_built():
             from_plain({"class": name})
     with pytest.raises(TypeError, match="cannot be stored"):
         encode(object())
+
+
+@pytest.mark.parametrize("place", ["/proc/lubfric/deep", "file", "file/deep"])
+def test_a_place_that_cannot_be_written_is_one_line_even_for_root(tmp_path, capsys, place):
+    """A file system that takes no folders, a file where a folder should be: from Python and on the command line."""
+    (tmp_path / "file").write_text("mine")
+    out = place if place.startswith("/proc") else str(tmp_path / place)
+    scene = lubfric.load_scene("flat").with_(
+        contact={"shape": (32, 32), "spacing": 3e-6},
+        surface={"sq": 1e-7, "correlation_length": 1e-5, "acf": "gaussian"},
+        motion={"speeds": ()},
+    )
+    moving = scene.with_(transient=lubfric.Transient(1e-5, outputs=1))
+    for call in (
+        lambda: lubfric.stribeck(scene, [0.1], store=out),
+        lambda: lubfric.transient(moving, checkpoint=out),
+        lambda: lubfric.study(scene, {"bodies.load": [5.0, 6.0]}, store=out),
+    ):
+        with pytest.raises(lubfric.LubfricError, match=re.escape(out)):
+            call()
+    for name, one in (("steady", scene), ("moving", moving)):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(one.to_toml())
+        assert cli.main(["run", str(path), "--out", out]) == 2
+        last = capsys.readouterr().err.strip().splitlines()[-1]
+        assert last.startswith("lubfric: ") and out in last
+    assert (tmp_path / "file").read_text() == "mine"

@@ -9,7 +9,6 @@ all works. (fig4 draws Figs. 3 and 4.)
 from __future__ import annotations
 
 import importlib
-import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from pathlib import Path
@@ -43,13 +42,12 @@ def main(argv: list[str] | None = None) -> int:
 
 def figure(level: str, name: str) -> Iterator[Item]:
     """One figure of the paper: its checks, its data, its picture."""
-    begun = time.perf_counter()
     module, _, function = FIGURES[name].partition(":")
     made = getattr(importlib.import_module(module), function)(level == "quick")
     yield from made.checks
     for stem, (headings, rows) in made.tables.items():
         yield Table(stem, made.title, headings, tuple(rows))
-    yield Figure(made.name, markdown(made, time.perf_counter() - begun), made.picture, "png")
+    yield Figure(made.name, markdown(made), made.picture, "png")
 
 
 def _options(parser: ArgumentParser) -> None:

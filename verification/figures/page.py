@@ -47,13 +47,13 @@ def write_document(folder: Path, sections: dict[str, str], pictures: dict[str, b
     (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()) + f"\n{told}\n", encoding="utf-8")
 
 
-def markdown(figure: PaperFigure, seconds: float, images: str = "images/") -> str:
+def markdown(figure: PaperFigure, images: str = "images/") -> str:
     """The section of one figure; ``images``: folder of the picture."""
     data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
     return (
         f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n"
         f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
-        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}. {seconds:.0f} s.\n"
+        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}.\n"
     )
 
 

@@ -7,6 +7,8 @@ import argparse
 import sys
 from pathlib import Path
 
+OTHERS = 100  # trials of other surfaces and loads, at most
+
 
 def main(argv: list[str]) -> int:
     """Solve every case many times with seeds of its own, count how often the interval covers, draw the charts.
@@ -14,7 +16,7 @@ def main(argv: list[str]) -> int:
     Exit code 0: coverage, reported error over scatter and bias of every case within its bounds
     (`verification.sampling.verdict`).
     """
-    from . import cases, charts, cost, lengths, measure, pieces, verdict
+    from . import cases, charts, cost, lengths, measure, pieces, quantities, verdict
 
     parser = argparse.ArgumentParser("python -m verification sampling", description=__doc__)
     level = parser.add_mutually_exclusive_group()
@@ -30,13 +32,19 @@ def main(argv: list[str]) -> int:
     trials = 16 if options.quick else 200 if options.full else 60
     options.out.mkdir(parents=True, exist_ok=True)
     chosen = cases.SPEEDS if options.quick else cases.CASES
-    results = [measure.run(case, trials, options.seed, options.out, _tell) for case in chosen]
+    results = [
+        measure.run(case, trials if case in cases.SPEEDS else min(trials, OTHERS), options.seed, options.out, _tell)
+        for case in chosen
+    ]
+    truths = {result.case.speed: result.truth for result in results if result.case in cases.SPEEDS}
     lines = [verdict.of_case(result) for result in results]
     if not options.quick:
         maps = pieces.run(6 if options.full else 2, options.seed, options.out, _tell)
         lines.append(verdict.of_pieces(maps))
-        charts.bias(lengths.run(24 if options.full else 8, options.seed, options.out, _tell), options.out)
-        charts.cost(cost.run(8 if options.full else 3, options.seed, options.out, _tell), options.out)
+        scenes = quantities.run(100 if options.full else 24, quantities.SEED, options.out, _tell)
+        lines.append(verdict.of_quantities(quantities.counted(scenes)))
+        charts.bias(lengths.run(24 if options.full else 8, options.seed, truths, _tell), options.out)
+        charts.cost(cost.run(8 if options.full else 3, options.seed, truths, _tell), options.out)
     table = verdict.table(lines)
     print(table)
     (options.out / "sampling.md").write_text(table + "\n")

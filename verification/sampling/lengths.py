@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 import lubfric
@@ -13,12 +11,12 @@ SPEEDS = (0.01, 0.03)
 CELL = 1.8e-6
 
 
-def run(trials: int, seed: int, out: Path, tell) -> dict:
+def run(trials: int, seed: int, truths: dict[float, float], tell) -> dict:
     """{speed: (lengths [m], mean f, standard deviation, truth)} of ``trials`` patches of each length, on cells of 1.8
-    µm."""
+    µm; ``truths`` {speed [m/s]: f of an endless line}."""
     found = {}
     for speed in SPEEDS:
-        truth = _line(speed, seed)
+        truth = truths[speed]
         rows = []
         for length in LENGTHS:
             f = [_patch(length, speed, seed + 50_000 + k) for k in range(max(trials, int(trials * 360e-6 / length)))]
@@ -26,11 +24,6 @@ def run(trials: int, seed: int, out: Path, tell) -> dict:
         found[speed] = (np.array(rows), truth)
         tell(f"{speed:g} m/s: bias {[f'{100 * (r[1] / truth - 1):+.1f} %' for r in rows]} of {LENGTHS} m")
     return found
-
-
-def _line(speed: float, seed: int) -> float:
-    scene = lubfric.load_scene("paper").with_(surface={"seed": seed + 40_000}, numerics={"sampling_tolerance": 0.004})
-    return lubfric.friction(scene, speed).coefficient
 
 
 def _patch(length: float, speed: float, seed: int) -> float:

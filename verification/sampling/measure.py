@@ -1,20 +1,20 @@
-"""Trials of one case, each on a surface of its own, and the friction of a line long enough to be the truth."""
+"""Trials of one case, each on a surface of its own, and the friction of an endless line."""
 
 from __future__ import annotations
 
 import json
-import math
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
 
-TIGHTER = 5.0  # times the standard error asked: of the truth
-TRUTHS = 2
-REPORTED = 1e6  # seeds of the truth begin so far behind those of the trials
+from .truth import truth
+
+REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
+BESIDE = ("contact_load", "film_load", "shear_force", "mean_gap", "central_film", "real_contact_area")
 
 
 @dataclass(frozen=True)
@@ -61,27 +61,41 @@ def solve(scene, speed: float, asked: float) -> dict:
         "length": u.length,
         "participation": u.participation,
         "told": bool(u.notes),
+        "beside": {name: (getattr(found, name), getattr(found.errors, name)) for name in BESIDE},
         "seconds": time.process_time() - begun,
     }
 
 
+def kept(case, seed: int, out: Path) -> Result | None:
+    """What `run` left in ``out``; None where it has no truth or no trials."""
+    file = _file(case, seed, out)
+    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
+    truths = [r for r in rows if r["kind"] == "truth"]
+    trials = [r for r in rows if r["kind"] == "trial"]
+    return Result(case, trials, truths[0]["f"], truths[0]["error"]) if truths and len(trials) > 1 else None
+
+
+def _file(case, seed: int, out: Path) -> Path:
+    return out / f"{''.join(c if c.isalnum() else '-' for c in case.name)}-{seed}.jsonl"
+
+
 def run(case, trials: int, seed: int, out: Path, tell) -> Result:
     """Rows kept in ``out`` as they come (one line each): those found there are not solved again."""
-    file = out / f"{''.join(c if c.isalnum() else '-' for c in case.name)}-{seed}.jsonl"
+    file = _file(case, seed, out)
     rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
-    wanted = [("truth", int(seed + REPORTED + i), case.asked / TIGHTER) for i in range(TRUTHS)]
-    wanted += [("trial", seed + i, case.asked) for i in range(trials)]
     known = {(r["kind"], r["seed"]) for r in rows}
-    for kind, own, asked in wanted:
+    wanted = [("truth", seed + REPORTED), *(("trial", seed + i) for i in range(trials))]
+    for kind, own in wanted:
         if (kind, own) in known:
             continue
-        rows.append({"kind": kind, "seed": own, **solve(case.scene(own), case.speed, asked)})
+        scene = case.scene(own)
+        found = asdict(truth(scene, case.speed, own, case.asked)) if kind == "truth" else None
+        rows.append({"kind": kind, "seed": own, **(found or solve(scene, case.speed, case.asked))})
         with file.open("a") as stream:
             stream.write(json.dumps(rows[-1]) + "\n")
-    truths = [r for r in rows if r["kind"] == "truth"]
-    weights = [r["length"] for r in truths]
-    truth = float(np.average([r["f"] for r in truths], weights=weights))
-    error = math.sqrt(sum((w * r["sampling"]) ** 2 for w, r in zip(weights, truths))) / sum(weights)
-    result = Result(case, [r for r in rows if r["kind"] == "trial"], truth, error)
-    tell(f"{case.name}: {100 * result.covered.mean():.1f} % of {len(result.rows)} intervals cover {truth:.5g}")
+    endless = next(r for r in rows if r["kind"] == "truth")
+    own_seeds = {own for kind, own in wanted if kind == "trial"}
+    chosen = [r for r in rows if r["kind"] == "trial" and r["seed"] in own_seeds]
+    result = Result(case, chosen, endless["f"], endless["error"])
+    tell(f"{case.name}: {100 * result.covered.mean():.1f} % of {len(chosen)} intervals cover {result.truth:.5g}")
     return result

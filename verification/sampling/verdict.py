@@ -11,6 +11,7 @@ CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted 
 RATIO = (0.85, 1.15)
 BIAS = 0.3  # of the sampling tolerance
 PIECES = (0.85, 0.99)
+WITHIN = 0.95
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,15 @@ def of_pieces(rows) -> Line:
     length = 1e3 * np.mean([r["length"] for r in rows])
     cells = ("pieces of a map", str(n), f"{100 * coverage:.1f} %", "", "", f"{length:.3g} mm", "", "")
     return Line((*cells, "ok" if passed else "outside"), bool(passed))
+
+
+def of_quantities(counted) -> Line:
+    """Every reported number within its stated error in 95 % of the scenes that state one."""
+    worst = min(counted, key=lambda row: row[2])
+    scenes = max(row[1] for row in counted)
+    passed = all(held >= WITHIN - CHANCE * math.sqrt(0.05 * 0.95 / told) for _, told, held, _ in counted)
+    cells = ("other numbers, random scenes", str(scenes), f"{100 * worst[2]:.1f} % ({worst[0]})", "", "", "", "", "")
+    return Line((*cells, "ok" if passed else "outside"), passed)
 
 
 def table(lines) -> str:

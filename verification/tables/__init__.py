@@ -13,11 +13,11 @@ import sys
 import time
 from pathlib import Path
 
-from . import measured, studies
+from . import measured, sampling, studies
 from .measured import Table
 from .source import source
 
-TABLES = measured.TABLES | studies.TABLES
+TABLES = measured.TABLES | studies.TABLES | sampling.TABLES
 BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
 
 

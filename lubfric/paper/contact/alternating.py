@@ -16,7 +16,7 @@ from ...contact.refine import refine
 from ...contact.result import ContactResult
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ...roots import increasing_root
-from .imposed import ImposedFilm, Outcome, impose
+from .imposed_film import ImposedFilm, Outcome, impose
 
 UPDATES = ("root", "repeat")
 

@@ -24,7 +24,7 @@ from ...contact.problem import make_problem
 from ...contact.residual import contact_residuals
 from ...contact.result import ContactResult
 from ...report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
-from .imposed import ImposedFilm, Outcome, impose
+from .imposed_film import ImposedFilm, Outcome, impose
 
 FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")

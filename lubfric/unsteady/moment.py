@@ -69,8 +69,8 @@ def moment(sharing: Sharing, scene: Scene, sliding: float, solution: StepSolutio
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     force = boundary + shear.total
     sense = np.sign(sliding) if sliding else 1.0
-    closure = contact.closure
-    balance = closure.volume_residual if contact.load > 0.0 else 0.0
+    state = contact.state
+    balance = state.volume_residual if contact.load > 0.0 else 0.0
     return {
         "time": time,
         "entrainment_speed": setting.contact.speed.before(time),
@@ -85,19 +85,19 @@ def moment(sharing: Sharing, scene: Scene, sliding: float, solution: StepSolutio
         "rolling_force": shear.rolling,
         "min_film": smallest(grid.x, t.H) * p.film_unit,
         "central_film": t.H[grid.n // 2] * p.film_unit,
-        "mean_film": closure.mean_film,
-        "mean_gap": closure.mean_gap if contact.load > 0.0 else closure.mean_film,
+        "mean_film": state.mean_film,
+        "mean_gap": state.mean_gap if contact.load > 0.0 else state.mean_film,
         "max_pressure": float(t.P.max()) * p.pressure_unit,
         "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
         "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        "real_contact_area_fraction": closure.real_contact_area_fraction,
-        "plastic_area_fraction": closure.plastic_area_fraction,
+        "real_contact_area_fraction": state.real_contact_area_fraction,
+        "plastic_area_fraction": state.plastic_area_fraction,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
         "sampling_error": moment_error(
             sharing.patch,
-            closure,
+            state,
             (contact.load, film_load),
             contact.softness,
             sharing.width,

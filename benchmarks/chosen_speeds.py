@@ -1,0 +1,78 @@
+"""Curves at speeds of their own choice beside curves at 25 even ones: points, processor time, largest error between.
+
+    python benchmarks/chosen_speeds.py [--line]
+
+Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --line, on a
+line at a sampling tolerance of 5 %. The error is that of ``curve.at`` at 12 random speeds of the range and three about
+lift-off, against solves there at a tolerance of 0.2 %. Prints one table.
+"""
+
+import os
+
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
+
+import argparse
+import time
+
+import numpy as np
+from scipy.stats import qmc
+
+import lubfric
+
+
+def scenes(count: int, line: bool):
+    """``count`` scenes of a Sobol sequence."""
+    base = lubfric.load_scene("paper")
+    numerics = {"sampling_tolerance": 0.05} if line else {"sampling": "patch"}
+    for seed, u in enumerate(qmc.Sobol(5, seed=1).random(count), start=1):
+        yield base.with_(
+            bodies={"load": float(np.exp(np.interp(u[0], [0, 1], np.log([2, 20])))), "hardness": [None, 6e9][seed % 2]},
+            lubricant={"viscosity": float(np.exp(np.interp(u[1], [0, 1], np.log([0.05, 1]))))},
+            surface={
+                "sq": float(np.exp(np.interp(u[2], [0, 1], np.log([5e-8, 3e-7])))),
+                "correlation_length": float(np.interp(u[3], [0, 1], [5e-6, 9e-6])),
+                "seed": seed,
+            },
+            motion={"slide_roll_ratio": float(np.interp(u[4], [0, 1], [0.05, 2.0]))},
+            numerics=numerics,
+        )
+
+
+def timed(work):
+    """(result, processor seconds)."""
+    begun = time.process_time()
+    return work(), time.process_time() - begun
+
+
+def main() -> None:
+    """Run and print."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--line", action="store_true")
+    parser.add_argument("--scenes", type=int, default=8)
+    arguments = parser.parse_args()
+    print("| scene | speeds | error told | largest error | of 25 even speeds | time over that of 25 |")
+    print("|---|---|---|---|---|---|")
+    for number, scene in enumerate(scenes(arguments.scenes, arguments.line), start=1):
+        prepared = lubfric.prepare(scene)
+        lubfric.stribeck(prepared, [0.1])  # whatever is imported at first is
+        auto, spent = timed(lambda: lubfric.stribeck(prepared, "auto", raise_on_failure=False))
+        even, usual = timed(
+            lambda: lubfric.stribeck(prepared, np.geomspace(auto.speed[0], auto.speed[-1], 25), raise_on_failure=False)
+        )
+        speeds = np.exp(np.random.default_rng(number).uniform(*np.log(auto.speed[[0, -1]]), 12))
+        if auto.lift_off:
+            near = auto.lift_off * np.array([0.9, 0.98, 1.02])
+            speeds = np.append(speeds, near[near < auto.speed[-1]])
+        true = lubfric.stribeck(prepared, np.sort(speeds), tolerance=2e-3, raise_on_failure=False)
+        good = np.isfinite(true.coefficient)
+        missed = [np.abs(c.at(true.speed[good]) / true.coefficient[good] - 1).max() for c in (auto, even)]
+        print(
+            f"| {number} | {auto.speed.size} | {auto.report.residual:.2%} | {missed[0]:.2%} | {missed[1]:.2%} | "
+            f"{spent / usual:.2f} |",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main()

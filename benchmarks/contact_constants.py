@@ -1,0 +1,127 @@
+"""Each constant of the contact search at half and at twice its value, on several surfaces.
+
+    OMP_NUM_THREADS=1 python benchmarks/contact_constants.py [--cells 256] [--markdown FILE]
+
+Periodic surfaces with exponential and Gaussian autocorrelation and self-affine ones (H = 0.8) at 50, 200 and 1000 MPa,
+one with a hardness of 3 GPa and one with a free axis, to tolerance 1e-4. Told are the convolutions against those of the
+values as they are (geometric mean and worst case), and how many solves did not converge.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import numpy as np
+
+from benchmarks.contact_before_after import E_PRIME, surface
+from lubfric import solve_contact
+from lubfric.contact import careful, cells, descent, fields, nested, problem, refine, stencil
+from lubfric.halfspace import half_space
+
+SPACING = 2e-6
+MODULES = (careful, cells, descent, fields, nested, problem, refine, stencil)
+KINDS = ("exponential", "gaussian", "self-affine")
+CONSTANTS = (
+    (descent, "FIRST_PACE"),
+    (descent, "LEARNING"),
+    (descent, "STEPS"),
+    (descent, "LOAD_ERROR"),
+    (descent, "SHIFTS"),
+    (descent, "TRANSFORMED"),
+    (descent, "REACH"),
+    (descent, "NARROWINGS"),
+    (descent, "NEAR"),
+    (descent, "WORTH"),
+    (descent, "FORGOTTEN"),
+    (descent, "PATIENCE"),
+    (careful, "CAPACITY"),
+    (refine, "MARGIN"),
+    (refine, "FALL"),
+    (refine, "RIGID"),
+    (refine, "WASTED"),
+    (problem, "COARSEST"),
+    (problem, "COARSE_TOLERANCE"),
+    (problem, "COARSE_ITERATIONS"),
+    (cells, "DENSE"),
+    (stencil, "SPARSE"),
+    (fields, "BLOCK"),
+)
+
+
+def solvers(n: int) -> list:
+    """Functions that solve one case each and return (convolutions, converged)."""
+    cases = [(kind, load, "periodic", None) for kind in KINDS for load in (50e6, 200e6, 1e9)]
+    cases += [("exponential", 200e6, "periodic", 3e9), ("exponential", 200e6, ("free", "periodic"), None)]
+    return [_solver(n, *case) for case in cases]
+
+
+def _solver(n: int, kind: str, load: float, boundary, hardness):
+    gap0 = -surface(kind, (n, n), SPACING, 34e-6, 240e-9)
+    options = {"operator": half_space(gap0.shape, SPACING, E_PRIME, boundary), "boundary": boundary}
+    options |= {"mean_pressure": load, "hardness": hardness, "tolerance": 1e-4, "raise_on_failure": False}
+
+    def solve():
+        report = solve_contact(gap0, SPACING, E_PRIME, **options).report
+        return report.evaluations, report.converged
+
+    return solve
+
+
+def scaled(value, factor: float):
+    """A number, or each of a tuple, times ``factor``; whole numbers stay whole and at least one."""
+    if isinstance(value, tuple):
+        return tuple(scaled(v, factor) for v in value)
+    return max(1, round(factor * value)) if isinstance(value, int) else factor * value
+
+
+def solved_with(module, name: str, factor: float, solves) -> np.ndarray:
+    """Rows of the solves with a constant scaled wherever it was imported."""
+    value = getattr(module, name)
+    homes = [m for m in MODULES if getattr(m, name, None) is value]
+    try:
+        for home in homes:
+            setattr(home, name, scaled(value, factor))
+        return np.array([solve() for solve in solves], float)
+    finally:
+        for home in homes:
+            setattr(home, name, value)
+
+
+def words(rows, usual) -> str:
+    """Ratios to the usual rows."""
+    ratio, failed = rows[:, 0] / usual[:, 0], int(np.count_nonzero(rows[:, 1] == 0))
+    text = f"{np.exp(np.log(ratio).mean()):.2f}, {ratio.max():.2f}"
+    return text + (f", {failed} not converged" if failed else "")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cells", type=int, default=256)
+    parser.add_argument("--markdown", type=Path)
+    options = parser.parse_args()
+    solves = solvers(options.cells)
+    [solve() for solve in solves]
+    lines = [
+        "| constant | value | halved: convolutions, mean and worst | doubled |",
+        "|---|---|---|---|",
+    ]
+    for module, name in CONSTANTS:
+        usual = solved_with(module, name, 1.0, solves)
+        found = [words(solved_with(module, name, factor, solves), usual) for factor in (0.5, 2.0)]
+        lines.append(
+            f"| `{module.__name__.rpartition('.')[2]}.{name}` | {getattr(module, name)} | {' | '.join(found)} |"
+        )
+        print(lines[-1], flush=True)
+    if options.markdown:
+        options.markdown.write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

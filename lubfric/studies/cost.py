@@ -1,0 +1,109 @@
+"""What a point will cost, foretold from closed forms and two clocks of this machine.
+
+The time of a point is that of its films and of the transforms of its contact; their numbers go with Moes' film of the
+whole load over Sq, as counted on the built-in scenes. On a long line the transforms grow with the length that
+`lubfric.lines.outlook` foretells.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from ..ehl.solve import solve_line_contact
+from ..line_contact import LineContact
+from ..lines.contract import Lines
+from ..lines.length import PILOT
+from ..lines.make import lines_of, takes_line
+from ..lines.outlook import foretold
+from ..rough.height_map import contact_map
+from ..scene import Scene
+
+LIFTED, LIFTED_LINE = 3.5, 5.0  # Moes' film over Sq beyond which a patch, and a line, mostly do not touch
+CLEAR = 0.4  # films of a point that is clear of contact, in those solved from nothing
+FILMS, MORE_FILMS = 1.0, 2.0  # of a point in contact: a + b times Moes' film over Sq
+TRANSFORMS, MORE_TRANSFORMS = 4.0, 4.0  # the same of the patch
+PILOT_TRANSFORMS, LINE_TRANSFORMS = 100.0, 25.0  # of the first line, and of as much length again
+CURVE_FILMS, MORE_CURVE_FILMS = 0.4, 0.6  # of a point that is read from a contact curve
+CURVE = 75.0  # transforms of a contact curve
+REPEATS = 3
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What curves on one map share. sq [m]; shape: of the grid; transform [s]: one there and back on it; lines: where
+    it is a long line; curve: whether contacts are read from one curve."""
+
+    sq: float
+    shape: tuple[int, int]
+    transform: float
+    lines: Lines | None = None
+    curve: bool = False
+
+    @property
+    def making(self) -> float:
+        """Seconds for what all its points share."""
+        return CURVE * self.transform if self.curve else 10.0 * self.transform
+
+
+def by_curve(scene: Scene) -> bool:
+    """Its contact is read from one periodic contact curve."""
+    return scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
+
+
+def ground_of(scene: Scene, curve: bool) -> Ground:
+    """Of the map of ``scene``, which is made. Raises `InputError` where it cannot be."""
+    surface = contact_map(scene)
+    if not takes_line(scene):
+        return Ground(surface.sq, surface.shape, _transform(surface.shape), curve=curve)
+    lines = lines_of(scene)
+    length = min(PILOT * lines.lengths[1], lines.available)
+    shape = lines.cells.count, max(2, round(length / lines.cells.coarse[1]))
+    return Ground(surface.sq, shape, _transform(shape), lines)
+
+
+def film_clock(scene: Scene, speed: float) -> float:
+    """Processor seconds of one film of ``scene``, solved here."""
+    contact = _contact(scene, speed)
+    begun = time.process_time()
+    for _ in range(REPEATS):
+        solve_line_contact(contact, raise_on_failure=False)
+    return (time.process_time() - begun) / REPEATS
+
+
+def point_seconds(scene: Scene, ground: Ground, speed: float, film: float) -> float:
+    """Processor seconds of ``scene`` at ``speed`` [m/s]; ``film``: `film_clock`."""
+    if speed == 0 or ground.sq <= 0:
+        return CLEAR * film
+    ratio = _contact(scene, speed).moes_film / ground.sq
+    if ground.curve:
+        return (CURVE_FILMS + MORE_CURVE_FILMS * min(ratio, 2.0)) * film
+    if ground.lines is None:
+        if ratio > LIFTED:
+            return CLEAR * film
+        return (FILMS + MORE_FILMS * ratio) * film + (TRANSFORMS + MORE_TRANSFORMS * ratio) * ground.transform
+    if ratio > LIFTED_LINE:
+        return CLEAR * film
+    length = foretold(scene, ground.lines, ground.sq, speed)[1] / (PILOT * ground.lines.lengths[1])
+    transforms = PILOT_TRANSFORMS + LINE_TRANSFORMS * max(length - 1.0, 0.0)
+    return (FILMS + MORE_FILMS * ratio) * film + transforms * ground.transform
+
+
+def _contact(scene: Scene, speed: float) -> LineContact:
+    bodies = scene.bodies
+    return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, abs(speed), scene.lubricant)
+
+
+def _transform(shape) -> float:
+    """Processor seconds of one Fourier transform there and back of a grid padded to twice its length along x."""
+    values = np.zeros((2 * shape[0], max(2, shape[1])))
+    best = math.inf
+    for _ in range(REPEATS):
+        begun = time.process_time()
+        fft.irfft2(fft.rfft2(values), values.shape)
+        best = min(best, time.process_time() - begun)
+    return best

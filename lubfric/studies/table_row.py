@@ -1,0 +1,57 @@
+"""A record of a point, narrowed to the numbers that a table holds."""
+
+from __future__ import annotations
+
+from ..store.codec import from_plain
+from .journal import PLACE
+
+SPEED, STATUS, CONVERGED = "speed", "status", "converged"
+MISSING = "not computed"
+UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
+CURVE, AT, COUNT = "curve", "at", "count"  # of a point whose speed was chosen: its curve, its place; points in all
+CLEARANCE = "clearance"
+
+
+def row_of(record: dict) -> dict:
+    """Numbers by name, those of an uncertainty as ``uncertainty_<name>``, and the status in words; of a point whose
+    speed was chosen, its place on its curve too."""
+    place = _place(record[PLACE]) if PLACE in record else {}
+    if "error" in record:
+        return {STATUS: f"{record['error']}: {record['message']}", **place}
+    if "report" not in record:  # a curve that is complete
+        return place
+    numbers = _numbers(record)
+    clearance = (record.get("decision") or {}).get(CLEARANCE)
+    if _is_number(clearance):
+        numbers[CLEARANCE] = float(from_plain(clearance))
+    return {STATUS: record["report"]["status"], **numbers, **place}
+
+
+def named(rows: dict[str, dict]) -> dict[str, dict]:
+    """``rows`` with those of chosen speeds under their curve and place instead of their key."""
+    return {f"{row[CURVE]} {row[AT]}" if AT in row else key: row for key, row in rows.items()}
+
+
+def _place(found: dict) -> dict:
+    if "points" in found:
+        return {CURVE: found["curve"], COUNT: found["points"]}
+    speed = {} if found["speed"] is None else {SPEED: found["speed"]}
+    return {CURVE: found["curve"], AT: found["place"], **speed}
+
+
+def _numbers(record: dict) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for name, value in record.items():
+        if name == "uncertainty" and isinstance(value, dict):
+            found |= {f"uncertainty_{part}": number for part, number in _numbers(value).items()}
+        elif name == "interval" and isinstance(value, list) and len(value) == 2:
+            found |= {"low": from_plain(value[0]), "high": from_plain(value[1])}
+        elif name != SPEED and _is_number(value):
+            found[name] = float(from_plain(value))
+    return found
+
+
+def _is_number(value) -> bool:
+    if isinstance(value, dict):
+        return bool({"float", "float64"} & set(value))
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

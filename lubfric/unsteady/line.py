@@ -1,0 +1,46 @@
+"""The line of a run in time: as long as the steady balance asks at the speeds that the run goes through."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import LubfricError
+from ..history import Constant
+from ..history.plan import Transient
+from ..lines.length import MOST_CELLS
+from ..lines.pieces import line_contact
+from ..prepared import Prepared
+from ..steady import friction
+
+SPEEDS = 4  # looked at between the fastest and the slowest of a run
+SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
+
+
+def long_enough(prepared: Prepared, plan: Transient) -> Prepared:
+    """``prepared`` on a line as long as `lubfric.friction` takes for ``numerics.sampling_tolerance`` at the worst of
+    four speeds of ``plan``, or as memory and map hold; itself where it stands on one patch or its line will do."""
+    lines = prepared.lines
+    if lines is None:
+        return prepared
+    low, high = (plan.speed or Constant(prepared.scene.motion.entrainment_speed)).range(plan.duration)
+    fastest = max(abs(low), abs(high))
+    if fastest == 0.0:
+        return prepared
+    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST * fastest)
+    speeds = np.unique(np.geomspace(fastest, slowest, SPEEDS)) if slowest < fastest else [fastest]
+    asked = max(_length(prepared, float(speed)) for speed in speeds)
+    held = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
+    if asked <= prepared.surface.size[1] * 1.05:
+        return prepared
+    surface = lines.line(0, min(asked, held, lines.available))
+    return replace(prepared, surface=surface, contact=line_contact(prepared.scene, surface))
+
+
+def _length(prepared: Prepared, speed: float) -> float:
+    """Of the line [m] at a steady speed; 0 where there is no steady solution to tell."""
+    try:
+        return friction(prepared, speed, raise_on_failure=False).uncertainty.length
+    except LubfricError:
+        return 0.0

@@ -1,0 +1,37 @@
+"""The line of a run in time, and its averages."""
+
+import dataclasses
+import math
+
+import pytest
+
+import lubfric
+from lubfric.history.plan import Transient
+
+HELD = lubfric.load_scene("paper").with_(
+    transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
+)
+
+
+@pytest.fixture(scope="module")
+def held():
+    return lubfric.transient(HELD)
+
+
+def test_the_line_is_as_long_as_the_tolerance_asks(held):
+    steady = lubfric.friction(HELD)
+    assert steady.uncertainty.sampling <= 0.035 and held.line_length > 2 * 180 * 8e-6
+    assert held.line_length == pytest.approx(steady.uncertainty.length, rel=0.05)
+    assert held.sampling_error.max() < 1.3 * 0.035
+    assert held.uncertainty.length[0] == held.line_length
+
+
+def test_an_average_over_time_is_as_unsure_as_its_line(held):
+    mean = held.average()
+    assert mean.coefficient == pytest.approx(held.coefficient.mean(), rel=0.02)
+    assert mean.sampling == pytest.approx(held.sampling_error.mean(), rel=0.05)
+    assert mean.fixed_scatter == pytest.approx(mean.sampling * math.sqrt(held.line_length / 6e-3))
+    assert mean.moving_scatter == pytest.approx(mean.fixed_scatter)  # it hardly moved
+    far = dataclasses.replace(held, renewal=1e-8).average()
+    assert far.sampling == mean.sampling
+    assert far.moving_scatter == pytest.approx(mean.fixed_scatter / math.sqrt(0.03 * 2e-4 / 1e-8), rel=0.2)

@@ -1,0 +1,115 @@
+"""Studies whose curves choose their own speeds: each as it is alone, the same bits anywhere and after a cut, tables."""
+
+from concurrent.futures import ProcessPoolExecutor
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.studies import run as run_module
+from lubfric.studies.journal import Journal
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6},
+    surface={"correlation_length": 4e-6},
+    numerics={"sampling": "patch", "tolerance": 0.02},
+)
+VARY = {"lubricant.viscosity": [0.1, 0.4]}
+
+
+def same(one, other):
+    np.testing.assert_array_equal(one.status, other.status)
+    for name in one.columns.keys() - {"seconds"}:
+        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+@pytest.fixture(scope="module")
+def study():
+    return lubfric.study(SCENE, VARY, "auto")
+
+
+def test_each_curve_is_that_of_the_scene_alone(study):
+    alone = lubfric.stribeck(SCENE.with_(lubricant={"viscosity": 0.4}), "auto")
+    n = alone.speed.size
+    order = np.argsort(study["speed"][1, :n])
+    np.testing.assert_array_equal(study["speed"][1, :n][order], alone.speed)
+    np.testing.assert_array_equal(study["coefficient"][1, :n][order], alone.coefficient)
+    assert study.dims == ("lubricant.viscosity", "point") and study.missing == study.failed == 0
+    assert set(study.status[1, n:]) <= {"not needed"} and study.solved <= 2 * 12
+    speeds = np.geomspace(2e-4, 0.9, 7)
+    np.testing.assert_allclose(study.at(speeds)[1], alone.at(speeds), rtol=1e-12)
+    assert study.at(0.1).shape == (2,) and np.isnan(study.at(5.0)).all()
+    assert study.lift_off[1] == pytest.approx(alone.lift_off, rel=1e-12)
+
+
+def test_lift_off_goes_with_the_film(study):
+    """The film is a function of viscosity x speed where pressure does not raise the viscosity further: so is
+    lift-off."""
+    assert study.lift_off[0] / study.lift_off[1] == pytest.approx(4.0, rel=0.02)
+
+
+@pytest.mark.parametrize("cut", [1, 5, None])
+def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, cut):
+    class Cut(BaseException):
+        pass
+
+    real, kept = Journal.keep, []
+
+    def keep(self, *arguments):
+        if len(kept) == cut:
+            raise Cut
+        kept.append(arguments)
+        real(self, *arguments)
+
+    if cut is not None:
+        monkeypatch.setattr(Journal, "keep", keep)
+        with pytest.raises(Cut):
+            lubfric.study(SCENE, VARY, "auto", store=tmp_path)
+        monkeypatch.setattr(Journal, "keep", real)
+        half = lubfric.open_study(tmp_path)
+        assert (half.solved, half.missing) == (cut, 2) and half["speed"][0, 0] == 1.0
+    with ProcessPoolExecutor(2) as executor:
+        same(lubfric.study(SCENE, VARY, "auto", executor=executor, store=tmp_path), study)
+    same(lubfric.open_study(tmp_path), study)
+    lines = [line for path in (tmp_path / "points").iterdir() for line in path.read_bytes().splitlines()]
+    assert len(lines) == study.solved + 2  # each point once, and the end of each curve
+    monkeypatch.setattr(run_module, "prepare", None)  # nothing is left to do
+    same(lubfric.study(SCENE, VARY, "auto", store=tmp_path), study)
+
+
+def test_a_curve_that_cannot_be_begun_is_one_row(tmp_path):
+    found = lubfric.study(SCENE, {"contact.spacing": [1e-4]}, "auto", store=tmp_path)
+    assert found.failed == 1 and found.missing == 0 and "InputError: correlation_length" in found.status[0, 0]
+    same(lubfric.open_study(tmp_path), found)
+    assert np.isnan(found.lift_off).all() and np.isnan(found.at(0.1)).all()
+
+
+def test_tables_leave_out_what_was_not_needed(study, tmp_path):
+    pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    data, frame = study.to_xarray(), study.to_frame()
+    assert data.speed.dims == ("lubricant.viscosity", "point") and data.speed.attrs["units"] == "m/s"
+    assert len(frame) == study.solved and frame["speed"].notna().all() and list(frame)[:2] == [*VARY, "speed"]
+    study.to_csv(tmp_path / "study.csv")
+    heading, *rows = (tmp_path / "study.csv").read_text().splitlines()
+    assert heading.startswith("lubricant.viscosity [Pa s],speed [m/s],coefficient [-]") and len(rows) == study.solved
+
+
+def test_speeds_at_fixed_points_are_interpolated_too():
+    speeds = np.geomspace(1e-3, 1.0, 8)
+    found, alone = lubfric.study(SCENE, {}, speeds), lubfric.stribeck(SCENE, speeds)
+    np.testing.assert_allclose(found.at([0.002, 0.3]), alone.at([0.002, 0.3]), rtol=1e-12)
+    assert float(found.lift_off) == pytest.approx(alone.lift_off, rel=1e-12)
+
+
+def test_a_study_shows_itself(study):
+    """Lines, points and labels are those of its numbers."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    assert repr(study).startswith("<StudyResult: 2 lubricant.viscosity x ") and repr(study).count("\n") == 0
+    assert "<table>" in study._repr_html_()
+    axes = study.plot()
+    lines = axes.get_lines()
+    assert len(lines) == 4 and lines[0].get_label() == "viscosity 0.1 Pa s"
+    solved = study["coefficient"][0]
+    np.testing.assert_array_equal(np.sort(lines[1].get_ydata()), np.sort(solved[np.isfinite(solved)]))
+    np.testing.assert_allclose(lines[0].get_ydata(), study.at(lines[0].get_xdata())[0])
+    plt.close(axes.figure)
