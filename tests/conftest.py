@@ -1,4 +1,5 @@
-"""What all tests share: hypothesis judges answers, not the time that a loaded machine takes; Ctrl-C interrupts."""
+"""What all tests share: hypothesis judges answers, not the time that a loaded machine takes; Ctrl-C interrupts; what
+is slow."""
 
 import signal
 from pathlib import Path
@@ -10,6 +11,23 @@ settings.register_profile("lubfric", deadline=None)
 settings.load_profile("lubfric")
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in a background job of a shell, and in all that it starts
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+SLOW = frozenset((Path(__file__).parent / "slow_tests.txt").read_text(encoding="utf-8").split())
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items) -> None:
+    """Tests marked slow where they stand take minutes and belong to the verification: they are ``study`` as well, and
+    run only where ``-m`` asks for them. Those of slow_tests.txt are part of the default run, not of the fast lane."""
+    studies = {item for item in items if item.get_closest_marker("slow")}
+    for item in items:
+        if item.get_closest_marker("slow"):
+            item.add_marker("study")
+        elif item.nodeid.split("[")[0].removeprefix("tests/") in SLOW:
+            item.add_marker("slow")
+    if studies and not config.option.markexpr:
+        config.hook.pytest_deselected(items=list(studies))
+        items[:] = [item for item in items if item not in studies]
 
 
 @pytest.fixture(scope="session")

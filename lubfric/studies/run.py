@@ -32,6 +32,11 @@ class Piece:
     done: dict[str, int] = field(default_factory=dict)
     partly: bool = False
 
+    @property
+    def name(self) -> str:
+        """Of its mark in a journal."""
+        return self.batch.curves[0].name
+
     def left(self, chain: Chain) -> bool:
         """Whether points of ``chain`` remain to be solved."""
         return self.done.get(chain.name, 0) < len(chain.keys)
@@ -107,6 +112,9 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
         known.update(rows)
         if on_progress:
             on_progress(done, len(keys))
+    if folder is not None:  # only now: an executor that loses the rows of a piece hands it out again
+        for piece in pieces:
+            Journal(folder).finish(piece.name)
     return StudyResult.of_rows(plan_as_dict(plan), known)
 
 
@@ -135,8 +143,8 @@ def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
     journal = None if piece.folder is None else Journal(piece.folder)
     rows: dict[str, dict] = {}
-    leader, name = None, piece.batch.curves[0].name
-    if journal is not None and journal.begin(name):  # by a worker that is gone: what it finished is taken over
+    leader = None
+    if journal is not None and journal.begin(piece.name):  # by a worker that is gone: what it finished is taken over
         rows = _rows(piece.folder)
         piece = _piece(piece.batch, piece.folder, rows)
     try:
@@ -156,8 +164,6 @@ def run_piece(piece: Piece) -> dict[str, dict]:
             for chain in (chain for chain in curve.chains if piece.left(chain)):
                 for index, outcome in run_chain(prepared, chain, journal, piece.done.get(chain.name, 0)):
                     rows[chain.keys[index]] = row_of(record_of(outcome))
-        if journal is not None:
-            journal.finish(name)
     finally:
         if journal is not None:
             journal.close()

@@ -39,7 +39,8 @@ SCENE = lubfric.load_scene("paper").with_(
 
 def started(code, *arguments):
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    return subprocess.Popen([sys.executable, "-c", code, *map(str, arguments)], env=environment, stdout=subprocess.PIPE)
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
 
 # whole files
@@ -166,11 +167,11 @@ def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
 # lock
 
 HOLDER = """
-import sys, time
+import sys
 from lubfric.store import FolderLock
 with FolderLock(sys.argv[1]):
     print("ready", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
 
 

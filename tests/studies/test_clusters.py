@@ -34,6 +34,8 @@ def serial():
 
 def cluster():
     distributed = pytest.importorskip("distributed")
+    dask = pytest.importorskip("dask")
+    dask.config.set({"distributed.scheduler.allowed-failures": 1000})  # of one piece; after them Dask gives it up
     return distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
 
 

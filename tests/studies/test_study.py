@@ -215,6 +215,20 @@ def test_a_killed_worker_loses_nothing(serial, tmp_path, monkeypatch, stored):
         assert len(keys) == found.status.size
 
 
+def test_a_piece_that_is_handed_out_again_solves_nothing_again(tmp_path, monkeypatch):
+    """As by a cluster that lost its rows with the worker that held them."""
+
+    class Twice(ThreadPoolExecutor):
+        def submit(self, work, *arguments):
+            return super().submit(lambda: [work(*arguments) for _ in range(2)][1])
+
+    with Twice(1) as executor:
+        found = lubfric.study(SCENE, {}, SPEEDS, executor=executor, store=tmp_path)
+    lines = [line for path in (tmp_path / "points").iterdir() for line in path.read_bytes().splitlines()]
+    assert found.missing == found.failed == 0 and len(lines) == found.status.size
+    assert not list((tmp_path / "states").iterdir())
+
+
 # failures
 
 
