@@ -133,7 +133,7 @@ MUTANTS = (
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {"lubfric.unsteady.setup:Run.sliding_speed": lambda f: lambda *args: 2 * f(*args)},
+        {"lubfric.unsteady.at_a_time:SceneInTime.sliding": lambda f: lambda *args: 2 * f(*args)},
         TIME,
     ),
     Mutant(

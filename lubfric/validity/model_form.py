@@ -16,7 +16,7 @@ LEAST = 0.02
 STEEPNESS = 0.56  # of the error over the share of the film, from boundary lubrication on
 FULL_FILM = 3.2  # error times (film/Sq)²: a film between rough surfaces is not that between smooth ones
 ONE_WAY = ((0.5, 0.03), (0.0, 0.10))  # share of the contact from which on; error
-ONE_WAY_FULL_FILM = 0.02
+ONE_WAY_FULL_FILM = 0.05
 
 
 def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> float:
@@ -32,7 +32,7 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
 
 
 def one_way_error(contact_share: float) -> float:
-    """The same by ``numerics.closure = "one-way"``: 3 % from a share of the contact of a half on, 10 % below it, 2 %
+    """The same by ``numerics.closure = "one-way"``: 3 % from a share of the contact of a half on, 10 % below it, 5 %
     for a full film."""
     if contact_share <= 0:
         return ONE_WAY_FULL_FILM

@@ -1,6 +1,7 @@
 """Solved points: limits against the smooth film and the dry contact, what must not change, heavy loads, failures."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -131,6 +132,26 @@ def test_a_heavy_load_is_solved_from_a_cold_start(speed):
     assert found.report.converged and found.pressure.max() <= 4e9 * (1 + 1e-12)
     assert 0.06 < found.coefficient < 0.1
     assert (found.dent > 0).any() == (speed < 0.01) or found.pressure.max() < 4e9
+
+
+def test_a_bearing_at_one_gigapascal_is_solved_speed_by_speed():
+    """1.05 GPa, Sq 200 nm: cold at the first speed, then speed by speed; every balance by sums of the fields."""
+    oil = replace(LIMITED, viscosity=0.04, pressure_viscosity_coefficient=22e-9)
+    surface = lubfric.generate_surface(
+        (96, 24), 90e-6 / 24, sq=200e-9, correlation_length=10e-6, acf="gaussian", seed=2
+    )
+    last, shares = None, []
+    for speed in (0.3, 0.05):
+        line = contact(3e5, speed, oil, 1e-2)
+        problem = lay_out(surface, line, sliding=2 * speed, boundary_friction=0.09, hardness=6e9)
+        starts = [] if last is None else [Start(partial(state_on, problem, last), last.speed)]
+        last = solve_point(problem, starts=starts)
+        carried = last.pressure.sum() * problem.spacing[0] / 24 + last.inlet_load
+        assert carried == pytest.approx(3e5, rel=1e-5) and last.pressure.max() <= 6e9 * (1 + 1e-12)
+        assert last.drawn < 0.1 and 0 <= last.fill.min() and last.fill.max() <= 1
+        shares.append(last.split.spots / 3e5)
+    assert shares[0] < 0.75 < 0.9 < shares[1] < 1
+    assert last.coefficient == pytest.approx(0.09, rel=0.05)
 
 
 def test_plastic_cells_carry_the_limit_and_are_dented():

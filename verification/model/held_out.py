@@ -21,7 +21,7 @@ TOLD_BY = {
     "one-way": lambda p: one_way_error(p.contact_share),
 }
 SPEEDS = (0.1, 0.06, 0.03, 0.01, 0.003)
-COUNT = {"quick": 1, "default": 3, "full": 6}
+COUNT = {"quick": 1, "default": 2, "full": 6}
 COLUMNS = ("surfaces", "model", "points", "within what is told", "within twice that", "rms of f over what is told")
 ONE, TWO = 0.6, 0.9  # shares that are asked of all together
 
