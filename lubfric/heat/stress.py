@@ -22,7 +22,8 @@ from ..lubricant import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio
 
 ROELANDS_ZERO = 138.0  # K
 LIMIT_ACTIVATION = 585.0  # K
-LEAST = 1e-14  # of the isothermal stress: below where a heated one is sought
+LEAST = 1e-14  # of the Newtonian stress, and
+LEAST_STRESS = 1e-3  # Pa, the lower of which is where a heated stress is sought from
 STEPS = 64  # halvings of the logarithm of the stress: to 1e-12 and less
 
 
@@ -71,7 +72,7 @@ def heated_stress(
     log_eta, beta = viscosity_at(lubricant, p, wall)
     per_stress = speed * h / (12 * k)  # K/Pa
     high = log_eta + np.log(2 * speed / h)
-    low = high + np.log(LEAST)
+    low = np.minimum(high + np.log(LEAST), np.log(LEAST_STRESS))
     for _ in range(STEPS):
         middle = 0.5 * (low + high)
         tau = np.exp(middle)

@@ -210,3 +210,10 @@ def test_inlet_factors():
     rolling = [inlet_heat(**given_ | {"speed": u}, slide_roll_ratio=0.0, pressure_ratio=0.0) for u in (0.3, 1, 3)]
     assert all(abs(r.factor / r.other - 1) < 0.35 for r in rolling)
     assert rolling[0].factor > rolling[1].factor > rolling[2].factor
+
+
+def test_a_limit_far_below_the_newtonian_stress_is_found():
+    """At 6.9 GPa Roelands' viscosity asks for 1e20 times what the film bears; the limit is what it bears."""
+    oil = Lubricant(0.033, 2.19e-8, limiting_stress_coefficient=0.06, temperature=365.0, temperature_coefficient=0.034)
+    found, _ = heated_stress(oil, np.array([6.9e9]), np.array([1e-6]), 3.5, np.array([365.0]))
+    assert 0 < found[0] <= 1e6 + 0.06 * 6.9e9
