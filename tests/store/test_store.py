@@ -126,7 +126,8 @@ def test_several_writers_and_a_kill(tmp_path):
     for _ in range(4):  # "ready" and three records, however long they take
         said = killed.stdout.readline()
     killed.kill()
-    said = (said + killed.communicate()[0]).decode()
+    said = (said + killed.stdout.read()).decode()  # what it has buffered too
+    killed.communicate()
     last = int(said.rpartition("\n")[0].rpartition("\n")[2])
     for process in ending:
         process.communicate()
