@@ -87,7 +87,9 @@ def test_the_papers_way_agrees_with_the_load_controlled_balance(speed, hardness)
     load = lubfric.friction(scene, speed)
     paper = lubfric.friction(scene.with_(numerics={"closure": "separation"}), speed, fields=True)
     assert paper.coefficient == pytest.approx(load.coefficient, rel=3e-4)  # each solved to 1e-4
-    assert paper.film_load == pytest.approx(load.film_load, rel=max(2e-3, load.errors.film_load))  # 1e-3 of the load at 1e-4 m/s
+    assert paper.film_load == pytest.approx(
+        load.film_load, rel=max(2e-3, load.errors.film_load)
+    )  # 1e-3 of the load at 1e-4 m/s
     assert abs(paper.load_residual) <= 2 * scene.numerics.tolerances.balance and abs(paper.volume_residual) < 1e-4
     assert paper.balance.contact.fields.report.solver == "single loop, consistent"
 

@@ -33,7 +33,7 @@ ROUGHNESS = {"full": (2.5e-8, 5e-8, 1e-7, 2e-7), "quick": (1e-7,)}
 
 def cells(level: str) -> Iterator[Check]:
     """All cells of ``level`` ("quick" or "full")."""
-    across = 24 if level == "quick" else 32
+    across = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
     for sq in ROUGHNESS[level]:
         surface = lubfric.generate_surface(
             (128, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=1
