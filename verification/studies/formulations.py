@@ -127,7 +127,7 @@ def formulations(level: str):
 
 def closures(level: str):
     """Both closures of the model on the paper's cylinder."""
-    scene = lubfric.load_scene("paper").with_(numerics={"tolerance": 1e-4, "sampling": "patch"})
+    scene = lubfric.load_scene("paper").with_(numerics={"tolerance": 1e-4, "sampling": "patch", "model": "full"})
     rows = []
     for speed in (1e-4, 1e-3, 1e-2) if level != "quick" else (1e-3,):
         points = {}
