@@ -14,6 +14,7 @@ from .plausible import told_doubts
 from .prepared import Prepared, at_tolerance
 from .result import FrictionResult
 from .scene import FASTEST, Scene
+from .show.methods import with_methods
 from .validity.entry import refused
 
 
@@ -67,6 +68,7 @@ def friction(
             result = one_way_answer(prepared, speed, start, begun)
         else:
             result = load_sharing_answer(prepared, speed, start, fields, begun)
+    result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "
