@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from typing import Any
 
 import numpy as np
 
@@ -113,10 +114,10 @@ class Table:
 
     name: str
     caption: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple, ...]
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "columns", tuple(self.columns))
         object.__setattr__(self, "rows", tuple(tuple(row) for row in self.rows))
         wrong = [row for row in self.rows if len(row) != len(self.columns)]

@@ -20,7 +20,7 @@ from .mutants import MUTANTS
 from .report import Report
 from .run import Outcome, quiet, run_one
 from .studies import STUDIES, Study
-from .wording import allowed, number
+from .wording import allowed, markdown, number
 
 NONE = "none"
 ON_PURPOSE = "lubfric.errors."
@@ -99,9 +99,9 @@ def rows(outcomes: Iterable[Outcome]) -> list[list[str]]:
 
 def table(report: Report, options: Namespace) -> str:
     """The same as Markdown, and the count."""
-    lines = [f"| {' | '.join(row)} |" for row in (COLUMNS, ["---"] * len(COLUMNS), *rows(report.outcomes))]
     mutants = [c for o in report.outcomes for c in o.checks if o.study.name != NONE]
-    return "\n".join([*lines, "", f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"])
+    caught = f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"
+    return f"{markdown(COLUMNS, rows(report.outcomes))}\n\n{caught}"
 
 
 def _options(parser: ArgumentParser) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from dataclasses import replace
@@ -14,6 +13,7 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.prepared import prepare
 
+from .. import kept
 from ..check import Check
 from ..report import finite
 from .scenes import SEED, cells, points, scene
@@ -87,16 +87,13 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """
     row(0, points(1)[0])  # imports are no part of any time
-    lines = file.read_text().splitlines() if file.is_file() else []
-    found = [Check.from_dict(c) for line in lines for c in json.loads(line)]
+    found = [Check.from_dict(c) for line in kept.read(file) for c in line]
     known = {c.at["index"] for c in found}
-    file.parent.mkdir(parents=True, exist_ok=True)
     for index, values in enumerate(points(count, seed)):
         if index % part[1] != part[0] or index in known:
             continue
         new = row(index, values)
-        with file.open("a") as out:
-            out.write(json.dumps(finite([c.as_dict() for c in new])) + "\n")
+        kept.append(file, finite([c.as_dict() for c in new]))
         found += new
     return sorted(found, key=lambda c: (c.at["index"], -c.at["asked"]))
 
