@@ -8,13 +8,13 @@ import time
 from . import validate
 from .answer.deterministic import deterministic_answer
 from .answer.load_sharing import load_sharing_answer
+from .answer.methods import with_methods
 from .answer.one_way import one_way_answer
 from .errors import InputError
 from .plausible import told_doubts
 from .prepared import Prepared, at_tolerance
 from .result import FrictionResult
 from .scene import FASTEST, Scene
-from .show.methods import with_methods
 from .validity.entry import refused
 
 

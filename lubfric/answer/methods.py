@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from ..prepared import Prepared
-    from ..result import FrictionResult
+from ..prepared import Prepared
+from ..result import FrictionResult
 
 RIGID = ("isoviscous", "piezoviscous")
 LAWS = {"roelands": "Roelands", "barus": "Barus"}
