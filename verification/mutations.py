@@ -7,9 +7,9 @@ broken trial, not a catch. The unbroken library runs the same studies and has to
 
 from __future__ import annotations
 
-import contextlib
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 from .check import AT_LEAST, AT_MOST, Check
@@ -47,7 +47,8 @@ def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] 
     mutant = next((m for m in MUTANTS if m.name == name), None)
     suite = suite or (mutant.suite if mutant else tuple(dict.fromkeys(s for m in MUTANTS for s in m.suite)))
     failed, looked_at, crash = [], 0, ""
-    with applied(mutant) if mutant else contextlib.nullcontext([]) as calls:
+    context: AbstractContextManager[list[str]] = applied(mutant) if mutant else nullcontext([])
+    with context as calls:
         for study in (s for s in STUDIES if s.name in suite):
             outcome = run_one(study, "quick", quiet)
             looked_at += len(outcome.checks)

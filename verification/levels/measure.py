@@ -13,7 +13,7 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.prepared import prepare
 
-from .. import kept
+from .. import kept, parts
 from ..check import Check
 from ..report import finite
 from .scenes import SEED, cells, points, scene
@@ -30,7 +30,7 @@ def solve(model, tolerance: float, kind: str) -> dict:
         found = lubfric.friction(model, tolerance=tolerance, model=kind)
     except LubfricError as error:
         return {"error": f"{type(error).__name__}: {error}", "seconds": time.process_time() - begun}
-    d = found.decision
+    d = parts.decision(found)
     return {
         "f": found.coefficient,
         "film_share": found.film_load / model.scene.bodies.load,
@@ -95,7 +95,7 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
         new = row(index, values)
         kept.append(file, finite([c.as_dict() for c in new]))
         found += new
-    return sorted(found, key=lambda c: (c.at["index"], -c.at["asked"]))
+    return sorted(found, key=lambda c: (c.number("index"), -c.number("asked")))
 
 
 def savings(found: list[Check]) -> dict[str, float]:
@@ -103,8 +103,8 @@ def savings(found: list[Check]) -> dict[str, float]:
     good = [c for c in found if not c.refused]
 
     def median(against: str, preparation: str = "") -> float:
-        extra = [c.at[preparation] if preparation else 0.0 for c in good]
-        return float(np.median([(c.at[against] + e) / (c.seconds + e) for c, e in zip(good, extra)]))
+        extra = [c.number(preparation) if preparation else 0.0 for c in good]
+        return float(np.median([(c.number(against) + e) / (c.duration + e) for c, e in zip(good, extra)]))
 
     return {
         "reference": median("seconds_reference"),
