@@ -1,4 +1,5 @@
-"""Speeds solved one after the other, each started from its neighbour: the smallest piece of work that is handed out."""
+"""Speeds that are solved one after the other, each started from its neighbour. This is the smallest piece of work
+that is handed out."""
 
 from __future__ import annotations
 
@@ -18,8 +19,8 @@ from .journal import Journal, without_fields
 class Chain:
     """Entrainment ``speeds`` [m/s] in the order in which they are solved, and the ``key`` of each point.
 
-    A key is a hash of all that its point depends on: the input and, as every start depends on the point before it, the
-    whole chain up to there. ``fields``: whether film and contact of the point are kept.
+    A key is a hash of all that its point depends on: the input and the whole chain up to there, since every start
+    depends on the point before it. ``fields``: whether film and contact of each point are kept.
     """
 
     speeds: tuple[float, ...]
@@ -46,11 +47,11 @@ def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
 def run_chain(
     prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0
 ) -> Iterator[tuple[int, object]]:
-    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in
-    ``journal`` first.
+    """Yield (index, `FrictionResult` or `LubfricError`) for the points after the first ``done``. Each is kept in
+    ``journal`` before.
 
-    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program
-    and goes through. The results are the same to the last bit wherever an earlier run was cut.
+    A point that fails leaves its error, and the next one begins cold. Every other exception is a fault of the program
+    and is raised. The results are the same to the last bit wherever an earlier run was cut.
     """
     start, parent = None, os.getppid()
     if journal is not None and done:
@@ -71,7 +72,7 @@ def run_chain(
 
 
 def start_from(outcome) -> FrictionResult | None:
-    """The result, refused or not, from which a neighbour can start."""
+    """The result that a neighbour can start from, refused or not; None where there is none."""
     result = outcome.result if isinstance(outcome, ValidityError) else outcome
     return result if isinstance(result, FrictionResult) and result.starts else None
 
@@ -90,8 +91,8 @@ def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fi
 
 
 def resumed(prepared: Prepared, chain: Chain, journal: Journal, done: int):
-    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done``
-    points."""
+    """What to go on with after ``done`` points: the start of the next point, and the outcome of the point whose
+    record a kill had left out (or None)."""
     key, outcome = journal.state(chain.name)
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])

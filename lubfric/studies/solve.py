@@ -14,7 +14,8 @@ from .spread import spread
 
 @dataclass(frozen=True)
 class Part:
-    """A chain as it is handed out. ``folder`` of the store, or None; ``done``: its leading points that are solved."""
+    """A chain as it is handed out. ``folder``: of the store, or None; ``done``: how many of its first points are
+    solved."""
 
     chain: Chain
     folder: str | None
@@ -22,10 +23,10 @@ class Part:
 
 
 def solve_chains(prepared: Prepared, chains: list, executor, store, keep: Callable) -> None:
-    """Solve ``chains``, pairs of a `Chain` and the indices of its speeds; ``keep(index, outcome)`` for every point as
-    it ends.
+    """Solve ``chains``, pairs of a `Chain` and the indices of its speeds. Every point that ends is given to
+    ``keep(index, outcome)``.
 
-    With a ``store`` the points found there come first.
+    With a ``store``, the points found there come first.
     """
     folder = None if store is None else str(store)
     indices = {chain.name: run for chain, run in chains}
@@ -51,7 +52,7 @@ def solve_chains(prepared: Prepared, chains: list, executor, store, keep: Callab
 
 
 def _finished(folder: str, chain: Chain) -> list:
-    """Outcomes of the leading points of ``chain`` that are in a store, whole."""
+    """Outcomes of the first points of ``chain``, as far as a store holds them whole."""
     journal, outcomes = Journal(folder), []
     records = {key: record for key, record in journal.records.read() if key in chain.keys}
     for key, fields in zip(chain.keys, chain.fields):

@@ -1,4 +1,4 @@
-"""Stribeck curves: friction over speed, neighbours warm-started, nothing lost to a failing point."""
+"""Stribeck curves: friction over speed. Each speed starts from its neighbour, and a failing point costs no other."""
 
 from __future__ import annotations
 
@@ -95,7 +95,8 @@ def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
 
 
 def sweep_chains(prepared: Prepared, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
-    """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
+    """The chains of a sweep, each with the indices of its speeds. There is one, or up to 8 where they are to be
+    ``spread``."""
     order = np.argsort(-np.abs(speeds), kind="stable")
     runs = np.array_split(order, min(order.size, 8)) if spread else [order]
     whole = fingerprint(prepared)
