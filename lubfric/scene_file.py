@@ -121,7 +121,7 @@ def builtin_scenes() -> tuple[str, ...]:
 def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
     allowed = ("name", *SECTIONS)
-    _known("scene", table, allowed)
+    validate.keys("scene", table, allowed)
     for section in SECTIONS:
         if section not in table and section not in OPTIONAL:
             raise InputError(f"scene {name} has no [{section}] table")
@@ -138,7 +138,7 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
 
 
 def _rough(section: str, given: dict, folder: Path) -> Roughness:
-    _known(f"[{section}]", given, [f.name for f in fields(Roughness)])
+    validate.keys(f"[{section}]", given, [f.name for f in fields(Roughness)])
     if isinstance(given.get("file"), str):
         given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
     with named(section):
@@ -191,20 +191,11 @@ def _text(source) -> tuple[str, Path, str]:
         raise InputError(f"scene {str(source)!r} cannot be read as UTF-8 text: {error}") from None
 
 
-def _known(where: str, table: dict, allowed) -> None:
-    for key in table:
-        if key not in allowed:
-            raise InputError(
-                f"unknown key {validate.shown(key)} in {where}{validate.nearest(key, allowed)}; allowed: "
-                f"{', '.join(allowed)}"
-            )
-
-
 def _build(section: str, table: dict):
     kind = SECTIONS[section]
     names = [f.name for f in fields(kind)]
     histories = ("sliding_speed",) if section == "motion" else ()
-    _known(f"[{section}]", table, (*names, *short_keys(section), *histories))
+    validate.keys(f"[{section}]", table, (*names, *short_keys(section), *histories))
     with told_slips(section, dict(table)):
         return _made(section, kind, resolve(section, table))
 

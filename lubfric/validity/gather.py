@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from ..errors import ValidityError
 from .entry import Validity
+
+if TYPE_CHECKING:
+    from ..result import FrictionResult
+
+
+def entries_of(point: FrictionResult | None, error: Exception | None) -> tuple[Validity, ...]:
+    """Assumptions that do not hold at a point of a curve: of its result, or of the one that ``error`` refused."""
+    refused = error.result if point is None and isinstance(error, ValidityError) else None
+    found = point if refused is None else refused
+    return () if found is None else found.validity
 
 
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
