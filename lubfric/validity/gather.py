@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ..errors import ValidityError
 from .entry import Validity
 
-if TYPE_CHECKING:
-    from ..result import FrictionResult
 
-
-def entries_of(point: FrictionResult | None, error: Exception | None) -> tuple[Validity, ...]:
-    """Assumptions that do not hold at a point of a curve: of its result, or of the one that ``error`` refused."""
+def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
+    """Assumptions that do not hold at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     found = point if refused is None else refused
     return () if found is None else found.validity
