@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from .. import validate
 from ..errors import InputError
+from ..show.brief import Brief
 
 MOST_THREADS = 1024
 CAVITATED_SHEAR = ("none", "striated")
@@ -29,8 +30,8 @@ class Tolerances:
     balance: float
 
 
-@dataclass(frozen=True)
-class Numerics:
+@dataclass(frozen=True, repr=False)
+class Numerics(Brief):
     """How accurately, and how much, a scene is solved. Tolerances are relative.
 
     Attributes
