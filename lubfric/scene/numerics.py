@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .. import validate
+from .. import budget, validate
 from ..errors import InputError
 from ..show.brief import Brief
 
@@ -103,18 +103,11 @@ class Numerics(Brief):
         validate.boolean("numerics.accept", self.accept)
 
     @property
-    def forced_film_level(self) -> str:
-        """The film level that is given: by name, or "ehl" by ``model = "full"`` or by the total deflection, which
-        rigid films do not have. "auto" where the level is to be chosen."""
-        numerical = self.model == "full" or self.film_deflection == "total"
-        return "ehl" if numerical and self.film_level == "auto" else self.film_level
-
-    @property
     def tolerances(self) -> Tolerances:
         """As given, or as they follow from ``tolerance``."""
         asked = self.tolerance
         return Tolerances(
-            film=self.film_tolerance or min(0.3 * asked, 0.01),
-            contact=self.contact_tolerance or min(1e-2 * asked, 1e-4),
-            balance=self.balance_tolerance or min(5e-2 * asked, 1e-3),
+            film=self.film_tolerance or min(budget.FILM_GRID * asked, budget.FIRST_FILM),
+            contact=self.contact_tolerance or min(budget.CONTACT * asked, budget.FIRST_CONTACT),
+            balance=self.balance_tolerance or min(budget.BALANCE * asked, budget.FIRST_VOLUME),
         )
