@@ -37,10 +37,9 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of a scene: friction over the entrainment speed.
 
-    First comes one speed of mixed lubrication, then the slower and the faster ones outwards from there, each started
-    from its neighbour: in one process, or both ways at once on an ``executor``, to the same bits. A point that fails
-    leaves NaN, and its exception in ``errors``. A fault of the program is raised as it is, with the points so far as
-    its ``result``.
+    One speed of mixed lubrication comes first, then the slower and the faster ones, each started from its neighbour.
+    An ``executor`` solves both sides at once, to the same bits. A point that fails leaves NaN, and its exception in
+    ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
 
     Parameters
     ----------
@@ -59,8 +58,7 @@ def stribeck(
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
-        found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
-        return _judged(found, raise_on_failure)
+        return _judged(auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point), raise_on_failure)
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
     if isinstance(speeds, (Real, np.number)):
@@ -121,8 +119,8 @@ def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
     """Number of the speed that comes first, counted from the fastest down.
 
     It is where the film that Moes' formula gives the whole load is about twice Sq. There the contact carries a third of
-    the load, and the points on both sides cost the same. It is the fastest speed where only the speed keeps the
-    surfaces apart, or where only the fastest is easy to begin with.
+    the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
+    the fastest speed comes first: it is the easy one to begin with.
     """
     numerics, moving = scene.numerics, np.flatnonzero(speeds)
     if sq <= 0 or numerics.model == "deterministic" or numerics.closure == "one-way" or not moving.size:
