@@ -9,7 +9,6 @@ from typing import Any
 
 from .report import CONVERGED, ITERATION_LIMIT
 
-
 NEARER = 0.3  # of the value before: the secant leads on
 
 
@@ -34,21 +33,21 @@ def increasing_root(
     bounds: tuple[float, float],
     tolerance: float,
     slope: float | None = None,
-    first: Any = None,
-    known: tuple[float, Any] | None = None,
+    first: tuple[float | None, Any] = (None, None),
     max_evaluations: int = 60,
 ) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
-    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when
-    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant where a step came much
-    nearer; a function of one sign there ends with "iteration_limit". Where ``slope`` is roughly known, the first step is Newton's, at most ``step``. ``known``: value
-    and payload at ``guess`` inside the bounds, where they are at hand: they count as an evaluation.
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it. ``first``: value and payload at ``guess``
+    inside the bounds where they are at hand, which counts as an evaluation, or None and a payload to begin with. Stops
+    when |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant where a step came
+    much nearer; a function of one sign there ends with "iteration_limit". Where ``slope`` is roughly known, the first
+    step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
-    search = _Search(f, tolerance, max_evaluations, first)
-    if known is not None:
-        search.keep(guess, *known)
+    search = _Search(f, tolerance, max_evaluations, first[1])
+    if (value := first[0]) is not None:
+        search.keep(guess, value, first[1])
     bracket = _bracket(search, min(max(guess, bounds[0]), bounds[1]), step, bounds, slope)
     if bracket is not None:
         _close_in(search, *bracket)

@@ -25,9 +25,9 @@ FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a nei
 class Balance:
     """One operating point in balance, loads in N; film and its level are None without entrainment.
 
-    slope: of the residual over ``split``, from the last two points of the root, or foretold (None: not known). ``states``: the
-    contact as found on the grids on the way here, the coarsest first, from which those of a neighbour start.
-    coarse: volume residual on the first of them less that on the last, under one film.
+    slope: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
+    ``states``: the contact as found on the grids on the way here, the coarsest first, from which those of a neighbour
+    start. coarse: volume residual on the first of them less that on the last, under one film.
     """
 
     film_load: float
@@ -101,9 +101,9 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; where this one's balance
-    should be from there, see `lubfric.point.split`. ``known``: film and contact of this point at the split of ``start``,
-    of the closure by load. That the summits touch is known, or shown by a root.
+    construction. Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; where this
+    one's balance should be from there, see `lubfric.point.split`. ``known``: film and contact of this point at the
+    split of ``start``, of the closure by load. That the summits touch is known, or shown by a root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
@@ -115,8 +115,7 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
         bounds=BOUNDS,
         tolerance=point.settings.balance_tolerance,
         slope=foretold,
-        first=first,
-        known=None if known is None else (known.contact.volume_residual - point.settings.aim, known),
+        first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
     )
     found = root.payload
     residuals = {"volume": min(root.history), "load": 0.0}

@@ -11,7 +11,7 @@ from .operating_point import OperatingPoint
 
 BOUNDS = (-40.0, 30.0)  # film shares down to 4e-18, contact shares to 1e-13
 NUDGE = 1e-3  # of the film's load, for the exponent of Moes' film
-STEPS, NEAR = 20, 1e-3  # of Newton's method, and how far it goes in ln(F_H/F_C)
+STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
 
 
 def divided(load: float, split: float) -> tuple[float, float]:
@@ -22,12 +22,13 @@ def divided(load: float, split: float) -> tuple[float, float]:
 def foretold_split(
     point: OperatingPoint, speed: float, split: float, slope: float | None
 ) -> tuple[float, float | None]:
-    """Where the balance of ``point`` should be, from that at another ``speed`` [m/s], its ``split`` and the slope of its
-    volume residual over it; and the slope there.
+    """Where the balance of ``point`` should be, from that at another ``speed`` [m/s], its ``split`` and the slope of
+    its volume residual; and the slope there.
 
     The film follows Moes' formula, ``h ~ F_H^-m`` locally, and the mean gap a power of the contact's load,
-    ``g ~ F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. Without a slope a film carries at the same gap in proportion to
-    its speed. Only a start: nothing found depends on it but within the tolerance of the root.
+    ``g ~ F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. Without a slope
+    a film carries at the same gap in proportion to its speed. Only a start: nothing found depends on it but within the
+    tolerance of the root.
     """
     step = math.log(abs(point.speed / speed))
     if not slope or not step:
@@ -43,7 +44,8 @@ def foretold_split(
         film, exponent = _moes(line, now[0] / film_load)
         steepness = (stiffness * now[0] + exponent * now[1]) / load
         excess = -stiffness * math.log(now[1] / contact_load) - math.log(film / before[0])
-        found = min(max(found - excess / steepness, BOUNDS[0]), BOUNDS[1])
+        move = min(max(-excess / steepness, -FARTHEST), FARTHEST)
+        found = min(max(found + move, BOUNDS[0]), BOUNDS[1])
         if abs(excess) <= NEAR * steepness:
             return found, 0.5 * steepness
     return split + step, slope
