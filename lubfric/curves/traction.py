@@ -11,10 +11,11 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
+from ..show.cite import together
 from ..steady import FrictionResult, friction
 from ..sweep import QUANTITIES
 from ..validity.entry import Validity
-from ..validity.gather import gathered
+from ..validity.gather import entries_of, gathered
 
 
 @dataclass(frozen=True)
@@ -48,10 +49,11 @@ class TractionResult:
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a ratio, refused or not."""
-        point, error = self.points[index], self.errors.get(index)
-        if point is None and isinstance(error, ValidityError) and error.result is not None:
-            return error.result.validity
-        return () if point is None else point.validity
+        return entries_of(self.points[index], self.errors.get(index))
+
+    def cite(self) -> str:
+        """The papers behind what was used at any of the ratios, one a line, the model's first."""
+        return together(point for point in self.points if point is not None)
 
     @property
     def validity(self) -> tuple[str, ...]:

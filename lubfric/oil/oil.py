@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..show.brief import Brief
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index
@@ -23,8 +24,8 @@ STEP = 0.05  # K, of a central difference
 Temperatures = Sequence[float] | np.ndarray
 
 
-@dataclass(frozen=True)
-class Oil:
+@dataclass(frozen=True, repr=False)
+class Oil(Brief):
     """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
 
     viscosity_law : kinematic viscosity over temperature, `Walther` (ASTM D341, constant 0.7) or `ViscosityTable`
@@ -34,6 +35,7 @@ class Oil:
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
     name : in words
+    by_index : True: its viscosity at 100 °C follows from a viscosity index (ASTM D2270)
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """
@@ -46,6 +48,7 @@ class Oil:
     estimate: str | None = None
     conductivity: float | None = None
     name: str = "oil"
+    by_index: bool = False
 
     def __post_init__(self):
         validate.choice("base", self.base, BASES)
