@@ -16,6 +16,8 @@ def main(argv: list[str]) -> int:
     Exit code 0: coverage, reported error over scatter and bias of every case within its bounds
     (`verification.sampling.verdict`).
     """
+    import lubfric
+
     from . import cases, charts, cost, lengths, measure, pieces, quantities, verdict
 
     parser = argparse.ArgumentParser("python -m verification sampling", description=__doc__)
@@ -28,9 +30,17 @@ def main(argv: list[str]) -> int:
         "--out", type=Path, default=Path("out/sampling"), help="folder of results (default: %(default)s)"
     )
     parser.add_argument("--seed", type=int, default=cases.SEED, help="of the surfaces (default: %(default)s)")
+    parser.add_argument("--map", type=Path, metavar="SCENE", help="only the measured map of this scene, in pieces")
+    parser.add_argument("--cuts", type=int, nargs=2, default=(2, 2), metavar=("X", "Y"), help="of that map")
     options = parser.parse_args(argv)
     trials = 16 if options.quick else 200 if options.full else 60
     options.out.mkdir(parents=True, exist_ok=True)
+    if options.map:
+        scene = lubfric.load_scene(options.map)
+        rows = pieces.measured(scene, scene.motion.entrainment_speed, tuple(options.cuts), options.out, _tell)
+        line = verdict.of_pieces(rows)
+        print(verdict.table([line]))
+        return 0 if line.passed else 1
     chosen = cases.SPEEDS if options.quick else cases.CASES
     results = [
         measure.run(case, trials if case in cases.SPEEDS else min(trials, OTHERS), options.seed, options.out, _tell)
