@@ -9,7 +9,7 @@ import numpy as np
 from ..stability.film_check import viscosity_ratio
 from .soak_heat import heated_stress, heats
 
-HEATED = 350  # nodes at most on which the heat of the film is found
+HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
 def friction_force(scene, sides, contact_load: float, speed: float) -> float:
