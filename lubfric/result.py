@@ -46,6 +46,7 @@ class FrictionResult(PointShown):
     uncertainty : of the coefficient, from solvers and grids, and because a finite surface stands for all of it
         (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), as ``errors.contact_load``
+    methods : what it rests on, as far as a paper stands behind it. ``cite()`` gives the papers
     line : what the long line of a scene leaves for a neighbouring speed to start from
     """
 
@@ -78,6 +79,7 @@ class FrictionResult(PointShown):
     one_way: tuple[OneWay, ...] = ()
     uncertainty: Uncertainty = Uncertainty()
     errors: FieldErrors = FieldErrors()
+    methods: tuple[str, ...] = ()
     line: LineStart | None = field(default=None, repr=False)
 
     @property

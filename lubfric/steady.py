@@ -8,6 +8,7 @@ import time
 from . import validate
 from .answer.deterministic import deterministic_answer
 from .answer.load_sharing import load_sharing_answer
+from .answer.methods import with_methods
 from .answer.one_way import one_way_answer
 from .errors import InputError
 from .plausible import told_doubts
@@ -67,6 +68,7 @@ def friction(
             result = one_way_answer(prepared, speed, start, begun)
         else:
             result = load_sharing_answer(prepared, speed, start, fields, begun)
+    result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, "

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ AT_MOST = "at_most"
 AT_LEAST = "at_least"
 TOLD = "told"
 KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, TOLD)
-Where = dict[str, str | float | bool | None]
+Where = Mapping[str, str | float | bool | None]
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,27 @@ class Check:
         """True when the run fails by it."""
         return self.decisive and not self.passed
 
+    @property
+    def duration(self) -> float:
+        """``seconds``; raises ValueError where nobody took them."""
+        if self.seconds is None:
+            raise ValueError(f"check {self.name!r} was not timed")
+        return self.seconds
+
+    def number(self, name: str) -> float:
+        """A number of ``at``; raises TypeError where it is none."""
+        value = self.at[name]
+        if isinstance(value, str) or value is None:
+            raise TypeError(f"check {self.name!r}: {name} = {value!r} is no number")
+        return value
+
+    def word(self, name: str) -> str:
+        """``at`` of ``name`` as a word; raises TypeError where it is none."""
+        value = self.at[name]
+        if not isinstance(value, str):
+            raise TypeError(f"check {self.name!r}: {name} = {value!r} is no word")
+        return value
+
     def as_dict(self) -> dict:
         """Plain types only, with the verdict."""
         return asdict(self) | {"deviation": self.deviation, "passed": self.passed}
@@ -113,10 +135,10 @@ class Table:
 
     name: str
     caption: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple, ...]
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "columns", tuple(self.columns))
         object.__setattr__(self, "rows", tuple(tuple(row) for row in self.rows))
         wrong = [row for row in self.rows if len(row) != len(self.columns)]
@@ -177,7 +199,9 @@ class StudyResult:
     fields: tuple[Field, ...] = ()
 
     def __iter__(self) -> Iterator[Item]:
-        yield from (*self.checks, *self.tables, *self.figures, *self.fields)
+        kinds: tuple[Iterable[Item], ...] = (self.checks, self.tables, self.figures, self.fields)
+        for items in kinds:
+            yield from items
 
 
 def file_name(name: str) -> str:

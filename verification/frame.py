@@ -66,10 +66,11 @@ def main(command: Command, argv: list[str]) -> int:
 def parser(command: Command) -> argparse.ArgumentParser:
     """The command line."""
     p = argparse.ArgumentParser(command.program, description=command.summary)
-    level = p.add_mutually_exclusive_group()
-    for name, words in (("quick", "small and few"), ("full", "the finest and all")):
-        if name in command.levels:
-            level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
+    if len(command.levels) > 1:
+        level = p.add_mutually_exclusive_group()
+        for name, words in (("quick", "small and few"), ("full", "the finest and all")):
+            if name in command.levels:
+                level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
     p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
     p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
     p.add_argument("--list", action="store_true", help="name the parts and stop")

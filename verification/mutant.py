@@ -57,7 +57,7 @@ def located(place: str) -> tuple[object, str]:
 
 def replacement(original, wrong: Callable, place: str, calls: list[str]):
     """``wrong(original)`` that counts; a property stays one."""
-    function = original.fget if isinstance(original, property) else original
+    function: Callable = original.fget if isinstance(original, property) and original.fget else original
     broken = wrong(function)
 
     @functools.wraps(function)

@@ -7,9 +7,9 @@ broken trial, not a catch. The unbroken library runs the same studies and has to
 
 from __future__ import annotations
 
-import contextlib
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 from .check import AT_LEAST, AT_MOST, Check
@@ -20,7 +20,7 @@ from .mutants import MUTANTS
 from .report import Report
 from .run import Outcome, quiet, run_one
 from .studies import STUDIES, Study
-from .wording import allowed, number
+from .wording import allowed, markdown, number
 
 NONE = "none"
 ON_PURPOSE = "lubfric.errors."
@@ -47,7 +47,8 @@ def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] 
     mutant = next((m for m in MUTANTS if m.name == name), None)
     suite = suite or (mutant.suite if mutant else tuple(dict.fromkeys(s for m in MUTANTS for s in m.suite)))
     failed, looked_at, crash = [], 0, ""
-    with applied(mutant) if mutant else contextlib.nullcontext([]) as calls:
+    context: AbstractContextManager[list[str]] = applied(mutant) if mutant else nullcontext([])
+    with context as calls:
         for study in (s for s in STUDIES if s.name in suite):
             outcome = run_one(study, "quick", quiet)
             looked_at += len(outcome.checks)
@@ -99,9 +100,9 @@ def rows(outcomes: Iterable[Outcome]) -> list[list[str]]:
 
 def table(report: Report, options: Namespace) -> str:
     """The same as Markdown, and the count."""
-    lines = [f"| {' | '.join(row)} |" for row in (COLUMNS, ["---"] * len(COLUMNS), *rows(report.outcomes))]
     mutants = [c for o in report.outcomes for c in o.checks if o.study.name != NONE]
-    return "\n".join([*lines, "", f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"])
+    caught = f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"
+    return f"{markdown(COLUMNS, rows(report.outcomes))}\n\n{caught}"
 
 
 def _options(parser: ArgumentParser) -> None:

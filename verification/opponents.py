@@ -128,7 +128,7 @@ def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, th
     return solve
 
 
-CONTACT = {
+CONTACT: dict[str, Callable[[np.ndarray, float, float], Solver | None]] = {
     "lubfric": lubfric_solver,
     "plain Polonsky-Keer": polonsky_keer_solver,
     "aspher": aspher_solver,

@@ -77,11 +77,11 @@ class Collector:
         kind = type(item)
         if kind not in self.items:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
-        placed = kind is Check and item.at
+        placed = isinstance(item, Check) and item.at
         if not placed and any(other.name == item.name for other in self.items[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
         self.items[kind].append(item)
-        if kind is Check:
+        if isinstance(item, Check):
             self.progress(item)
 
 
@@ -158,8 +158,9 @@ def load(study: Study) -> Callable[[str], object]:
 
 def explain(exc: BaseException) -> str:
     """The last line of the traceback; for a missing extra also how to install it."""
-    if isinstance(exc, ModuleNotFoundError) and (exc.name or "").partition(".")[0] in EXTRAS:
-        package = EXTRAS[exc.name.partition(".")[0]]
+    missing = (exc.name or "").partition(".")[0] if isinstance(exc, ModuleNotFoundError) else ""
+    if missing in EXTRAS:
+        package = EXTRAS[missing]
         return f"{package} is not installed: {INSTALL}"
     return " ".join("".join(traceback.format_exception_only(exc)).split())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 
 from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, TOLD, Check
 
@@ -57,3 +58,9 @@ def number(value) -> str:
 def seconds(value: float | None) -> str:
     """A time for a person."""
     return "" if value is None else f"{value:.2f} s" if value < 100 else f"{value / 60:.1f} min"
+
+
+def markdown(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A table in Markdown, without a line's end after the last row."""
+    lines = [columns, ["---"] * len(columns), *rows]
+    return "\n".join("| " + " | ".join(str(cell).replace("|", r"\|") for cell in line) + " |" for line in lines)

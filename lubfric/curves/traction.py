@@ -11,6 +11,7 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
+from ..show.cite import together
 from ..steady import FrictionResult, friction
 from ..sweep import QUANTITIES
 from ..validity.entry import Validity
@@ -52,6 +53,10 @@ class TractionResult:
         if point is None and isinstance(error, ValidityError) and error.result is not None:
             return error.result.validity
         return () if point is None else point.validity
+
+    def cite(self) -> str:
+        """The papers behind what was used at any of the ratios, one a line, the model's first."""
+        return together(point for point in self.points if point is not None)
 
     @property
     def validity(self) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
     viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
     properties.setdefault("name", f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}")
-    return from_viscosities(nu40, viscosity_at_100(nu40, viscosity_index), **properties)
+    return from_viscosities(nu40, viscosity_at_100(nu40, viscosity_index), **properties, by_index=True)
 
 
 def from_table(temperatures, viscosities, **properties) -> Oil:

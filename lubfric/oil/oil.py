@@ -34,6 +34,7 @@ class Oil:
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
     name : in words
+    by_index : True: its viscosity at 100 °C follows from a viscosity index (ASTM D2270)
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """
@@ -46,6 +47,7 @@ class Oil:
     estimate: str | None = None
     conductivity: float | None = None
     name: str = "oil"
+    by_index: bool = False
 
     def __post_init__(self):
         validate.choice("base", self.base, BASES)

@@ -91,7 +91,7 @@ def _oil(source: dict, before: Oil | None) -> Oil:
         raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
     if "viscosity_index" in source:
         nu40 = before.kinematic_viscosity(AT_40)
-        return from_viscosities(nu40, viscosity_at_100(nu40, source["viscosity_index"]), **kept)
+        return from_viscosities(nu40, viscosity_at_100(nu40, source["viscosity_index"]), **kept, by_index=True)
     return before
 
 

@@ -27,6 +27,7 @@ class PointShown(Shown):
     deterministic: Any
     uncertainty: Any
     decision: Any
+    methods: tuple[str, ...]
 
     def _facts(self) -> dict[str, str]:
         facts = {
@@ -43,16 +44,7 @@ class PointShown(Shown):
 
     def cite(self) -> str:
         """The papers behind what was used for this result, one a line, the model's first."""
-        told = self.decision
-        used = cited(
-            contact=self.contact_load > 0 and self.shows_contact,
-            rigid=told is not None and told.film in ("isoviscous", "piezoviscous"),
-            modulus=told is not None and "scaled modulus" in told.deflection,
-            sheared=self.deterministic is not None,
-            heated=self.inlet_film_factor != 1.0,
-            sampled=self.uncertainty.sampling > 0,
-        )
-        return "\n".join(used)
+        return cited(self.methods)
 
     @property
     def shows_contact(self) -> bool:

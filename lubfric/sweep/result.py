@@ -29,6 +29,7 @@ NOT_NUMBERS = (
     "one_way",
     "uncertainty",
     "errors",
+    "methods",
     "line",
 )
 QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)

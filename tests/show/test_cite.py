@@ -2,6 +2,7 @@
 
 import importlib.metadata
 
+import numpy
 import pytest
 
 import lubfric
@@ -31,9 +32,87 @@ def test_johnson_is_cited_where_his_modulus_deflects_the_film():
         lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
         numerics={"sampling": "patch", "tolerance": 0.05, "accept": True, "film_deflection": "auto"},
     )
-    assert "Johnson" in lubfric.friction(heavy, 0.01).cite()
-    assert "Johnson" not in lubfric.friction(heavy.with_(numerics={"film_deflection": "hydrodynamic"}), 0.01).cite()
+    poon = "film deflected by the whole load"
+    assert poon in lubfric.friction(heavy, 0.01).cite()
+    assert poon not in lubfric.friction(heavy.with_(numerics={"film_deflection": "hydrodynamic"}), 0.01).cite()
     assert "Martin" in lubfric.friction(lubfric.load_scene("paper"), 1.0, tolerance=0.1).cite()
+
+
+PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "tolerance": 0.05})
+OIL = {"nu40": 68e-6, "nu100": 8.6e-6, "temperature": 333.15}
+LAWS = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
+WARM = {"temperature": 313.15, "temperature_coefficient": 0.04}
+HOT = PATCH.with_(lubricant=WARM | LAWS, numerics={"heat": "on"})
+KNOWN = PATCH.with_(lubricant=OIL | {"pressure_viscosity_coefficient": 2e-8})
+
+
+@pytest.mark.parametrize(
+    ("author", "used", "not_used"),
+    [
+        ("Roelands", PATCH, PATCH.with_(lubricant={"viscosity_law": "constant"})),
+        ("Barus", PATCH.with_(lubricant={"viscosity_law": "barus"}), PATCH),
+        ("Higginson", PATCH.with_(lubricant={"density_law": "dowson-higginson"}), PATCH),
+        ("Tevaarwerk", PATCH.with_(lubricant={"eyring_stress": 5e6}), PATCH),
+        ("Tevaarwerk", HOT, HOT.with_(motion={"slide_roll_ratio": 0.0})),
+        ("Bair", PATCH.with_(lubricant={"limiting_stress_coefficient": 0.05}), PATCH),
+        ("D341", PATCH.with_(lubricant=OIL), PATCH),
+        ("D2270", PATCH.with_(lubricant={"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}), KNOWN),
+        ("D2270", KNOWN.with_(lubricant={"viscosity_index": 95, "temperature": 333.15}), KNOWN),
+        ("Klaus", PATCH.with_(lubricant=OIL), KNOWN),
+        ("Klaus", PATCH.with_(lubricant=OIL), PATCH.with_(lubricant=OIL | {"alpha_estimate": "gold"})),
+        ("Gold", PATCH.with_(lubricant=OIL | {"base": "pao"}), PATCH.with_(lubricant=OIL)),
+        ("Gupta", HOT, HOT.with_(numerics={"heat": "off"})),
+        ("Nahme", HOT, HOT.with_(numerics={"heat": "off"})),
+        ("Jaeger", HOT, HOT.with_(numerics={"heat": "off"})),
+        ("H. Eyring", HOT, HOT.with_(lubricant={"eyring_stress": None})),
+        ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
+        ("one-way", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
+        ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
+        ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),
+        ("Johnson, J. A.", PATCH.with_(numerics={"film_deflection": "scaled"}), PATCH),
+        ("Satterthwaite", PATCH.with_(numerics={"sampling": "line"}), PATCH),
+    ],
+)
+def test_an_option_is_cited_where_it_was_used(author, used, not_used):
+    assert author in lubfric.friction(used, 0.03, raise_on_failure=False).cite()
+    assert author not in lubfric.friction(not_used, 0.03, raise_on_failure=False).cite()
+
+
+def test_the_shear_of_the_flow_is_cited_for_an_eyring_film_in_one_gap_only():
+    whole = PATCH.with_(
+        contact={"shape": (48, 48), "spacing": 1.9e-6},
+        surface={"acf": "gaussian", "correlation_length": 16e-6},
+        numerics={"model": "deterministic", "grid": "given", "accept": True},
+    )
+    eyring = whole.with_(lubricant={"eyring_stress": 5e6})
+    newtonian, sheared = (lubfric.friction(s, 0.1, raise_on_failure=False).cite() for s in (whole, eyring))
+    assert "Jakobsson" in newtonian and "one rough gap" in newtonian
+    assert "Akchurin" not in newtonian and "Conry" not in newtonian
+    assert "Conry" in sheared and "Tevaarwerk" in sheared
+    assert "Conry" not in lubfric.friction(PATCH.with_(lubricant=LAWS), 0.1).cite()
+
+
+def test_filters_are_cited_and_a_map_that_was_handed_over_is_not(tmp_path):
+    heights = lubfric.generate_surface((128, 128), 0.7e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
+    numpy.save(tmp_path / "map.npy", heights.heights)
+    as_it_is = PATCH.with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 0.7e-6}, contact={"shape": None})
+    filtered = as_it_is.with_(surface={"s_filter": 4e-6})
+    plain = lubfric.friction(as_it_is, 0.03).cite()
+    assert "16610" in lubfric.friction(filtered, 0.03).cite() and "16610" not in plain and "Tonder" not in plain
+    assert "Tonder" in lubfric.friction(PATCH, 0.03).cite()
+    given = lubfric.prepare(PATCH, heights.periodic(axes=(False, True)))
+    assert "Tonder" not in lubfric.friction(given, 0.03).cite()
+
+
+def test_what_was_used_is_kept_with_a_stored_point(tmp_path):
+    """The papers do not hang on the fields, which a store leaves out."""
+    again = [lubfric.stribeck(PATCH, [0.01, 0.03], store=tmp_path).cite() for _ in range(2)]
+    assert again[0] == again[1] == lubfric.stribeck(PATCH, [0.01, 0.03]).cite() and "Polonsky" in again[0]
+
+
+def test_a_traction_curve_cites_what_its_points_used():
+    found = lubfric.traction(PATCH.with_(lubricant=LAWS), [0.0, 0.5], speed=0.1)
+    assert "Bair" not in found.points[0].cite() and "Bair" in found.points[1].cite() and "Bair" in found.cite()
 
 
 def test_the_command_tells_its_version(capsys):

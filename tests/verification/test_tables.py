@@ -1,12 +1,15 @@
 """Tables in the documents are written by a command: the marks in the pages and the tables that can be measured
 agree."""
 
+import json
+
 import pytest
 
+from verification.check import Table
 from verification.tables import BLOCK, TABLES, body, main, replaced
-from verification.tables.measured import Table
 
-TABLE = Table(["speed", "f"], [["0.1", "0.05"]])
+CELLS = (["speed", "f"], [["0.1", "0.05"]])
+TABLE = Table("one", "Friction", *CELLS)
 
 
 def test_every_mark_in_a_page_names_a_table(root):
@@ -19,18 +22,39 @@ def test_only_the_named_table_is_replaced_and_again_gives_the_same():
         f"<!-- table: {name} -->\n{text}\n<!-- end of table -->\n" for name, text in (("one", "old"), ("two", "kept"))
     )
     page = f"before\n{one}between\n{two}"
-    once = replaced(page, "one", body("one", TABLE))
+    once = replaced(page, "one", body(TABLE))
     assert "old" not in once and "kept" in once and "| 0.1 | 0.05 |" in once
     assert once.startswith("before\n") and "\nbetween\n" in once
-    assert replaced(once, "one", body("one", TABLE)) == once
+    assert replaced(once, "one", body(TABLE)) == once
 
 
-def test_the_command_measures_what_is_marked(tmp_path, monkeypatch):
-    monkeypatch.setitem(TABLES, "times", lambda: TABLE)
-    page = tmp_path / "page.md"
-    page.write_text("<!-- table: times -->\n<!-- end of table -->\n")
-    assert main(["--only", "times", "--docs", str(tmp_path)]) == 0
+def marked(folder, *names):
+    page = folder / "page.md"
+    page.write_text("\n".join(f"<!-- table: {name} -->\n<!-- end of table -->\n" for name in names))
+    return page
+
+
+def test_the_command_measures_what_is_marked_and_reports_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(TABLES, "times", lambda: CELLS)
+    page = marked(tmp_path, "times")
+    assert main(["--only", "times", "--docs", str(tmp_path), "--out", str(tmp_path)]) == 0
+    assert "| 0.1 | 0.05 |" in page.read_text() and "tables --only times`" in page.read_text()
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert report["studies"][0]["tables"][0]["rows"] == [["0.1", "0.05"]]
+    assert (tmp_path / "times.csv").read_text().splitlines() == ["speed,f", "0.1,0.05"]
+
+
+def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_path, monkeypatch):
+    monkeypatch.setitem(TABLES, "times", lambda: 1 / 0)
+    monkeypatch.setitem(TABLES, "area", lambda: (["speed"], []))
+    monkeypatch.setitem(TABLES, "stability", lambda: CELLS)
+    page = marked(tmp_path, "times", "stability")
+    asked = ["--only", "times", "area", "stability", "--docs", str(tmp_path), "--out", str(tmp_path)]
+    assert main(asked) == 1
+    assert page.read_text().startswith("<!-- table: times -->\n<!-- end of table -->\n")
     assert "| 0.1 | 0.05 |" in page.read_text()
+    studies = json.loads((tmp_path / "report.json").read_text())["studies"]
+    assert {s["name"]: s["passed"] for s in studies} == {"times": False, "area": False, "stability": True}
 
 
 def test_an_unknown_table_is_refused():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -87,7 +87,7 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
         for name in ("plain Polonsky-Keer", "aspher", "tamaas"):
             solver = CONTACT[name](z, spacing, E_PRIME)
             if solver is not None:
-                found[name] = lambda t, solver=solver: solver(pressure, t)
+                found[name] = partial(solver, pressure)
     return found
 
 
@@ -105,7 +105,7 @@ def panel(z, pressure: float, boundary: str, label: str, tolerances, quick: bool
     )
     solvers = methods(z, pressure, boundary, tight.mean_gap)
     for tolerance in tolerances:
-        calls = {name: lambda s=solve: attempt(s, tolerance) for name, solve in solvers.items()}
+        calls = {name: partial(attempt, solve, tolerance) for name, solve in solvers.items()}
         for name, (p, seconds) in interleaved(calls, 1 if quick else 3).items():
             if p is not None:
                 error = float(np.linalg.norm(p - tight.pressure) / np.linalg.norm(tight.pressure))

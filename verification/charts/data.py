@@ -6,8 +6,9 @@ import json
 import os
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,10 +16,14 @@ from ..check import TOLD, Check
 from ..opponents import version
 from ..report import environment
 
+K = TypeVar("K")
+V = TypeVar("V")
 Quartiles = tuple[float, float, float]  # median, lower, upper, of seconds
 
 
-def point(panel: str, method: str, setting: str, error: float, seconds: Quartiles, **at) -> Check:
+def point(
+    panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
+) -> Check:
     """One setting of one method, where it is drawn: its error against a tight solution, and its time.
 
     ``at``: default (the setting users get), apart (the error is that of the grid against a finer one, not of the
@@ -33,21 +38,25 @@ def point(panel: str, method: str, setting: str, error: float, seconds: Quartile
         "a tighter solution",
         TOLD,
         seconds=median,
-        at={"panel": panel, "method": method, "setting": setting, "low": low, "high": high} | at,
+        at=at | {"panel": panel, "method": method, "setting": setting, "low": low, "high": high},
     )
 
 
-def interleaved(calls: dict[str, Callable], repeats: int) -> dict[str, tuple[object, Quartiles]]:
+def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
     """{name: (value, (median, lower, upper quartile) of seconds)}, the repeats of all calls taken in turn."""
-    seconds, values = {name: [] for name in calls}, {}
+    seconds: dict[K, list[float]] = {name: [] for name in calls}
+    values: dict[K, V] = {}
     for _ in range(repeats):
         for name, call in calls.items():
             begun = time.perf_counter()
             values[name] = call()
             seconds[name].append(time.perf_counter() - begun)
-    return {
-        name: (values[name], tuple(float(q) for q in np.quantile(seconds[name], (0.5, 0.25, 0.75)))) for name in calls
-    }
+    return {name: (values[name], _quartiles(taken)) for name, taken in seconds.items()}
+
+
+def _quartiles(seconds: list[float]) -> Quartiles:
+    low, median, high = np.quantile(seconds, (0.25, 0.5, 0.75))
+    return float(median), float(low), float(high)
 
 
 def machine() -> str:

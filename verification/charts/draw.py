@@ -14,7 +14,7 @@ ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "de
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     """Error against time, one panel each; the default ringed; bars from quartile to quartile."""
-    panels = list(dict.fromkeys(p.at["panel"] for p in points))
+    panels = list(dict.fromkeys(p.word("panel") for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     canvas, axes = plotting.axes(rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False)
@@ -22,9 +22,9 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, label in zip(axes.ravel(), panels):
-        chosen = [p for p in points if p.at["panel"] == label]
-        for method in dict.fromkeys(p.at["method"] for p in chosen):
-            curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
+        chosen = [p for p in points if p.word("panel") == label]
+        for method in dict.fromkeys(p.word("method") for p in chosen):
+            curve(ax, [p for p in chosen if p.word("method") == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
         ax.set(
             xscale="log",
@@ -59,7 +59,7 @@ def readable(ax) -> None:
 def palette(points: list[Check]) -> dict[str, str]:
     """A colour for each method, our default first."""
     methods = sorted(
-        dict.fromkeys(p.at["method"] for p in points),
+        dict.fromkeys(p.word("method") for p in points),
         key=lambda m: (m not in ORDER, ORDER.index(m) if m in ORDER else 0),
     )
     colours = [
@@ -79,31 +79,31 @@ def palette(points: list[Check]) -> dict[str, str]:
 def curve(ax, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
     errors = [p.measured for p in points]
-    times = np.array([p.seconds for p in points])
-    spread = np.abs([times - [p.at["low"] for p in points], [p.at["high"] for p in points] - times])
+    times = np.array([p.duration for p in points])
+    spread = np.abs([times - [p.number("low") for p in points], [p.number("high") for p in points] - times])
     ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.at.get("default"):
-            ax.plot(p.seconds, e, "o", mfc="none", mec="k", ms=10)
+            ax.plot(p.duration, e, "o", mfc="none", mec="k", ms=10)
 
 
 def growth(points: list[Check], machine: str) -> Figure:
     """Time and peak memory over size, with the exponents of the larger half."""
-    panels = list(dict.fromkeys(p.at["panel"] for p in points))
+    panels = list(dict.fromkeys(p.word("panel") for p in points))
     canvas, axes = plotting.axes(2, len(panels), width=3.3 * len(panels), height=6, squeeze=False)
     for column, label in enumerate(panels):
-        chosen = [p for p in points if p.at["panel"] == label]
-        sizes = [p.at["size"] for p in chosen]
+        chosen = [p for p in points if p.word("panel") == label]
+        sizes = [p.number("size") for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
-        axes[0, column].loglog(sizes, [p.seconds for p in chosen], "o-")
+        axes[0, column].loglog(sizes, [p.duration for p in chosen], "o-")
         axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
         if label == "contact":
             axes[0, column].set_title(
                 f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"
             )
-        seen = [p for p in chosen if p.at["memory"] > NOTICED]
+        seen = [p for p in chosen if p.number("memory") > NOTICED]
         axes[1, column].loglog(
-            [p.at["size"] for p in seen], [p.at["memory"] / 1e6 for p in seen], "o-", color="#D55E00"
+            [p.number("size") for p in seen], [p.number("memory") / 1e6 for p in seen], "o-", color="#D55E00"
         )
         axes[1, column].set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
         axes[1, column].set_xlim(axes[0, column].get_xlim())

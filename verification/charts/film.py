@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
-from lubfric import solve_differential_deflection, solve_ehl
+from lubfric import EHLResult, solve_differential_deflection, solve_ehl
 from lubfric.analytic.film import moes_film
 
 from ..cases import case_of
@@ -48,20 +49,15 @@ def runs(case: dict, M: float, L: float, quick: bool):
     repeats = 2 if quick else 7
     tolerances = (1e-2, 3e-3) if quick else (0.05, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
     near = case | {"load_per_width": 0.97 * case["load_per_width"]}
-    calls = {}
+    calls: dict[tuple[str, float], Callable[[], EHLResult]] = {}
     for t in tolerances:
-        start = solve_ehl(**near, tolerance=t)
-        calls["default, cold", t] = lambda t=t: solve_ehl(**case, tolerance=t)
-        calls["default, warm", t] = lambda t=t, start=start: solve_ehl(**case, tolerance=t, start=start)
+        calls["default, cold", t] = partial(solve_ehl, **case, tolerance=t)
+        calls["default, warm", t] = partial(solve_ehl, **case, tolerance=t, start=solve_ehl(**near, tolerance=t))
     for (name, t), (film, seconds) in interleaved(calls, repeats).items():
         yield name, f"tolerance {t:g}", t == DEFAULT, (quantities(film), seconds, film.state.pressure.size)
     for nodes in (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097):
-        call = {
-            "": lambda nodes=nodes: solve_differential_deflection(
-                **case, nodes=nodes, tolerance=0.1, raise_on_failure=False
-            )
-        }
-        film, seconds = interleaved(call, 1 if quick else 3)[""]
+        call = partial(solve_differential_deflection, **case, nodes=nodes, tolerance=0.1, raise_on_failure=False)
+        film, seconds = interleaved({"": call}, 1 if quick else 3)[""]
         if film.report.status == "converged":
             yield "differential deflection", f"{nodes} nodes", False, (quantities(film), seconds, nodes)
     if M <= 100:  # beyond, its meshes cost minutes
@@ -87,8 +83,8 @@ def finite_elements(case: dict, quick: bool):
     )
     contact = fem.LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid)
     for refinements in (0,) if quick else (0, 1):
-        call = {"": lambda r=refinements: fem.solve_ehl(contact, refinements=r, raise_on_failure=False)}
-        solutions, seconds = interleaved(call, 1)[""]
+        call = partial(fem.solve_ehl, contact, refinements=refinements, raise_on_failure=False)
+        solutions, seconds = interleaved({"": call}, 1)[""]
         if solutions[-1].report.converged and len(solutions) == refinements + 1:
             last = solutions[-1]
             yield (

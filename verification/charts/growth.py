@@ -171,7 +171,7 @@ def measured(code: str, size: int) -> dict:
 def exponent(points: list[Check], quantity: str) -> float:
     """Least-squares slope of log(quantity) over log(size), the larger half of the sizes; quantity: "memory", "work", or
     "seconds"."""
-    pairs = sorted((p.at["size"], p.seconds if quantity == "seconds" else p.at[quantity]) for p in points)
+    pairs = sorted((p.number("size"), p.duration if quantity == "seconds" else p.number(quantity)) for p in points)
     pairs = [(size, value) for size, value in pairs if value > 0]
     pairs = pairs[len(pairs) // 2 - 1 :] if len(pairs) > 3 else pairs
     if len(pairs) < 2:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -71,10 +72,14 @@ def per_speed(panel: str, method: str, setting: str, found: tuple, seconds: Quar
     return point(panel, method, setting, off, tuple(s / f.size for s in seconds), **at)
 
 
+def _on_grid(n: int, speeds) -> np.ndarray:
+    return coefficients(scene(n, tolerance=0.005), speeds)
+
+
 def grids(quick: bool, speeds) -> Iterator[Check]:
     """One surface on coarser contact grids against the finest."""
     sizes = (40, 50, 100) if quick else (40, 50, 80, 100, 200, 400)
-    solved = {n: interleaved({"": lambda n=n: coefficients(scene(n, tolerance=0.005), speeds)}, 1)[""] for n in sizes}
+    solved = {n: interleaved({"": partial(_on_grid, n, speeds)}, 1)[""] for n in sizes}
     for n in sizes[:-1]:
         f, seconds = solved[n]
         at = {"apart": True, "size": n * n, "default": n == 200}

@@ -181,7 +181,7 @@ def solve_ehl(
         if unmet:
             raise InputError(f"{name} = {value}; allowed: {allowed}")
     mesh, layout = graded_mesh(make_layout(contact, fineness, side))
-    solutions = []
+    solutions: list[Solution] = []
     for level in range(refinements + 1):
         mesh = mesh.refined() if level else mesh
         body = make_body(mesh, layout)

@@ -162,7 +162,9 @@ def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     line = film.line
     p, h = line.interpolate(P), line.interpolate(H)
     size = np.abs(np.diff(line.mesh.p[0][line.mesh.t], axis=0)).T
-    q, (p0, p1, h0, h1) = partials(lambda *a: film.flux(*a, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0])
+    q, (p0, p1, h0, h1) = partials(
+        lambda P, P1, H, H1: film.flux(P, P1, H, H1, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0]
+    )
     return (
         flux_form.assemble(line, q=q),
         flux_tangent.assemble(line, by_value=p0, by_slope=p1),
@@ -173,7 +175,9 @@ def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
 def penalty(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
     at, size, jump = slope_jumps(film.line)
-    c, (p0, p1, h0, h1) = partials(lambda *a: film.charge(*a, size), P[at], jump @ P, H[at], jump @ H)
+    c, (p0, p1, h0, h1) = partials(
+        lambda P, P1, H, H1: film.charge(P, P1, H, H1, size), P[at], jump @ P, H[at], jump @ H
+    )
     pick = sp.csr_matrix((np.ones(at.size), (np.arange(at.size), at)), shape=jump.shape)
     return (
         jump.T @ c,

@@ -82,7 +82,8 @@ class Layer3D:
     @property
     def x(self) -> tuple[np.ndarray, np.ndarray]:
         """Surface nodes, (nx, 1) and (1, ny), from 0."""
-        return tuple(np.ix_(*(np.arange(n) * s / n for n, s in zip(self.shape, self.size, strict=True))))
+        x, y = (np.arange(n) * s / n for n, s in zip(self.shape, self.size, strict=True))
+        return x[:, None], y[None, :]
 
     @property
     def weights(self) -> np.ndarray:
@@ -239,9 +240,10 @@ def solve(
     force = np.asarray(force, dtype=float)
     if force.shape != layer.shape or not np.all(np.isfinite(force)) or not np.any(force):
         raise InputError(f"force has shape {force.shape}; allowed: {layer.shape}, finite, not all zero, N")
-    load = np.zeros((layer.planes, *layer.shape, 3))
-    load[-1, :, :, 2] = -force
-    load, history = load.ravel(), []
+    surface = np.zeros((layer.planes, *layer.shape, 3))
+    surface[-1, :, :, 2] = -force
+    load = surface.ravel()
+    history: list[float] = []
     found, info = grid.hierarchy.solve(
         load, tol=0.1 * tolerance, maxiter=max_iterations, accel="cg", residuals=history, return_info=True
     )
@@ -254,7 +256,7 @@ def solve(
         residual,
         tolerance,
         {"equilibrium": residual},
-        tuple(r / np.linalg.norm(load) for r in history),
+        tuple(r / float(np.linalg.norm(load)) for r in history),
         notes=(f"pyamg info {info}", f"{layer.unknowns} unknowns"),
     )
     solved = Solved(found.reshape(layer.planes, *layer.shape, 3), report)

@@ -162,7 +162,7 @@ def share_load(
     Raises `SolveError` with report and last division when the root is not found, or what film and contact
     raise.
     """
-    tried = {}
+    tried: dict[float, Shared] = {}
 
     def at(split: float) -> float:
         tried[split] = divided(bodies, split, refinements, tried)

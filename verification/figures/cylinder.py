@@ -5,24 +5,29 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.prepared import prepare
 
+from .. import parts
 from ..check import AT_LEAST, AT_MOST, Check
 from .draw import axes, image, png
 from .page import PaperFigure
 from .spread import spread
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "full", "sampling": "patch"})  # on the grid of the paper
-MODELS = {
+MODELS: dict[str, dict[str, dict[str, Any]]] = {
     "half-space, elastic": {"bodies": {"hardness": None}},
     "half-space, elastic-plastic": {},
     "asperities (summits), elastic": {"bodies": {"hardness": None}, "contact": {"model": "summits"}},
 }
-FLAT_STRIP = {"bodies": {"hardness": None}, "contact": {"model": "summits", "geometry": "flat"}}
+FLAT_STRIP: dict[str, dict[str, Any]] = {
+    "bodies": {"hardness": None},
+    "contact": {"model": "summits", "geometry": "flat"},
+}
 LENGTHS = (1e-6, 2e-6, 4e-6, 8e-6, 16e-6, 32e-6)
 PAPER_FILM_LOAD = 0.225  # N, at 0.001 m/s
 REAL = "ground-77nm.x3p"
@@ -79,7 +84,7 @@ def stribeck_curves(quick: bool) -> PaperFigure:
     cases = [("gaussian", length, seed) for length in lengths for seed in counted]
     loads = np.array(spread(film_load, cases, quick)).reshape(len(lengths), -1)
     picture = _draw_stribeck(speeds, curves, real, lengths, loads)
-    rows = [
+    rows: list[tuple] = [
         (*kind, name, float(u), float(m), float(lo), float(hi))
         for kind, c in curves.items()
         for name, values in zip((*MODELS, "asperities (summits), flat strip"), c.transpose(1, 0, 2))
@@ -222,11 +227,12 @@ def pressure_map(quick: bool) -> PaperFigure:
     """Fig. 9: contact pressure at 0.001 m/s, elastic-plastic, F_C and F_H."""
     canvas, panels = axes(1, 2, width=9.4, height=4.2)
     rows, found = [], []
+    hardness = parts.the(PAPER.bodies.hardness, "hardness")
     for ax, acf in zip(panels, ("gaussian", "exponential")):
         scene = scene_of(acf)
         point = lubfric.friction(scene, 0.001, fields=True)
-        pressure = point.balance.contact.fields.pressure
-        x = point.balance.contact.x * 1e6
+        pressure = parts.contact_fields(point).pressure
+        x = parts.balance(point).contact.x * 1e6
         image(
             canvas,
             ax,
@@ -292,7 +298,7 @@ def pressure_map(quick: bool) -> PaperFigure:
         },
         (
             Check("F_C + F_H, Gaussian", rows[0][1] + rows[0][2], PAPER.bodies.load, 1e-9, "load balance", unit="N"),
-            Check("highest pressure", max(r[5] for r in rows), PAPER.bodies.hardness, 0.0, "hardness", AT_MOST, "Pa"),
+            Check("highest pressure", max(r[5] for r in rows), hardness, 0.0, "hardness", AT_MOST, "Pa"),
         ),
     )
 
@@ -307,12 +313,12 @@ def sections(quick: bool) -> PaperFigure:
     """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model, rows, words = prepare(PAPER), [], []
-    pressure = lubfric.friction(model, 0.001, fields=True).balance.contact.fields.pressure
+    pressure = parts.contact_fields(lubfric.friction(model, 0.001, fields=True)).pressure
     line = int(np.argmax(pressure.max(axis=0)))  # through the highest contact pressure
-    z = model.contact.heights
+    z = parts.half_space(model).heights
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
-        closure, film = point.balance.contact, point.balance.film
+        closure, film = parts.balance(point).contact, parts.balance(point).film
         x, h = closure.x, film.film_at(closure.x)
         weight = model.contact.weight / model.contact.weight.sum()
         if closure.contact is not None:

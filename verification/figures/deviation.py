@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from lubfric.rough.contact_curve import contact_curve
 
 from ..check import AT_LEAST, Check
 from .draw import axes, png
-from .flat_model import at_mean_pressure, deviation, film_tables, share, tabulated
+from .flat_model import FilmTable, at_mean_pressure, deviation, film_tables, share, tabulated
 from .page import PaperFigure
 from .spread import spread
 from .surfaces import LENGTHS, SPACING, rough
@@ -24,7 +25,7 @@ INVERSE_E = math.exp(-1)
 LOADS = (20e6, 50e6, 100e6, 200e6, 500e6, 1000e6)  # mean Hertz pressure, Pa
 SPEEDS = np.geomspace(1e-3, 10.0, 17)
 LAWS = {"Newtonian": {}, "limited": {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}}
-BASE = {"acf": "exponential", "level": 0.3679, "model": ("summits", "volume"), "law": "Johnson"}
+BASE: dict[str, Any] = {"acf": "exponential", "level": 0.3679, "model": ("summits", "volume"), "law": "Johnson"}
 ASPERITIES = tuple(product(("summits", "patches"), ("volume", "mean-plane")))
 SCENE = lubfric.load_scene("flat")
 BOUNDARY = SCENE.bodies.boundary_friction_coefficient
@@ -53,9 +54,9 @@ def curves_of(acf, length, decay_level=INVERSE_E, seed=1, quick=False, models=AS
     return Curves(half_space, asperity)
 
 
-def films(loads, speeds, scaled=False) -> dict:
+def films(loads, speeds, scaled=False) -> dict[tuple[float, str], list[FilmTable]]:
     """{(load, law): a `FilmTable` for each speed}."""
-    tables = {}
+    tables: dict[tuple[float, str], list[FilmTable]] = {}
     for load in loads:
         scene = at_mean_pressure(SCENE, load)
         at_speed = [film_tables(scene, speed, scaled=scaled, laws=LAWS.values()) for speed in speeds]
@@ -124,7 +125,7 @@ def deviation_map(quick: bool) -> PaperFigure:
     """Fig. 6: d over load and L, and what else d depends on."""
     loads, speeds = (LOADS[1::2], SPEEDS[::2]) if quick else (LOADS, SPEEDS)
     by_load = spread(films, [((load,), speeds, scaled) for load in loads for scaled in (False, True)], quick)
-    tables = {}
+    tables: dict[tuple[float, str], list[FilmTable]] = {}
     for load, (plain, johnson) in zip(loads, zip(by_load[::2], by_load[1::2])):
         tables |= {
             (load, "Newtonian"): plain[load, "Newtonian"],
@@ -208,7 +209,7 @@ def pick(rows, length, **reading) -> list[float]:
     return [row[8] for row in rows if row[:6] == (r["acf"], r["level"], *r["model"], r["law"], length)]
 
 
-READINGS = {  # label: what differs from the base reading
+READINGS: dict[str, dict[str, Any]] = {  # label: what differs from the base reading
     "base: summits, exponential ACF": {},
     "Newtonian, film pressure only": {"law": "Newtonian"},
     "limited, film pressure only": {"law": "limited"},

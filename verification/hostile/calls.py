@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -17,10 +17,20 @@ from .case import Case
 
 HEIGHTS = 1e-8 * np.random.default_rng(0).standard_normal((16, 12))
 ANY = ("x", b"1", 1j, float("nan"), float("inf"), object(), [[1]], datetime.date(2020, 1, 1), np.ma.masked, 10**400)
-NUMBER = (*ANY, True, -1.0, 1e308, 5e-324, [1.0, 2.0, 3.0], np.array([1.0]), np.datetime64("2020"), {})
+NUMBER: tuple[object, ...] = (
+    *ANY,
+    True,
+    -1.0,
+    1e308,
+    5e-324,
+    [1.0, 2.0, 3.0],
+    np.array([1.0]),
+    np.datetime64("2020"),
+    {},
+)
 SIGNED_NUMBER = tuple(v for v in NUMBER if not (isinstance(v, float) and v in (-1.0, 5e-324)))
 COUNT = (*ANY, True, -1, 1.5, "2")
-WORD = (*ANY, "nonsense", 3, None, True, [])
+WORD: tuple[object, ...] = (*ANY, "nonsense", 3, None, True, [])
 FIELD = (
     *(v for v in ANY if v != [[1]]),
     [],
@@ -47,7 +57,7 @@ class Target:
 
     name: str
     call: Callable
-    good: dict[str, object]
+    good: Mapping[str, object]
     bad: dict[str, tuple] = field(default_factory=dict)
 
 
@@ -68,7 +78,7 @@ def targets() -> tuple[Target, ...]:
         "viscosity": 0.1,
         "pressure_viscosity_coefficient": 2e-8,
     }
-    some_scene = (3, "paper", None, {}, HEIGHTS, object())
+    some_scene: tuple[object, ...] = (3, "paper", None, {}, HEIGHTS, object())
     return (
         Target(
             "generate_surface",

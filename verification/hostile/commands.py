@@ -15,7 +15,18 @@ from lubfric.cli import main
 from .case import Case
 from .scenes import GOOD, mutations, text_of
 
-SPEEDS = ("x", "1e-3:1:0", "1:1e-3:4", "1e-3:1", "1:2:3:4", "0:1:3", "nan", "inf", "1e-3:1:1e12", "1e-3:1:999999999999")
+SPEEDS: tuple[str, ...] = (
+    "x",
+    "1e-3:1:0",
+    "1:1e-3:4",
+    "1e-3:1",
+    "1:2:3:4",
+    "0:1:3",
+    "nan",
+    "inf",
+    "1e-3:1:1e12",
+    "1e-3:1:999999999999",
+)
 SPEEDS += ("1,,2", ",", ":", "1e-3:1:-4", "1e-3:1:2.5", "true", "1e999", "0.1;0.2", "-1:1:3", "1e-3:inf:3", "9" * 5000)
 TABLES = (
     "",
@@ -41,6 +52,7 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
 
 
 def _by_hand() -> Iterator[Case]:
+    lines: tuple[tuple[str, ...], ...]
     lines = ((), ("fly",), ("run",), ("info",), ("plot",), ("run", "nowhere.toml"), ("info", "papr"), ("run", "--out"))
     lines += (
         ("run", "flat", "--nonsense"),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -94,7 +95,7 @@ def archive(**members: str) -> bytes:
     return stream.getvalue()
 
 
-def x3p(size: str = "24", points: bytes | None = None, **changes: str) -> bytes:
+def x3p(size: str = "24", points: bytes | None = None, changes: Mapping[str, str] = MappingProxyType({})) -> bytes:
     """The bytes of an X3P file; ``changes``: text in main.xml replaced."""
     axis = "<{0}><AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment></{0}>"
     document = (
@@ -172,12 +173,12 @@ def _by_hand() -> Iterator[Case]:
         "no points": x3p(points=b""),
         "NaN only": x3p(points=np.full(MAP.shape, np.nan).tobytes()),
         "infinite": x3p(points=np.full(MAP.shape, np.inf).tobytes()),
-        "a path outside": x3p(**{"bin/data.bin": "../../etc/passwd"}),
-        "spacing 0": x3p(**{"1e-6": "0"}),
-        "spacing NaN": x3p(**{"1e-6": "nan"}),
-        "spacing 1e308": x3p(**{"1e-6": "1e308"}),
-        "no axes": x3p(Axes="Axis"),
-        "a profile": x3p(SUR="PRF"),
+        "a path outside": x3p(changes={"bin/data.bin": "../../etc/passwd"}),
+        "spacing 0": x3p(changes={"1e-6": "0"}),
+        "spacing NaN": x3p(changes={"1e-6": "nan"}),
+        "spacing 1e308": x3p(changes={"1e-6": "1e308"}),
+        "no axes": x3p(changes={"Axes": "Axis"}),
+        "a profile": x3p(changes={"SUR": "PRF"}),
         "entities": archive(main__xml="<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>"),
         "no XML": archive(main__xml="hello"),
         "no member": archive(other__xml="<a/>"),

@@ -53,10 +53,8 @@ def _couette(scene, x, p, h, free, contact_load, speed) -> float:
         force = float(np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])))
     if heats(scene):
         some = np.unique(np.linspace(0, x.size - 1, min(x.size, HEATED)).round().astype(int))
-        nodes = [a[some] for a in (x, p, h, log_ratio, free)]
-        force += float(
-            np.trapezoid(free[some] * (heated_stress(scene, *nodes, contact_load, speed) - tau[some]), x[some])
-        )
+        heated = heated_stress(scene, x[some], p[some], h[some], log_ratio[some], free[some], contact_load, speed)
+        force += float(np.trapezoid(free[some] * (heated - tau[some]), x[some]))
     return force
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -77,7 +78,7 @@ class Judge:
     def film(self, film_load: float, modulus: float):
         """By differential deflection, or if that does not converge by the tightest Newton solution."""
         bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
-        case = {
+        case: dict[str, Any] = {
             "load_per_width": film_load / bodies.width,
             "radius": bodies.radius,
             "e_prime": bodies.e_prime * modulus,
@@ -85,7 +86,7 @@ class Judge:
             "viscosity": inlet_viscosity(self.prepared.scene, self.speed),
             "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
             "viscosity_law": oil.viscosity_law,
-            "density": oil.density_law,
+            "density_law": oil.density_law,
         }
         try:
             return solve_differential_deflection(**case, tolerance=self.film_tolerance)

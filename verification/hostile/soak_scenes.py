@@ -20,7 +20,7 @@ RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
 }
 WIDTH, E_PRIME = 1e-2, 231e9
 EYRING, LIMIT = {"eyring_stress": 5e6}, {"limiting_stress_coefficient": 0.06, "limiting_stress_offset": 2e6}
-STRESS_LAWS = (EYRING, EYRING | LIMIT, LIMIT, {})
+STRESS_LAWS: tuple[dict[str, float], ...] = (EYRING, EYRING | LIMIT, LIMIT, {})
 GRADES = (10, 32, 68, 100, 220, 460)
 BASES = ("mineral", "pao", "ester", "polyglycol")
 LINES = 0.2  # of the scenes under a cylinder: a line costs as much as ten patches

@@ -50,7 +50,7 @@ def scenes_beside_full(level: str, out: str, seed: int) -> Iterator[Item]:
     found = measure.run(count, file, seed=seed)
     yield from found
     for tolerance in measure.TOLERANCES:
-        mine = [c for c in found if c.at["asked"] == tolerance]
+        mine = [c for c in found if c.number("asked") == tolerance]
         within = float(np.mean([c.deviation <= tolerance for c in mine]))
         yield Check(f"share of scenes within {100 * tolerance:g} %", within, 0.99, 0.0, measure.SOURCE, AT_LEAST)
         for name, value in measure.savings(mine).items():

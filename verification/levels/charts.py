@@ -14,11 +14,11 @@ def error_against_saving(found: list[Check]) -> Figure:
     """One panel a tolerance: |f - f_full|/f_full over the time of the full solve in that of the scene."""
     figure, axes = plotting.axes(1, len(TOLERANCES), 12, 4.8, squeeze=False)
     for axis, tolerance in zip(axes[0], TOLERANCES):
-        good = [c for c in found if c.at["asked"] == tolerance and not c.refused]
-        kinds = sorted({(c.at["film"], c.at["contact"]) for c in good})
+        good = [c for c in found if c.number("asked") == tolerance and not c.refused]
+        kinds = sorted({(c.word("film"), c.word("contact")) for c in good})
         for kind, colour in zip(kinds, COLOURS):
-            mine = [c for c in good if (c.at["film"], c.at["contact"]) == kind]
-            dots = [(c.at["seconds_reference"] / c.seconds, max(c.deviation, LEAST)) for c in mine]
+            mine = [c for c in good if (c.word("film"), c.word("contact")) == kind]
+            dots = [(c.number("seconds_reference") / c.duration, max(c.deviation, LEAST)) for c in mine]
             label = f"film {kind[0]}, contact {kind[1]}"
             axis.loglog(*zip(*dots), "o", ms=4, alpha=0.7, color=colour, mew=0, label=label)
         axis.axhline(tolerance, color="black", lw=1)
@@ -35,19 +35,19 @@ def error_against_saving(found: list[Check]) -> Figure:
 def continuity(found: list[Check]) -> Figure:
     """f over speed with each level in its colour, and below the deviation from the full model, the tolerance in
     grey."""
-    scenes = list(dict.fromkeys(c.at["scene"] for c in found))
-    levels = sorted({c.at["level"] for c in found})
+    scenes = list(dict.fromkeys(c.word("scene") for c in found))
+    levels = sorted({c.word("level") for c in found})
     figure, axes = plotting.axes(2, len(scenes), 13, 6, squeeze=False)
     for column, name in enumerate(scenes):
-        line = [c for c in found if c.at["scene"] == name]
+        line = [c for c in found if c.word("scene") == name]
         for level, colour in zip(levels, COLOURS + ("#000000", "#d4779b", "#7fa650", "#4d4dff")):
-            mine = [c for c in line if c.at["level"] == level]
+            mine = [c for c in line if c.word("level") == level]
             if mine:
-                speed = [c.at["speed"] for c in mine]
+                speed = [c.number("speed") for c in mine]
                 off = [100 * (c.measured / c.expected - 1) for c in mine]
                 axes[0, column].semilogx(speed, [c.measured for c in mine], ".", color=colour, label=level)
                 axes[1, column].semilogx(speed, off, ".", color=colour)
-        speeds, full = [c.at["speed"] for c in line], [c.expected for c in line]
+        speeds, full = [c.number("speed") for c in line], [c.expected for c in line]
         axes[0, column].semilogx(speeds, full, "-", color="black", lw=0.6)
         axes[1, column].set(xlabel="entrainment speed U (m/s)", ylim=(-1.3, 1.3))
         axes[1, column].axhline(0, color="black", lw=0.6)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from dataclasses import replace
@@ -14,6 +13,7 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.prepared import prepare
 
+from .. import kept, parts
 from ..check import Check
 from ..report import finite
 from .scenes import SEED, cells, points, scene
@@ -30,7 +30,7 @@ def solve(model, tolerance: float, kind: str) -> dict:
         found = lubfric.friction(model, tolerance=tolerance, model=kind)
     except LubfricError as error:
         return {"error": f"{type(error).__name__}: {error}", "seconds": time.process_time() - begun}
-    d = found.decision
+    d = parts.decision(found)
     return {
         "f": found.coefficient,
         "film_share": found.film_load / model.scene.bodies.load,
@@ -87,18 +87,15 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
     ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
     """
     row(0, points(1)[0])  # imports are no part of any time
-    lines = file.read_text().splitlines() if file.is_file() else []
-    found = [Check.from_dict(c) for line in lines for c in json.loads(line)]
+    found = [Check.from_dict(c) for line in kept.read(file) for c in line]
     known = {c.at["index"] for c in found}
-    file.parent.mkdir(parents=True, exist_ok=True)
     for index, values in enumerate(points(count, seed)):
         if index % part[1] != part[0] or index in known:
             continue
         new = row(index, values)
-        with file.open("a") as out:
-            out.write(json.dumps(finite([c.as_dict() for c in new])) + "\n")
+        kept.append(file, finite([c.as_dict() for c in new]))
         found += new
-    return sorted(found, key=lambda c: (c.at["index"], -c.at["asked"]))
+    return sorted(found, key=lambda c: (c.number("index"), -c.number("asked")))
 
 
 def savings(found: list[Check]) -> dict[str, float]:
@@ -106,8 +103,8 @@ def savings(found: list[Check]) -> dict[str, float]:
     good = [c for c in found if not c.refused]
 
     def median(against: str, preparation: str = "") -> float:
-        extra = [c.at[preparation] if preparation else 0.0 for c in good]
-        return float(np.median([(c.at[against] + e) / (c.seconds + e) for c, e in zip(good, extra)]))
+        extra = [c.number(preparation) if preparation else 0.0 for c in good]
+        return float(np.median([(c.number(against) + e) / (c.duration + e) for c, e in zip(good, extra)]))
 
     return {
         "reference": median("seconds_reference"),

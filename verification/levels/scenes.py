@@ -25,6 +25,8 @@ from lubfric.analytic import hertz
 from lubfric.lubricant import Lubricant
 from lubfric.scene import Bodies, ContactDomain, Motion, Numerics, Roughness, Scene
 
+from ..parts import the
+
 E_PRIME, WIDTH, EYRING, LIMITING = 231e9, 10e-3, 5e6, 0.05
 CELLS_PER_LENGTH, LENGTHS_ALONG, REACH = 24, 12, 1.33
 SEED = 7
@@ -87,4 +89,4 @@ def table(count: int) -> list[Scene]:
 
 def cells(scene: Scene) -> int:
     """Of the contact grid."""
-    return int(np.prod(scene.contact.shape))
+    return int(np.prod(the(scene.contact.shape, "shape")))

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 import lubfric
 from lubfric.prepared import prepare
 
+from .. import parts
 from ..check import Check
 
 TOLERANCE = 1e-2
-LUBRICANTS = {
+LUBRICANTS: dict[str, dict[str, Any]] = {
     "paper": {},
     "thin, alpha 5 /GPa": {"viscosity": 0.02, "pressure_viscosity_coefficient": 5e-9},
     "constant viscosity": {"viscosity": 0.1, "viscosity_law": "constant"},
@@ -29,9 +32,13 @@ def scan(points: int = 240) -> list[Check]:
         for speed in np.geomspace(1e-3, 10.0, points // len(LUBRICANTS)):
             auto = lubfric.friction(model, float(speed))
             full = lubfric.friction(model, float(speed), tolerance=5e-4, model="full")
-            d = auto.decision
+            d = parts.decision(auto)
             shape = f", 1/{d.coarsening[1]}" if d.shape else ""
-            at = {"scene": name, "speed": float(speed), "level": f"{d.film}, {d.contact}{shape}"}
+            at: dict[str, str | float] = {
+                "scene": name,
+                "speed": float(speed),
+                "level": f"{d.film}, {d.contact}{shape}",
+            }
             words = f"{name} at {speed:.4g} m/s"
             rows.append(Check(words, auto.coefficient, full.coefficient, TOLERANCE, "the full model", at=at))
     return rows
@@ -42,5 +49,5 @@ def jumps(rows: list[Check]) -> list[float]:
     return [
         abs((b.measured / b.expected) / (a.measured / a.expected) - 1)
         for a, b in zip(rows, rows[1:])
-        if a.at["scene"] == b.at["scene"] and a.at["level"] != b.at["level"]
+        if a.word("scene") == b.word("scene") and a.word("level") != b.word("level")
     ]

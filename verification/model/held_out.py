@@ -58,7 +58,8 @@ def held_out(level: str) -> Iterator[Item]:
 
 def table(level: str) -> tuple[tuple[tuple, ...], dict[str, np.ndarray]]:
     """Rows for every group and model, and |error| over told error of all points, by model."""
-    rows, gathered = [], {method: [] for method in TOLD_BY}
+    rows: list[tuple] = []
+    gathered: dict[str, list[np.ndarray]] = {method: [] for method in TOLD_BY}
     for name, settings in kinds(level).items():
         found = [p for s in settings for p in points(s, (REFERENCE, *TOLD_BY))]
         for method in TOLD_BY:

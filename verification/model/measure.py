@@ -9,6 +9,8 @@ import lubfric
 from lubfric.prepared import Prepared
 from lubfric.scene import Scene
 
+from ..parts import the
+
 WIDTH = 90e-6  # of the patch, both ways
 LENGTH, SQ = 8e-6, 100e-9  # m, of the surfaces
 REFERENCE = "deterministic"
@@ -135,4 +137,4 @@ def side_by_side(setting: Setting, speed: float):
     whole = lubfric.friction(lubfric.prepare(scene_of(setting, REFERENCE), surface), speed)
     shared_scene = scene_of(setting, 'Eq. (8) over "hertz"').with_(numerics={"grid": "given"})
     model = lubfric.prepare(shared_scene, surface)
-    return whole.deterministic.result, lubfric.friction(model, speed, fields=True), model
+    return the(whole.deterministic, "deterministic film").result, lubfric.friction(model, speed, fields=True), model

@@ -50,8 +50,13 @@ def _deviation(key, pairs) -> Deviation:
     e = np.array([p.coefficient / r.coefficient - 1 for p, r in good] or [np.nan])
     share = np.array([p.contact_share - r.contact_share for p, r in good] or [np.nan])
     gap = np.array([p.mean_gap / r.mean_gap for p, r in good] or [np.nan])
+    load, fluid, acf, speed, method = key
     return Deviation(
-        *key,
+        load,
+        fluid,
+        acf,
+        speed,
+        method,
         float(e.mean()),
         float(np.sqrt(np.mean(e**2))),
         float(share.mean()),

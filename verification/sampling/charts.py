@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
-from ..plotting import axes
+from ..check import Figure
+from ..plotting import axes, finish
+from .lengths import Found
+from .measure import Result
 
 
-def coverage(results, out: Path) -> None:
+def coverage(results: list[Result]) -> Figure:
     """Every interval of every case over the truth, those that miss it in red."""
     canvas, grid = axes(-(-len(results) // 2), 2, 11, 2.6 * -(-len(results) // 2), squeeze=False)
     for axis, result in zip(grid.flat, results):
@@ -25,10 +26,10 @@ def coverage(results, out: Path) -> None:
         axis.set_xticks([])
     for axis in grid.flat[len(results) :]:
         axis.set_axis_off()
-    canvas.savefig(out / "sampling-coverage.png", dpi=110)
+    return finish("coverage", canvas, "Every interval over the truth; those that miss it are red", "png")
 
 
-def bias(found: dict, out: Path) -> None:
+def bias(found: Found) -> Figure:
     """Mean and scatter of f of one patch, over its length."""
     canvas, axis = axes(1, 1, 6.4, 4)
     for speed, (rows, truth) in found.items():
@@ -47,10 +48,10 @@ def bias(found: dict, out: Path) -> None:
     axis.axhline(0, color="black", lw=0.8)
     axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="of f∞ (%)")
     axis.legend(frameon=False)
-    canvas.savefig(out / "sampling-bias.png", dpi=130)
+    return finish("bias", canvas, "Bias and scatter of f of one patch against its length", "png")
 
 
-def cost(found: dict, out: Path) -> None:
+def cost(found: dict[str, np.ndarray]) -> Figure:
     """Time against the error of f that was made, the surface in it."""
     canvas, axis = axes(1, 1, 6.4, 4)
     for name, rows in found.items():
@@ -60,4 +61,4 @@ def cost(found: dict, out: Path) -> None:
             axis.annotate(f"{100 * a:g} %", (100 * e, s), xytext=(4, 4), textcoords="offset points", fontsize=8)
     axis.set(xlabel="root mean square error of f, surface included (%); labels: asked", ylabel="processor time (s)")
     axis.legend(frameon=False)
-    canvas.savefig(out / "sampling-cost.png", dpi=130)
+    return finish("cost", canvas, "Processor time against the error of f", "png")

@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from . import cases
+from ..check import TOLD, Check
+from .cases import SPEEDS
 from .measure import solve
 
 ASKED = (0.05, 0.02, 0.01)
 
 
-def run(trials: int, seed: int, truths: dict[float, float], tell) -> dict:
-    """{case name: rows (asked, mean seconds, root mean square error of f)} on ``trials`` surfaces of each; ``truths``
+def run(trials: int, seed: int, truths: dict[float, float]) -> dict[str, np.ndarray]:
+    """{case name: rows (asked, mean seconds, root mean square error of f)} on ``trials`` surfaces of each; ``truths``:
     {speed [m/s]: f of an endless line}."""
     found = {}
-    for case in cases.SPEEDS[1:]:
-        truth = truths[case.speed]
+    for case in SPEEDS[1:]:
         rows = []
         for asked in ASKED:
             made = [solve(case.scene(seed + 61_000 + k), case.speed, asked) for k in range(trials)]
-            error = np.sqrt(np.mean([(m["f"] / truth - 1) ** 2 for m in made]))
+            error = np.sqrt(np.mean([(m["f"] / truths[case.speed] - 1) ** 2 for m in made]))
             rows.append((asked, np.mean([m["seconds"] for m in made]), error))
         found[case.name] = np.array(rows)
-        tell(f"{case.name}: " + ", ".join(f"{100 * a:g} % in {s:.2g} s" for a, s, _ in rows))
     return found
+
+
+def checks(found: dict[str, np.ndarray]) -> Iterator[Check]:
+    """The error that was made for every one asked."""
+    for name, rows in found.items():
+        for asked, _, error in rows:
+            words = f"{name}: rms error of f, asked {100 * asked:g} %"
+            yield Check(words, error, asked, 0.0, "plain balances of long patches", TOLD)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +10,8 @@ import numpy as np
 
 import lubfric
 
+from .. import kept
+from .cases import Case
 from .truth import truth
 
 REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
@@ -21,7 +22,7 @@ BESIDE = ("contact_load", "film_load", "shear_force", "mean_gap", "central_film"
 class Result:
     """Rows of the trials of a case, and the truth with its relative standard error."""
 
-    case: object
+    case: Case
     rows: list[dict]
     truth: float
     error: float
@@ -66,36 +67,40 @@ def solve(scene, speed: float, asked: float) -> dict:
     }
 
 
-def kept(case, seed: int, out: Path) -> Result | None:
+def found_before(case: Case, seed: int, out: Path) -> Result | None:
     """What `run` left in ``out``; None where it has no truth or no trials."""
-    file = _file(case, seed, out)
-    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
+    rows = kept.read(_file(case, seed, out))
     truths = [r for r in rows if r["kind"] == "truth"]
     trials = [r for r in rows if r["kind"] == "trial"]
     return Result(case, trials, truths[0]["f"], truths[0]["error"]) if truths and len(trials) > 1 else None
 
 
-def _file(case, seed: int, out: Path) -> Path:
+def _file(case: Case, seed: int, out: Path) -> Path:
     return out / f"{''.join(c if c.isalnum() else '-' for c in case.name)}-{seed}.jsonl"
 
 
-def run(case, trials: int, seed: int, out: Path, tell) -> Result:
-    """Rows kept in ``out`` as they come (one line each): those found there are not solved again."""
-    file = _file(case, seed, out)
-    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
-    known = {(r["kind"], r["seed"]) for r in rows}
-    wanted = [("truth", seed + REPORTED), *(("trial", seed + i) for i in range(trials))]
+def endless(case: Case, seed: int, out: Path) -> dict:
+    """The row of the truth of a case, kept in ``out``: f of an endless line and its relative standard error."""
+    return _rows(case, [("truth", seed + REPORTED)], _file(case, seed, out))[0]
+
+
+def run(case: Case, trials: int, seed: int, out: Path) -> Result:
+    """Trials with seeds from ``seed`` on, and the truth; rows kept in ``out`` as they come are not solved again."""
+    wanted = [("truth", seed + REPORTED), *(("trial", seed + k) for k in range(trials))]
+    truth, *rows = _rows(case, wanted, _file(case, seed, out))
+    return Result(case, rows, truth["f"], truth["error"])
+
+
+def _rows(case: Case, wanted: list[tuple[str, int]], file: Path) -> list[dict]:
+    """The truth, or a trial, each on surfaces of a seed of its own; those missing in ``file`` are solved."""
+    found = {(row["kind"], row["seed"]): row for row in kept.read(file)}
     for kind, own in wanted:
-        if (kind, own) in known:
-            continue
-        scene = case.scene(own)
-        found = asdict(truth(scene, case.speed, own, case.asked)) if kind == "truth" else None
-        rows.append({"kind": kind, "seed": own, **(found or solve(scene, case.speed, case.asked))})
-        with file.open("a") as stream:
-            stream.write(json.dumps(rows[-1]) + "\n")
-    endless = next(r for r in rows if r["kind"] == "truth")
-    own_seeds = {own for kind, own in wanted if kind == "trial"}
-    chosen = [r for r in rows if r["kind"] == "trial" and r["seed"] in own_seeds]
-    result = Result(case, chosen, endless["f"], endless["error"])
-    tell(f"{case.name}: {100 * result.covered.mean():.1f} % of {len(chosen)} intervals cover {result.truth:.5g}")
-    return result
+        if (kind, own) not in found:
+            new = _truth(case, own) if kind == "truth" else solve(case.scene(own), case.speed, case.asked)
+            found[kind, own] = {"kind": kind, "seed": own, **new}
+            kept.append(file, found[kind, own])
+    return [found[key] for key in wanted]
+
+
+def _truth(case: Case, seed: int) -> dict:
+    return asdict(truth(case.scene(seed), case.speed, seed, case.asked))

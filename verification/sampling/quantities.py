@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from dataclasses import replace
@@ -14,6 +13,7 @@ import lubfric
 from lubfric.errors import LubfricError
 from lubfric.sampling.uncertainty import FIELDS
 
+from .. import kept
 from ..levels.scenes import points, scene
 
 REFERENCE = 1e-4  # tolerance on f
@@ -21,21 +21,18 @@ SEED = 11
 FLOOR = 1e-3  # of a quantity: what the reference itself may be off by
 
 
-def run(count: int, seed: int, out: Path, tell) -> list[dict]:
+def run(count: int, seed: int, out: Path) -> list[dict]:
     """A row for each of ``count`` scenes, kept in ``out`` as they come: {name: (value, stated relative error, value of
     the reference)}."""
     file = out / f"quantities-{seed}.jsonl"
-    rows = [json.loads(line) for line in file.read_text().splitlines()] if file.is_file() else []
+    rows = kept.read(file)
     known = {row["index"] for row in rows}
     for index, values in enumerate(points(count, seed)):
         if index in known:
             continue
         rows.append(row_of(index, values))
-        with file.open("a") as stream:
-            stream.write(json.dumps(rows[-1]) + "\n")
-    rows = [row for row in rows if row["index"] < count]
-    tell(f"quantities: {sum('error' not in row for row in rows)} of {len(rows)} scenes compared")
-    return rows
+        kept.append(file, rows[-1])
+    return [row for row in rows if row["index"] < count]
 
 
 def row_of(index: int, values: dict) -> dict:

@@ -1,77 +1,79 @@
-"""Numbers beside their bounds, as a table."""
+"""Numbers of the study beside their bounds."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 
+from ..check import ABSOLUTE, AT_LEAST, Check
+from .measure import Result
+
 CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted beyond the bounds
-RATIO = (0.85, 1.15)
+RATIO = 0.15  # of the reported error over the scatter from 1
 BIAS = 0.3  # of the sampling tolerance
 PIECES = (0.85, 0.99)
 WITHIN = 0.95
+ENDLESS = "plain balances of long patches"
+COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "told too few")
 
 
-@dataclass(frozen=True)
-class Line:
-    """One row of the table and whether it is within its bounds."""
-
-    cells: tuple[str, ...]
-    passed: bool
-
-
-HEAD = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "told too few", "")
-
-
-def of_case(result) -> Line:
-    """Coverage, reported error over observed scatter, bias against the truth."""
+def checks(result: Result) -> Iterator[Check]:
+    """Coverage, reported error over observed scatter, bias against the truth. The coverage of a case of which most
+    trials say that the map is too small decides nothing."""
     case, n = result.case, len(result.rows)
-    coverage, ratio, bias = float(result.covered.mean()), result.ratio, result.bias
-    slack = CHANCE * math.sqrt(0.05 * 0.95 / n)
-    scatter = float(result.column("f").std(ddof=1)) / result.truth / math.sqrt(n)
-    told = float(result.column("told").mean())
-    passed = (
-        (case.low - slack <= coverage <= case.high + slack or told > 0.5)
-        and RATIO[0] - CHANCE / math.sqrt(2 * n) <= ratio <= RATIO[1] + CHANCE / math.sqrt(2 * n)
-        and abs(bias) <= BIAS * case.asked + CHANCE * math.hypot(scatter, result.error)
-    )
-    cells = (
-        f"{case.name}, asked {100 * case.asked:g} %",
-        str(n),
-        f"{100 * coverage:.1f} %",
-        f"{ratio:.2f}",
-        f"{100 * bias:+.2f} ± {100 * math.hypot(scatter, result.error):.2f} %",
+    decides = float(result.column("told").mean()) <= 0.5
+    coverage = float(result.covered.mean())
+    yield _share(f"{case.name}: coverage", coverage, n, (case.low, case.high), ENDLESS, decides)
+    slack = RATIO + CHANCE / math.sqrt(2 * n)
+    yield Check(f"{case.name}: reported over scatter", result.ratio, 1.0, slack, "scatter of the trials", ABSOLUTE)
+    slack = BIAS * case.asked + CHANCE * _error_of_mean(result)
+    yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
+
+
+def row(result: Result) -> tuple[str, ...]:
+    """The same as cells of a table (`COLUMNS`)."""
+    return (
+        f"{result.case.name}, asked {100 * result.case.asked:g} %",
+        str(len(result.rows)),
+        f"{100 * result.covered.mean():.1f} %",
+        f"{result.ratio:.2f}",
+        f"{100 * result.bias:+.2f} ± {100 * _error_of_mean(result):.2f} %",
         f"{1e3 * result.column('length').mean():.3g} mm",
         f"{result.column('seconds').mean():.2g} s",
-        f"{100 * told:.0f} %",
-        "ok" if passed else "outside",
+        f"{100 * result.column('told').mean():.0f} %",
     )
-    return Line(cells, bool(passed))
 
 
-def of_pieces(rows) -> Line:
+def of_pieces(rows: list[dict]) -> Check:
     """Coverage of the whole map's friction by the intervals of its pieces."""
-    covered = np.array([r["low"] <= r["whole"] <= r["high"] for r in rows])
-    n, coverage = len(rows), float(covered.mean())
-    slack = CHANCE * math.sqrt(0.05 * 0.95 / n)
-    passed = PIECES[0] - slack <= coverage <= PIECES[1] + slack
-    length = 1e3 * np.mean([r["length"] for r in rows])
-    cells = ("pieces of a map", str(n), f"{100 * coverage:.1f} %", "", "", f"{length:.3g} mm", "", "")
-    return Line((*cells, "ok" if passed else "outside"), bool(passed))
+    covered = float(np.mean([r["low"] <= r["whole"] <= r["high"] for r in rows]))
+    return _share("pieces of a map: coverage", covered, len(rows), PIECES, "the whole map")
 
 
-def of_quantities(counted) -> Line:
+def of_quantities(counted: list[tuple[str, int, float, float]]) -> Iterator[Check]:
     """Every reported number within its stated error in 95 % of the scenes that state one."""
-    worst = min(counted, key=lambda row: row[2])
-    scenes = max(row[1] for row in counted)
-    passed = all(held >= WITHIN - CHANCE * math.sqrt(0.05 * 0.95 / told) for _, told, held, _ in counted)
-    cells = ("other numbers, random scenes", str(scenes), f"{100 * worst[2]:.1f} % ({worst[0]})", "", "", "", "", "")
-    return Line((*cells, "ok" if passed else "outside"), passed)
+    for name, told, held, _ in counted:
+        words = f"{name}: within its stated error in {told} scenes"
+        yield Check(words, held, WITHIN, _chance(told), "everything modelled, at 0.01 %", AT_LEAST)
 
 
-def table(lines) -> str:
-    """In Markdown."""
-    rows = [HEAD, ("---",) * len(HEAD), *(line.cells for line in lines)]
-    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+def _share(
+    name: str, found: float, trials: int, bounds: tuple[float, float], source: str, decides: bool = True
+) -> Check:
+    """A share of trials between two bounds, and what chance does to it."""
+    low, high = bounds
+    tolerance = (high - low) / 2 + _chance(trials)
+    return Check(name, found, (high + low) / 2, tolerance, source, ABSOLUTE, decisive=decides)
+
+
+def _chance(trials: int) -> float:
+    """What is granted of a share of 95 % for few trials."""
+    return CHANCE * math.sqrt(0.05 * 0.95 / trials)
+
+
+def _error_of_mean(result: Result) -> float:
+    """Relative standard error of the mean f of the trials beside the truth."""
+    scatter = float(result.column("f").std(ddof=1)) / result.truth / math.sqrt(len(result.rows))
+    return math.hypot(scatter, result.error)

@@ -47,9 +47,11 @@ LINEAR = {
 
 def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
     """Verdicts by (map, method, default)."""
-    table = {}
+    table: dict[tuple[str, str, bool], Counter] = {}
     for cell in cells:
-        table.setdefault((cell.at["map"], cell.at["method"], cell.at["default"]), Counter())[verdict_of(cell)] += 1
+        table.setdefault((cell.word("map"), cell.word("method"), bool(cell.at["default"])), Counter())[
+            verdict_of(cell)
+        ] += 1
     return table
 
 
@@ -68,14 +70,14 @@ def table(kind: str, cells: list[Check]) -> Table:
 
 def draw(kind: str, cells: list[Check]) -> Figure:
     """One panel for each map and method; cells that share a place show the worst verdict."""
-    panels = list(dict.fromkeys((c.at["map"], c.at["method"]) for c in cells))
+    panels = list(dict.fromkeys((c.word("map"), c.word("method")) for c in cells))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
     canvas, axes = plotting.axes(rows, columns, width=11, height=2.9 * rows + 0.4, squeeze=False)
     for ax in axes.ravel()[len(panels) :]:
         ax.set_axis_off()
     for ax, (name, method) in zip(axes.ravel(), panels):
-        panel(ax, [c for c in cells if (c.at["map"], c.at["method"]) == (name, method)])
+        panel(ax, [c for c in cells if (c.word("map"), c.word("method")) == (name, method)])
     handles = [axes[0, 0].plot([], [], MARKS[v], color=COLOURS[v], label=v)[0] for v in VERDICTS]
     canvas.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
     return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
@@ -83,11 +85,11 @@ def draw(kind: str, cells: list[Check]) -> Figure:
 
 def panel(ax, cells: list[Check]) -> None:
     """All cells of one map and method."""
-    name, method = cells[0].at["map"], cells[0].at["method"]
+    name, method = cells[0].word("map"), cells[0].word("method")
     linear = LINEAR.get(name, "")
     found = Counter(verdict_of(c) for c in cells)
     for verdict in VERDICTS:
-        places = np.array([(c.at["x"], c.at["y"]) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
+        places = np.array([(c.number("x"), c.number("y")) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
         ax.plot(
             places[:, 0],
             places[:, 1],
@@ -96,7 +98,7 @@ def panel(ax, cells: list[Check]) -> None:
             markersize=4,
             zorder=1 + VERDICTS.index(verdict),
         )
-    for axis, values in (("x", [c.at["x"] for c in cells]), ("y", [c.at["y"] for c in cells])):
+    for axis, values in (("x", [c.number("x") for c in cells]), ("y", [c.number("y") for c in cells])):
         if axis not in linear and min(values) > 0:
             getattr(ax, f"set_{axis}scale")("log")
         elif axis not in linear or name.startswith("sharing: speed") and axis == "x":

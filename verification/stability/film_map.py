@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from lubfric import LubfricError, solve_differential_deflection, solve_ehl
+from lubfric import EHLResult, LubfricError, solve_differential_deflection, solve_ehl
 from lubfric.analytic.film import moes_film
 
 from ..cases import E_PRIME, RADIUS, VISCOSITY, case_of
@@ -39,7 +40,7 @@ def cells(level: str) -> Iterator[Check]:
 def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
     """(min_film, flow_film, method): another discretisation, else the tightest Newton solution that there is."""
     case = dict(items)
-    for solve, name, options in (
+    ways: tuple[tuple[Callable[..., EHLResult], str, dict[str, Any]], ...] = (
         (
             solve_differential_deflection,
             "differential deflection",
@@ -47,7 +48,8 @@ def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
         ),
         (solve_ehl, "tight", {"tolerance": 0.1 * tolerance}),
         (solve_ehl, "finer", {"tolerance": 0.3 * tolerance}),
-    ):
+    )
+    for solve, name, options in ways:
         try:
             film = solve(**case, **options)
         except LubfricError:

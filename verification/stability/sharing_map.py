@@ -22,6 +22,7 @@ from lubfric import (
     solve_ehl,
 )
 from lubfric.prepared import Prepared, prepare
+from lubfric.rough.flat import FlatContact
 
 from ..check import Check
 from .cell import Condition, judged
@@ -158,7 +159,7 @@ def judge_contact(model: Prepared, load: float, film) -> Sides:
     heights, spacing = model.surface.heights - model.surface.heights.mean(), model.surface.spacing
     x, flat = patch.x, scene.contact.geometry == "flat"
     smooth = film.film_at(x)
-    if flat:
+    if isinstance(patch, FlatContact):
         pressure, gap0, weight = load / patch.area, heights.max() - heights, np.ones(x.size)
     else:
         pressure = load / (scene.bodies.width * x.size * spacing[0])

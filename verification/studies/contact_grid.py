@@ -115,9 +115,9 @@ def cylinder(cells: int, place: float) -> tuple[float, ...]:
     """Errors with ``cells + place`` cells in the half-width; the patch is four half-widths wide, four cells
     long.
     """
-    cells = cells + place
-    exact, dx = Line(E_PRIME, RADIUS, SIZE), SIZE / cells
-    n = 2 * int(2 * cells)
+    across = cells + place
+    exact, dx = Line(E_PRIME, RADIUS, SIZE), SIZE / across
+    n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
     c = lubfric.solve_contact(
         np.tile(x[:, None] ** 2 / (2 * RADIUS), (1, 4)),
@@ -139,9 +139,9 @@ def cylinder(cells: int, place: float) -> tuple[float, ...]:
 
 def sphere(cells: int, place: float) -> tuple[float, ...]:
     """Errors with ``cells + place`` cells in the contact radius, on a square of four radii."""
-    cells = cells + place
-    exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / cells
-    n = 2 * int(2 * cells)
+    across = cells + place
+    exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / across
+    n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
     square = x[:, None] ** 2 + x**2
     c = lubfric.solve_contact(
@@ -184,7 +184,7 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
         p.max() / exact.pressure(0) - 1,
         c.contact_area_fraction / exact.contact - 1,
         c.mean_gap / exact.mean_gap - 1,
-        np.linalg.norm(p - true) / np.linalg.norm(true),
+        float(np.linalg.norm(p - true) / np.linalg.norm(true)),
     )
 
 

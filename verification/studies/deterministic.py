@@ -127,7 +127,7 @@ def refinement():
     rows, worst = [], 0.0
     for seed in range(1, 6):
         for speed in (0.03, 0.01, 0.003):
-            grids = [(n, round(n * 100 / 256) * 2) for n in (128, 256, 512)]
+            grids = tuple((n, round(n * 100 / 256) * 2) for n in (128, 256, 512))
             # noqa: B023
             found = solve_refined(lambda shape: problem(shape[0], speed, seed), grids, tolerance=0.0, least=3)
             f = [r.coefficient for r in found.results]

@@ -27,7 +27,7 @@ POINTS = (
 QUICK = ((2, 5, CONSTANT), (50, 10, CONSTANT))
 REFINEMENTS = {"quick": 1, "default": 2, "full": 3}
 # (smallest film, flow film) in Moes' units of an independent solver on nested meshes, inlet at -6 half-widths
-TABLE = {
+TABLE: dict[tuple[float, float, str], tuple[float, float]] = {
     (5, 5, CONSTANT): (3.105, 4.082),
     (20, 5, CONSTANT): (2.572, 3.423),
     (100, 5, CONSTANT): (2.061, 2.758),

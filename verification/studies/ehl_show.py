@@ -12,7 +12,7 @@ from .ehl_pair import Pair
 
 def summary(pairs: list[Pair]) -> Table:
     """Every contact on every mesh."""
-    rows = []
+    rows: list[tuple] = []
     for pair in pairs:
         k = pair.finest.contact.moes_film
         for s in pair.solutions:

@@ -5,6 +5,7 @@ friction.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -192,7 +193,7 @@ def tolerance_of_the_job():
     """Error of f against the tolerance asked, when `lubfric` chooses levels, grids and inner tolerances by it."""
     heights, spacing = surface((256, 256), PATCH / 256), PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
-    free = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
+    free: dict[str, Any] = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
     errors, seconds = [], []
     for tolerance in TOLERANCES:
         made = model(heights, spacing, **free | {"tolerance": tolerance, "model": "auto"})
@@ -226,7 +227,7 @@ def area_of_the_balance():
     spacing, cells = 0.9375e-6, 192
     heights = surface((cells, cells), spacing)[:, :96]
     heights = lubfric.Surface(heights, (spacing, spacing)).periodic("mirror", axes=(False, True)).heights
-    loads = {"hertz": [], "box": []}
+    loads: dict[str, list[float]] = {"hertz": [], "box": []}
     for region, found in loads.items():
         for width in WIDTHS:
             n = round(width / spacing)
@@ -257,8 +258,8 @@ def area_of_the_balance():
         tuple((w * 1e6, s, x) for w, s, x in zip(WIDTHS, strip, box, strict=True)),
     )
     canvas, ax = plotting.axes(height=3.4)
-    for found, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
-        ax.plot(np.array(WIDTHS) * 1e6, found, "o-", label=label)
+    for line, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
+        ax.plot(np.array(WIDTHS) * 1e6, line, "o-", label=label)
     ax.set(xlabel="width of the patch (µm)", ylabel="F_H (N)", ylim=(0, 1.2 * max(*strip, *box)))
     ax.legend(loc="lower right")
     yield plotting.finish(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from skfem import MeshTri
 
@@ -64,7 +66,8 @@ def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY
 
 def plane_orders(level: str):
     """Plane strain: orders of P1 and P2 on one wave."""
-    exact, series = layer_compliance(K, WAVE / 2, BODY), {}
+    exact = layer_compliance(K, WAVE / 2, BODY)
+    series: dict[str, tuple[Any, Any, int]] = {}
     for degree, cells in ((1, 2 * np.array(CELLS[level])), (2, np.array(CELLS[level]))):
         found = [plane_wave(n, degree) for n in cells]
         energy, nodal = np.abs([f[0] / exact - 1 for f in found]), [f[1] for f in found]

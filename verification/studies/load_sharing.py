@@ -15,7 +15,7 @@ from lubfric.halfspace.operator import _even_transform
 from lubfric.halfspace.semiperiodic import semiperiodic_coefficients
 from lubfric.prepared import Prepared, prepare
 
-from .. import plotting
+from .. import parts, plotting
 from ..check import AT_LEAST, Check, Field, Table
 from ..fem.compliance import Elastic
 from ..fem.ehl import LineContact
@@ -96,13 +96,11 @@ class Point:
 
     def differences(self) -> tuple[float, float, float]:
         """Relative: coefficient, F_H, mean gap."""
-        return tuple(
-            abs(a / b - 1)
-            for a, b in (
-                (self.main.coefficient, self.fem.coefficient),
-                (self.main.film_load, self.fem.film_load),
-                (self.main.mean_gap, self.fem.mean_gap),
-            )
+        main, fem = self.main, self.fem
+        return (
+            abs(main.coefficient / fem.coefficient - 1),
+            abs(main.film_load / fem.film_load - 1),
+            abs(main.mean_gap / fem.mean_gap - 1),
         )
 
 
@@ -154,7 +152,8 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) 
 
 def averaged(model: Prepared) -> Prepared:
     """The model with displacements that are means over cells along x, as those of the finite elements are."""
-    return replace(model, contact=replace(model.contact, operator=cell_mean(model.contact.operator)))
+    contact = parts.half_space(model)
+    return replace(model, contact=replace(contact, operator=cell_mean(contact.operator)))
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
@@ -278,11 +277,11 @@ def pressure_field(p: Point) -> Field:
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
-    contact = p.main.balance.contact.fields
+    contact, pressed = parts.contact_fields(p.main), parts.the(p.fem.pressed, "dry contact")
     values = {
-        "pressure": p.fem.pressed.pressure,
+        "pressure": pressed.pressure,
         "pressure_lubfric": contact.pressure,
-        "gap": p.fem.pressed.gap,
+        "gap": pressed.gap,
         "gap_lubfric": contact.gap,
     }
     values |= {f"{name}_difference": values[f"{name}_lubfric"] - values[name] for name in ("pressure", "gap")}
@@ -298,10 +297,11 @@ def pressure_field(p: Point) -> Field:
 def pressure_figure(p: Point):
     """Contact pressure of both and the film's pressure of both."""
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
-    half, contact = LENGTH / 2 * 1e6, p.main.balance.contact.fields
-    largest = p.fem.pressed.pressure.max() / 1e9
+    half, contact = LENGTH / 2 * 1e6, parts.contact_fields(p.main)
+    own = parts.the(p.fem.pressed, "dry contact").pressure
+    largest = own.max() / 1e9
     for ax, pressure, title in (
-        (left, p.fem.pressed.pressure, "finite elements"),
+        (left, own, "finite elements"),
         (middle, contact.pressure, "lubfric"),
     ):
         image = ax.imshow(
@@ -316,7 +316,7 @@ def pressure_figure(p: Point):
         ax.grid(False)
     left.set_ylabel("y (µm)")
     canvas.colorbar(image, ax=(left, middle), label="contact pressure (GPa)", shrink=0.85)
-    film, line = p.fem.film, p.main.balance.film
+    film, line = p.fem.film, parts.balance(p.main).film
     x = np.linspace(-60e-6, 40e-6, 400)
     right.plot(x * 1e6, film.at(x)[0] / 1e6, label="finite elements")
     right.plot(line.x * 1e6, line.pressure / 1e6, "--", label="lubfric")

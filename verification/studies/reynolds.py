@@ -89,7 +89,8 @@ def parabola(refinements: int):
 
     Where in its cell the rupture point lies is chance; errors are root mean squares over shifted meshes.
     """
-    e, rows, series = PARABOLA, [], {}
+    e, series = PARABOLA, {}
+    rows: list[tuple] = []
     for degree in (1, 2):
         runs = [
             solve_refined(

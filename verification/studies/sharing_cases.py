@@ -23,6 +23,7 @@ from ..fem.fluid import Fluid
 from ..fem.harmonic import Compliance, Strip, compliance
 from ..fem.layer_waves import fourier_compliance
 from ..fem.sharing import Bodies, FlatBodies, Shared, share_load
+from ..parts import the
 from .contact_rough import BOX, layer_of, roughness
 from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, elastic, rough, scene
 
@@ -127,7 +128,7 @@ def compared(name: str, found: Shared, main: lubfric.FrictionResult, allowed: tu
 def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
     """Cells at the hardness, on both sides."""
     weight = model.contact.weight / model.contact.weight.sum()
-    share = float(weight @ found.pressed.yielded.mean(axis=1))
+    share = float(weight @ the(found.pressed, "dry contact").yielded.mean(axis=1))
     words = "yielding cells: share of the strip at the hardness"
     yield Check(f"{words}, finite elements", share, 1e-3, 0.0, "the hardness was chosen so", AT_LEAST)
     yield Check(words, main.plastic_area_fraction, share, 0.1, SOURCE, note="whole cells: a few of them")

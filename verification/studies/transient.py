@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -23,9 +24,10 @@ from lubfric.paper.differential.transient import solve_differential_transient
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table
+from ..parts import the
 from ..rates import fitted_order
 
-SQUEEZE = dict(
+SQUEEZE: dict[str, Any] = dict(
     load_per_width=100.0,
     radius=0.01,
     e_prime=2.2e17,
@@ -76,7 +78,7 @@ def contact(M: float, L: float, density: str = "constant"):
     speed = number * e * r / (2 * eta)
     oil = Lubricant(eta, alpha, "roelands", density)
     problem = Problem(LineContact(M * e * r * math.sqrt(number), r, e, speed, oil))
-    keywords = dict(
+    keywords: dict[str, Any] = dict(
         load_per_width=problem.contact.load_per_width,
         radius=r,
         e_prime=e,
@@ -151,13 +153,14 @@ def marched(resolution: float, steps: int) -> float:
     z = parabola(made, 1e-6)
     march = March((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
     for k in range(steps):
-        march = advance(
+        step = advance(
             replace(march, step=LONG),
             0.3 * LONG * (k + 1) / steps,
             SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0),
             1.0,
             0.0,
-        ).march
+        )
+        march = the(step, "step in time").march
     return float(march.levels[-1].film.min())
 
 
@@ -294,7 +297,8 @@ def reversal():
 
 def jumps(level: str):
     """Tenfold jumps and first steps over four decades: the steady state, or a reported failure."""
-    rows, wrong, failed = [], 0, 0
+    rows: list[tuple] = []
+    wrong = failed = 0
     cases = [
         ("entrainment_speed", 0.1),
         ("entrainment_speed", 10.0),

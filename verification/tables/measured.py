@@ -1,26 +1,19 @@
-"""What each table measures. A function returns a `Table`; `TABLES` names them."""
+"""What each table measures. A function returns `Cells`; `TABLES` names them."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 import lubfric
 from lubfric.analytic import hertz
 
-
-@dataclass(frozen=True)
-class Table:
-    """Column titles and rows of cells, all as text."""
-
-    columns: list[str]
-    rows: list[list[str]]
+Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text
 
 
-def stribeck() -> Table:
+def stribeck() -> Cells:
     """The built-in scene at seven speeds."""
     curve = lubfric.stribeck(lubfric.load_scene("paper"), [1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 1.0])
     rows = [
@@ -29,10 +22,10 @@ def stribeck() -> Table:
             curve.speed, curve.coefficient, curve.contact_load, curve.film_load, curve.mean_gap
         )
     ]
-    return Table(["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows)
+    return ["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows
 
 
-def film_load_of_patches() -> Table:
+def film_load_of_patches() -> Cells:
     """F_H at 0.001 m/s over generated patches of the paper's size: twelve seeds for each correlation length."""
     rows = []
     for length in (4e-6, 8e-6, 16e-6):
@@ -44,10 +37,10 @@ def film_load_of_patches() -> Table:
             loads.append(lubfric.friction(scene, 0.001).film_load)
         mean, spread = np.mean(loads), np.std(loads, ddof=1)
         rows.append([f"{1e6 * length:g} µm", f"{mean:.3f} ± {spread:.3f} N", f"{min(loads):.3f} to {max(loads):.3f} N"])
-    return Table(["correlation length", "F_H mean ± sd", "range"], rows)
+    return ["correlation length", "F_H mean ± sd", "range"], rows
 
 
-def hertz_line() -> Table:
+def hertz_line() -> Cells:
     """A smooth cylinder through the rough-contact solver, on ever finer grids."""
     radius, e_prime, load = 0.01, 230e9, 1e5
     half_width = hertz.line_half_width(load, radius, e_prime)
@@ -68,32 +61,36 @@ def hertz_line() -> Table:
         exact = peak * np.sqrt(np.maximum(1 - (x / half_width) ** 2, 0))
         error = np.sqrt(np.mean((solved.pressure[:, 0] - exact) ** 2) / np.mean(exact**2))
         rows.append([str(across), f"{solved.pressure.max() / peak - 1:+.1e}", f"{error:.1e}"])
-    return Table(["cells across the width", "peak pressure off by", "pressure, rms error"], rows)
+    return ["cells across the width", "peak pressure off by", "pressure, rms error"], rows
 
 
-def times() -> Table:
+def times() -> Cells:
     """CPU seconds of usual jobs, the smallest of three."""
     paper = lubfric.load_scene("paper")
-    film = dict(
-        load_per_width=paper.bodies.load / paper.bodies.width,
-        radius=paper.bodies.radius,
-        e_prime=paper.bodies.e_prime,
-        entrainment_speed=0.01,
-        viscosity=paper.lubricant.viscosity,
-        pressure_viscosity_coefficient=paper.lubricant.pressure_viscosity_coefficient,
-    )
     speeds = np.geomspace(1e-4, 1.0, 20)
     one_patch = paper.with_(numerics={"sampling": "patch"})
     jobs: dict[str, Callable[[], object]] = {
-        "one film": lambda: lubfric.solve_ehl(**film),
+        "one film": lambda: _film(paper),
         "the paper's scene, one speed": lambda: lubfric.friction(paper, 0.01),
         "the paper's scene, 20 speeds": lambda: lubfric.stribeck(paper, speeds),
         "the same on the paper's one patch": lambda: lubfric.stribeck(one_patch, speeds),
     }
-    return Table(["job", "CPU time"], [[name, f"{_seconds(job):.3g} s"] for name, job in jobs.items()])
+    return ["job", "CPU time"], [[name, f"{_seconds(job):.3g} s"] for name, job in jobs.items()]
 
 
-def _seconds(job) -> float:
+def _film(scene: lubfric.Scene) -> lubfric.EHLResult:
+    bodies, oil = scene.bodies, scene.lubricant
+    return lubfric.solve_ehl(
+        load_per_width=bodies.load / bodies.width,
+        radius=bodies.radius,
+        e_prime=bodies.e_prime,
+        entrainment_speed=0.01,
+        viscosity=oil.viscosity,
+        pressure_viscosity_coefficient=oil.pressure_viscosity_coefficient,
+    )
+
+
+def _seconds(job: Callable[[], object]) -> float:
     found = []
     for _ in range(3):
         begun = time.process_time()
@@ -102,32 +99,32 @@ def _seconds(job) -> float:
     return min(found)
 
 
-def model_error() -> Table:
+def model_error() -> Cells:
     """Every model of load sharing beside one gap with one pressure (`verification.model`, its default level)."""
     from ..model import settings
     from ..model.measure import points
     from ..model.summary import deviations, table
 
-    return Table(*table(deviations([p for setting in settings("default") for p in points(setting)])))
+    return table(deviations([p for setting in settings("default") for p in points(setting)]))
 
 
-def held_out() -> Table:
+def held_out() -> Cells:
     """How often the told error of the model holds on surfaces it was not read off (`verification.model.held_out`)."""
     from ..model.held_out import COLUMNS, table
 
     rows, _ = table("default")
-    return Table(list(COLUMNS), [[str(cell) for cell in row] for row in rows])
+    return COLUMNS, [[str(cell) for cell in row] for row in rows]
 
 
-def mutants() -> Table:
+def mutants() -> Cells:
     """What catches each mutant (minutes)."""
     from .. import mutations
     from ..run import run
 
-    return Table(list(mutations.COLUMNS), mutations.rows(run(mutations.trials(), "default", workers=2)))
+    return mutations.COLUMNS, mutations.rows(run(mutations.trials(), "default", workers=2))
 
 
-TABLES: dict[str, Callable[[], Table]] = {
+TABLES: dict[str, Callable[[], Cells]] = {
     "stribeck": stribeck,
     "film-load-of-patches": film_load_of_patches,
     "hertz-line": hertz_line,

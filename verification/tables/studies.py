@@ -13,7 +13,7 @@ from functools import cache
 from ..run import Outcome, quiet, run_one
 from ..stability.cell import VERDICTS
 from ..studies import STUDIES
-from .measured import Table
+from .measured import Cells
 
 LEVEL = "default"
 
@@ -27,29 +27,20 @@ def ran(name: str) -> Outcome:
     return outcome
 
 
-def copied(study: str, table: str, *formats: str) -> Callable[[], Table]:
+def copied(study: str, table: str, *formats: str) -> Callable[[], Cells]:
     """A table of a study as it stands there; one format a column, the last for all that are left."""
 
-    def make() -> Table:
+    def make() -> Cells:
         found = next(t for t in ran(study).tables if t.name == table)
         widened = (*formats, *[formats[-1]] * len(found.columns))
         rows = [[format(value, f) for value, f in zip(row, widened)] for row in found.rows]
-        return Table(list(found.columns), rows)
+        return found.columns, rows
 
+    make.__doc__ = f"`{table}` of the study {study}."
     return make
 
 
-def studies() -> Table:
-    """Every study, how many numbers it holds against others, and how many of them are off."""
-    rows = []
-    for study in STUDIES:
-        outcome = ran(study.name)
-        off = sum(check.failed for check in outcome.checks)
-        rows.append([f"`{study.name}`", study.title, str(len(outcome.checks)), str(off)])
-    return Table(["study", "what", "checks", "failed"], rows)
-
-
-def load_sharing() -> Table:
+def load_sharing() -> Cells:
     """Both programs at the paper's speeds, on the finest cells."""
     found = next(t for t in ran("load_sharing").tables if t.name == "load_sharing")
     finest = max(row[1] for row in found.rows)
@@ -59,10 +50,10 @@ def load_sharing() -> Table:
         if cells == finest
     ]
     columns = ["U (m/s)", f"{finest} x {finest} cells", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "Couette force (N)"]
-    return Table(columns, rows)
+    return columns, rows
 
 
-def orders() -> Table:
+def orders() -> Cells:
     """Errors on the finest grids and the orders by which they fall, of contact and film."""
     rows = []
     for study in ("contact_grid", "ehl_grid"):
@@ -74,27 +65,27 @@ def orders() -> Table:
             error = next((c for c in checks if c.name.startswith(quantity) and "error" in c.name), None)
             told = [error.note, f"{error.measured:.1e}"] if error else ["", ""]
             rows.append([quantity, *told, f"{check.measured:.2f} ({check.expected:g})"])
-    return Table(["quantity", "finest grid", "error there", "order found (expected)"], rows)
+    return ["quantity", "finest grid", "error there", "order found (expected)"], rows
 
 
-def film_against_table() -> Table:
+def film_against_table() -> Cells:
     """Films beside those of the table of another program."""
     rows: dict[str, list[str]] = {}
     for check in ran("ehl_grid").checks:
         case, _, film = check.name.partition(": ")
         if film in ("smallest film", "flow film"):
             rows.setdefault(case, [case]).append(f"{100 * (check.measured / check.expected - 1):+.3f} %")
-    return Table(["contact", "smallest film off by", "flow film off by"], list(rows.values()))
+    return ["contact", "smallest film off by", "flow film off by"], list(rows.values())
 
 
-def tolerance_asked() -> Table:
+def tolerance_asked() -> Cells:
     """Error of f for every tolerance asked."""
     checks = [c for c in ran("friction").checks if c.name.startswith("tolerance ")]
     rows = [[f"{100 * c.tolerance:g} %", f"{100 * c.measured:.2g} %"] for c in checks]
-    return Table(["tolerance asked", "error of f"], rows)
+    return ["tolerance asked", "error of f"], rows
 
 
-def stability() -> Table:
+def stability() -> Cells:
     """Verdicts on every cell of the maps of the default methods (up to an hour)."""
     from ..stability.draw import counts
 
@@ -107,11 +98,10 @@ def stability() -> Table:
                 total = [a + b for a, b in zip(total, verdicts)]
                 rows.append([name, *map(str, (sum(verdicts), *verdicts))])
     rows.append(["all", *map(str, (sum(total), *total))])
-    return Table(["map (default methods)", "cells", *VERDICTS], rows)
+    return ["map (default methods)", "cells", *VERDICTS], rows
 
 
-TABLES: dict[str, Callable[[], Table]] = {
-    "studies": studies,
+TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     "orders": orders,
     "film-against-table": film_against_table,

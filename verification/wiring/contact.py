@@ -10,6 +10,7 @@ import lubfric
 from lubfric.prepared import prepare
 from lubfric.rough.contract import ContactState
 
+from .. import parts
 from ..check import AT_LEAST, Check
 
 DRY = {"accept": True, "tolerance": 1e-3, "model": "full"}
@@ -83,7 +84,7 @@ def cylinder() -> Iterator[Check]:
             bodies={"hardness": 1.2e9}, contact={"shape": (64, 32), "spacing": 1e-6, "region": region}, numerics=DRY
         )
         found = lubfric.friction(prepare(s, lubfric.Surface(z, (1e-6, 1e-6))), 0.0, fields=True)
-        fields = found.balance.contact.fields
+        fields = parts.contact_fields(found)
         highest, load = float(fields.pressure.max()), float(fields.pressure.mean() * 64e-6 * 6e-3)
         yield Check(f"cylinder, {region}: highest pressure", highest, 1.2e9, 1e-9, "the hardness", unit="Pa")
         yield Check(f"cylinder, {region}: load of the pressures", load, 5.5, 1e-6, "the load", unit="N")
@@ -100,8 +101,8 @@ def coarse() -> Iterator[Check]:
     """Coarser grids carry the mean height of the cells they stand for."""
     s = lubfric.load_scene("paper").with_(contact={"shape": (128, 64), "spacing": 0.7e-6})
     z = heights(128, 64)
-    whole = prepare(s, lubfric.Surface(z, (0.7e-6, 0.7e-6))).contact
-    half = whole.coarsened()
+    whole = parts.half_space(prepare(s, lubfric.Surface(z, (0.7e-6, 0.7e-6))))
+    half = parts.the(whole.coarsened(), "coarser grid")
     fx, fy = (a // b for a, b in zip(whole.heights.shape, half.heights.shape))
     mean = sum(whole.heights[i::fx, j::fy] for i in range(fx) for j in range(fy)) / (fx * fy)
     off = float(np.abs(half.heights - mean).max() / z.std()) + float(fx * fy == 1)

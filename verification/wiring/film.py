@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 import lubfric
 
+from .. import parts
 from ..check import Check
 
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
 FIXED = {"model": "full", "film_deflection": "hydrodynamic", "heat": "off", "accept": True, "tolerance": 1e-3}
-LAWS = {
+LAWS: dict[str, dict[str, Any]] = {
     "Roelands": {},
     "Barus": {"viscosity_law": "barus"},
     "constant viscosity": {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0},
     "Dowson-Higginson": {"density_law": "dowson-higginson"},
     "half of alpha": {"pressure_viscosity_coefficient": 12e-9},
 }
-SHEARED = {
+SHEARED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "Newtonian": ({}, {}),
     "Eyring": ({"eyring_stress": 1e6}, {}),
     "limiting stress": ({"limiting_stress_coefficient": 0.02, "limiting_stress_offset": 2e5}, {}),
@@ -61,10 +63,10 @@ def film(name: str, oil: dict) -> Iterator[Check]:
         viscosity=0.36,
         pressure_viscosity_coefficient=oil.get("pressure_viscosity_coefficient", 25e-9),
         viscosity_law=oil.get("viscosity_law", "roelands"),
-        density=oil.get("density_law", "constant"),
+        density_law=oil.get("density_law", "constant"),
         tolerance=3e-3,
     )
-    yield Check(f"{name}: flow film", found.balance.film.flow_film, other.flow_film, 5e-3, OTHER, unit="m")
+    yield Check(f"{name}: flow film", parts.balance(found).film.flow_film, other.flow_film, 5e-3, OTHER, unit="m")
     yield Check(f"{name}: smallest film", found.min_film, other.min_film, 6e-3, OTHER, unit="m")
 
 
@@ -82,22 +84,23 @@ def mixed(oil: dict, motion: dict) -> lubfric.Scene:
 
 def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     """Shear force and coefficient at 0.1 m/s."""
-    s, speed, parts = mixed(oil, motion), 0.1, 40
+    s, speed, pieces = mixed(oil, motion), 0.1, 40
     found = lubfric.friction(s, speed, fields=True)
-    line, contact = found.balance.film, found.balance.contact
-    x = np.sort(np.concatenate([np.linspace(a, b, parts, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
+    balance, fields = parts.balance(found), parts.contact_fields(found)
+    line, contact = balance.film, balance.contact
+    x = np.sort(np.concatenate([np.linspace(a, b, pieces, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
     x = x[x < line.rupture]
     middle, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
     p, h = np.interp(middle, line.x, line.pressure), line.film_at(middle)
     rate = s.motion.slide_roll_ratio * speed / h
     column = np.round((middle - contact.x[0]) / (contact.x[1] - contact.x[0])).astype(int)
     inside = (column >= 0) & (column < contact.x.size)
-    pressed = (contact.fields.pressure > 0).mean(axis=1)
+    pressed = (fields.pressure > 0).mean(axis=1)
     wet = 1 - np.where(inside, pressed[np.clip(column, 0, contact.x.size - 1)], 0.0)
     couette = s.bodies.width * float(np.sum(stress(oil, p, rate) * wet * dx))
     couette += s.bodies.width * 0.36 * s.motion.slide_roll_ratio * speed * upstream(line, s.bodies.radius)
     yield Check(f"{name}: Couette force", found.couette_force, couette, 4e-3, OWN, unit="N")
-    boundary = 0.09 * contact.fields.pressure.mean() * contact.fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
+    boundary = 0.09 * fields.pressure.mean() * fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
     f = (boundary + couette + found.rolling_force) / 20.0
     yield Check(f"{name}: coefficient", found.coefficient, f, 2e-3, OWN)
 

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import itertools
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.prepared import prepare
+from lubfric.rough.half_space import HalfSpaceContact
 from lubfric.scene import Roughness
 
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
+from ..parts import half_space
 
 DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
 OWN = "the file, read and changed by plain NumPy"
@@ -32,7 +36,9 @@ def ground() -> np.ndarray:
     """Heights (56, 40) m, grooved along the first axis."""
     rng = np.random.default_rng(8)
     x, y = np.arange(SIZE[0])[:, None] / SIZE[0], np.arange(SIZE[1]) / SIZE[1]
-    z = sum(rng.standard_normal() * np.cos(2 * np.pi * (m * x + n * y) + m) / n for m in (0, 1) for n in range(1, 9))
+    z = np.zeros(SIZE)
+    for m, n in itertools.product((0, 1), range(1, 9)):
+        z += rng.standard_normal() * np.cos(2 * np.pi * (m * x + n * y) + m) / n
     return 1e-7 * (z - 0.2 * z**2)
 
 
@@ -57,7 +63,7 @@ def measured(folder: Path) -> Iterator[Check]:
     np.save(folder / "tilted.npy", tilted)
     flat, along = planed(z), planed(z).T
     blocks = flat.reshape(28, 2, 20, 2).mean(axis=(1, 3))
-    cases = {
+    cases: dict[str, tuple[dict[str, Any], dict[str, Any], np.ndarray, tuple[float, float]]] = {
         "as it is": ({}, {}, mirrored(flat), (DX, DY)),
         "unit": ({"file": "um.npy", "unit": "um"}, {}, mirrored(flat), (DX, DY)),
         "form": ({"file": "tilted.npy", "form": "quadratic"}, {}, mirrored(planed(tilted, 2)), (DX, DY)),
@@ -76,10 +82,10 @@ def measured(folder: Path) -> Iterator[Check]:
             yield Check(f"map, {name}: cell along {'xy'[axis]}", found.spacing[axis], cells[axis], 1e-9, OWN, unit="m")
 
 
-def made(rough: Roughness, contact: dict):
+def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
     """The rough contact that a scene with this surface gets."""
     s = PATCH.with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
-    return prepare(s).contact
+    return half_space(prepare(s))
 
 
 def generated() -> Iterator[Check]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import lubfric
 from lubfric.history import Ramp
@@ -12,7 +13,7 @@ from ..check import Check
 from .film import FIXED, mixed
 
 STEADY = "lubfric.friction, steady"
-OILS = {
+OILS: dict[str, dict[str, Any]] = {
     "Newtonian": {},
     "Eyring": {"eyring_stress": 2e5},
     "limiting stress": {"limiting_stress_coefficient": 0.002, "limiting_stress_offset": 5e4},
