@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +11,8 @@ from .. import validate
 from ..contact import solve_contact
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used
-SPACING = 4.0  # pressure ratio between neighbouring nodes at first
+SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
+SMALL = 128**2  # cells and fewer, whose summits come into contact one by one
 ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
 NOTHING = 1e-9  # of the lightest gap: below it the contact is full
 MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
@@ -84,15 +86,16 @@ def contact_curve(
 
     Each node starts from its heavier neighbour. Nodes are added between the first ones until the mean gap
     interpolated is within about ``accuracy`` (relative), and so is the load at a given gap, as far as it moves the
-    friction of a film that carries the rest of ``heaviest``: the error at a node left out of the interpolation, by
-    four for the halved distance, is the estimate for the intervals beside it. It needs most of them where the
+    friction of a film that carries the rest of ``heaviest``; the errors at nodes left out of the interpolation are the
+    estimate (`ContactCurve.gap_error`). It needs most of them where the
     contact is nearly full and the gap falls by orders of magnitude, and on small maps, whose summits come into
     contact one by one. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
-    count = 1 + int(np.ceil(np.log(1 / LIGHTEST) / np.log(SPACING)))
+    spread = SPACING if gap0.size > SMALL else math.sqrt(SPACING)
+    count = 1 + math.ceil(math.log(1 / LIGHTEST) / math.log(spread))
     solved = {}
 
     def add(pressure, start):
@@ -130,19 +133,21 @@ def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
     allowed = np.minimum(np.sqrt(gap[1:] * gap[:-1]), rate / np.maximum(felt, NOTHING))
     deep = np.sqrt(gap[1:] * gap[:-1]) <= NOTHING * gap[-1]
-    return (error > accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
+    return (error > 2 * accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
 def _left_out(pressure, gap) -> np.ndarray:
-    """Estimated error of the gap interpolated between neighbouring nodes, from what each node that is left out of the
-    interpolation is missed by."""
+    """Estimated error of the gap interpolated between neighbouring nodes: half of the most that any of the four
+    nodes around is missed by when it is left out of the interpolation."""
     from scipy.interpolate import PchipInterpolator
 
     log_pressure, missed = np.log(pressure), np.zeros(pressure.size)
     for i in range(1, pressure.size - 1):
         others = np.delete(np.arange(pressure.size), i)[::-1]
         missed[i] = abs(PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i]) - gap[i])
-    return np.maximum(missed[1:], missed[:-1]) / 4
+    near = np.maximum(missed[1:], missed[:-1])
+    wide = np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
+    return wide / 2
 
 
 def _curve(solved: dict, touching_gap: float) -> ContactCurve:

@@ -80,7 +80,7 @@ def test_a_map_is_cut_into_its_pieces_and_those_kept_are_not_solved_again(tmp_pa
         return {"f": float(len(seen)), "low": 0.0, "high": 1.0}
 
     monkeypatch.setattr(pieces, "solve", solve)
-    surface = lubfric.generate_surface((24, 36), 1e-6, sq=1e-7, correlation_length=4e-6, seed=3)
+    surface = lubfric.generate_surface((24, 36), 1e-6, sq=1e-7, correlation_length=2e-6, seed=3)
     np.save(tmp_path / "map.npy", surface.heights)
     scene = lubfric.load_scene("paper").with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 1e-6, "unit": "m"})
     rows = pieces.measured(scene, (2, 3), tmp_path)

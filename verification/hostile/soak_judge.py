@@ -20,7 +20,7 @@ from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
-SECOND_ORDER = 1.0  # times the squared standard error: by what one balance of all lines and one of each may differ
+SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of all lines and one of each may differ
 LOOSE, TIGHT, CANCELS = 2e-3, 3e-4, 0.2  # of a film; f over its parts below which they cancel
 BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
 
