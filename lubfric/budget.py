@@ -27,7 +27,7 @@ TIGHTEST_CONTACT = 1e-9  # of Sq
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
-# what holds where f has not been looked at yet: the tolerances of `Numerics`
+# the most that holds where f has not been looked at yet: see `Numerics.tolerances`
 FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-4, 1e-3
 
 LARGEST_LEFT_OUT = 0.3  # of a film, to first order: beyond it the estimate is none

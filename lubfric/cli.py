@@ -64,6 +64,9 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="keep results outside the range of the model, marked, instead of refusing them",
     )
+    run.add_argument(
+        "--workers", type=int, help="processes that share the speeds of a curve (default: 2 where that pays, else 1)"
+    )
     run.add_argument("--report", action="store_true", help="also write report.html, one page that needs nothing else")
     run.add_argument("--vtk", action="store_true", help="also write the contacts of --fields for ParaView")
     run.set_defaults(command=_run)
@@ -119,6 +122,7 @@ def _oils(arguments) -> int:
 
 
 def _run(arguments) -> int:
+    from .errors import InputError
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
@@ -126,12 +130,13 @@ def _run(arguments) -> int:
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
+    if arguments.workers is not None and (arguments.ratios or scene.transient is not None):
+        raise InputError("--workers shares the speeds of a Stribeck curve; allowed: without --ratios and [transient]")
     if arguments.ratios and scene.transient is None:
         from .curves.command import run_traction
 
         return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
-        from .errors import InputError
         from .unsteady.command import run_history
 
         if arguments.report or arguments.vtk:
@@ -140,7 +145,7 @@ def _run(arguments) -> int:
         return run_history(scene, arguments.out, arguments.animation)
     from .run_sweep import Extras, run_sweep
 
-    more = Extras(arguments.report, arguments.vtk)
+    more = Extras(arguments.report, arguments.vtk, arguments.workers)
     return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
 
 

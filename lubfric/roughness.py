@@ -11,6 +11,7 @@ from typing import Any
 
 from . import validate
 from .errors import InputError
+from .show.brief import Brief
 from .surface.generate import ACFS
 from .surface.prepare import FORMS
 from .surface.table import DECIMALS
@@ -39,8 +40,8 @@ MEASURED = {  # fields of a map from a file
 }
 
 
-@dataclass(frozen=True)
-class Roughness:
+@dataclass(frozen=True, repr=False)
+class Roughness(Brief):
     """Where the height map of a body comes from: a file, or a generated surface.
 
     The keys of a file act in the order in which they stand below.

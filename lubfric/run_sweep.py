@@ -14,6 +14,7 @@ from . import validate
 from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
+from .lines.make import takes_line
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
@@ -22,18 +23,22 @@ from .run_folder import RunFolder, drawn, run_folder
 from .scene import FASTEST, Scene
 from .show.report import report_page
 from .store import fingerprint
+from .studies.pool import pool, processors
 from .sweep import AUTO, stribeck
 from .vtk import vtk_bytes
 
 MOST = 10**6  # speeds of a curve
+WORTH = 8  # speeds from which a second process gains more than it costs
 
 
 @dataclass(frozen=True)
 class Extras:
-    """What else is written: report.html, and contact_0.vtk ... for ParaView."""
+    """What else is written, report.html, and contact_0.vtk ... for ParaView; ``workers``: processes that share the
+    speeds (None: two where that pays)."""
 
     report: bool = False
     vtk: bool = False
+    workers: int | None = None
 
 
 def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, more: Extras = Extras()) -> int:
@@ -44,6 +49,21 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     has is written, then `ConvergenceError` raised.
     """
     asked, chosen = _asked(scene, speeds, fields)
+    with pool(_workers(scene, asked, more.workers)) as executor:
+        return _run(scene, out, (asked, chosen), more, executor)
+
+
+def _workers(scene: Scene, asked, given: int | None) -> int:
+    """Processes that share the speeds ``asked``: as ``given``, else two where there are as many processors, the speeds
+    are enough, and each is solved on a long line. The numbers do not depend on it."""
+    if given is not None:
+        return int(validate.number("--workers", validate.integer("--workers", given, minimum=1), "-", maximum=1024))
+    return 2 if asked != AUTO and len(asked) >= WORTH and takes_line(scene) and processors() > 1 else 1
+
+
+def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
+    """See `run_sweep`; ``speeds``: asked for, and those whose fields are kept; ``executor``: solves them, or None."""
+    asked, chosen = speeds
     begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
@@ -66,7 +86,13 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     ):
         artist.submit(make_ready)  # while the speeds are solved
         curve = stribeck(
-            prepared, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
+            prepared,
+            asked,
+            None if asked == AUTO else executor,
+            fields=chosen,
+            store=folder.unfinished,
+            on_point=on_point,
+            raise_on_failure=False,
         )
         _write(folder, prepared, curve, chosen, pictures)
         record = curve_record(prepared, curve, time.perf_counter() - begun)

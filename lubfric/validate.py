@@ -190,6 +190,16 @@ def nearest(word: Any, options: Iterable) -> str:
     return f" (did you mean {found[0]!r}?)" if found else ""
 
 
+def keys(where: str, given: Iterable, allowed: Iterable[str]) -> None:
+    """Raise `InputError` for a key of ``given`` that is none of ``allowed``."""
+    options = list(allowed)
+    for key in given:
+        if key not in options:
+            raise InputError(
+                f"unknown key {shown(key)} in {where}{nearest(key, options)}; allowed: {', '.join(options)}"
+            )
+
+
 def spacing(name: str, value: Any) -> tuple[float, float]:
     """(dx, dy) in metres; one number means equal spacing."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1

@@ -27,7 +27,8 @@ def load_sharing_answer(
 ) -> FrictionResult:
     """``prepared`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
     speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
-    foretell_ends(prepared, speed)
+    if speed != 0 and (start is None or start.contact_load == 0):  # without film it is the dry contact that is solved
+        foretell_ends(prepared, speed)
     if prepared.lines is not None:
         chosen, line = line_friction(prepared, speed, None if start is None else start.line)
         result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
@@ -48,12 +49,10 @@ def load_sharing_answer(
 
 
 def foretell_ends(prepared: Prepared, speed: float) -> None:
-    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s]."""
-    bodies, film = prepared.scene.bodies, 0.0
-    if speed != 0:
-        line_load = bodies.load / bodies.width
-        film = LineContact(line_load, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant).moes_film
-    prepared.contact.foretell(bodies, film)
+    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s], not 0."""
+    bodies = prepared.scene.bodies
+    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
+    prepared.contact.foretell(bodies, line.moes_film)
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:

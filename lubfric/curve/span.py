@@ -29,7 +29,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
         raise InputError(
             "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
         )
-    if _ratio(scene, sq, SLOWEST) > THIN or _ratio(scene, sq, FASTEST) < THICK:
+    if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
         raise InputError(
             "speeds = 'auto' finds no range from boundary lubrication to a full film; allowed: motion.speed_range"
         )
@@ -43,7 +43,9 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     found = [low, high]
     if sq > 0:
         inside = [
-            ratio for ratio in MIXED if _ratio(scene, sq, low) < 0.9 * ratio and 1.1 * ratio < _ratio(scene, sq, high)
+            ratio
+            for ratio in MIXED
+            if film_ratio(scene, sq, low) < 0.9 * ratio and 1.1 * ratio < film_ratio(scene, sq, high)
         ]
         found += [_speed_of(scene, sq, ratio, low, high) for ratio in inside]
     while len(found) < FEWEST:
@@ -53,7 +55,7 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     return tuple(sorted(found, reverse=True))
 
 
-def _ratio(scene: Scene, sq: float, speed: float) -> float:
+def film_ratio(scene: Scene, sq: float, speed: float) -> float:
     """Moes' film of the whole load over Sq."""
     bodies = scene.bodies
     line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
@@ -61,9 +63,9 @@ def _ratio(scene: Scene, sq: float, speed: float) -> float:
 
 
 def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:
-    """The speed [m/s] between ``low`` and ``high`` at which `_ratio` is ``ratio``."""
+    """The speed [m/s] between ``low`` and ``high`` at which `film_ratio` is ``ratio``."""
 
     def excess(log_speed: float) -> float:
-        return math.log(_ratio(scene, sq, math.exp(log_speed)) / ratio)
+        return math.log(film_ratio(scene, sq, math.exp(log_speed)) / ratio)
 
     return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-6))

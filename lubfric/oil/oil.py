@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..show.brief import Brief
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index
@@ -23,8 +24,8 @@ STEP = 0.05  # K, of a central difference
 Temperatures = Sequence[float] | np.ndarray
 
 
-@dataclass(frozen=True)
-class Oil:
+@dataclass(frozen=True, repr=False)
+class Oil(Brief):
     """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
 
     viscosity_law : kinematic viscosity over temperature, `Walther` (ASTM D341, constant 0.7) or `ViscosityTable`

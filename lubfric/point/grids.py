@@ -69,7 +69,7 @@ def on_enough_cells(
         stage = replace(stage, balance=replace(stage.balance, states=(*states, stage.balance.contact)))
         error = grid_error(changes, stage.balance, limit) if changes else math.inf
         if index == last or error <= limit:
-            grids[index].check(stage.balance.contact)
+            point.prepared.contact.check(stage.balance.contact)
             return stage, index, error
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
             index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None

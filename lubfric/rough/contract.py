@@ -141,10 +141,11 @@ class RoughContact:
         return True
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` where ``state``, of this contact or a part of it, is cut short by its ends."""
+        """Raise `InputError` where ``state``, of this contact, a part of it or coarser cells, is cut short by its
+        ends."""
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """Raise `InputError` where it is clear, before anything is solved, that `check` will: ``film`` [m] is about
+        """Raise `InputError` where it is clear, before any film is solved, that `check` will: ``film`` [m] is about
         what the smooth film of the whole load is."""
 
     def again(self, scene: Scene, old: Scene) -> RoughContact:

@@ -85,29 +85,42 @@ class HalfSpaceContact(HalfSpaceGrid):
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` when the contact reaches the ends of the patch; ``state`` may be of a part of it."""
-        if state.pressure is None or self.x.size <= 2:
-            return
-        step = self.spacing[0]
-        ends = [i for i in (0, -1) if abs(state.x[i] - self.x[i]) < 0.5 * step]
-        share = sum(state.pressure[i].sum() for i in ends) / state.pressure.sum()
+        """Raise `InputError` when the contact reaches the ends of the patch; ``state`` may be of a part of it, or of
+        coarser cells."""
+        share = self._on_the_ends(state)
         if share > edges.ALLOWED:
             raise InputError(
                 f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                f"patch {self.x.size * step:.3g} m long; {LONGER}"
+                f"patch {self.x.size * self.spacing[0]:.3g} m long; {LONGER}"
             )
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """By a row of springs (`lubfric.rough.edges`)."""
-        if film > edges.FILM * self.sq or self.hardness is not None:
-            return
+        """By a dry contact, where a closed form does not rule it out (`lubfric.rough.edges`)."""
         line_load = bodies.load / bodies.width
-        share = edges.edge_share(self.heights, self.spacing, self.x, line_load, bodies.radius, bodies.e_prime)
-        if share > edges.SURE * edges.ALLOWED:
+        if film > edges.FILM * self.sq or self._given_way(bodies):
+            return
+        if not edges.within_reach(self.x, self.sq, line_load, bodies.radius, bodies.e_prime):
+            return
+        dry = self.tightened(edges.TOLERANCE).close(self.x**2 / (2 * bodies.radius), bodies.load)
+        share = self._on_the_ends(dry)
+        if edges.clear(share, film / max(self.sq, 1e-300)):
             raise InputError(
-                f"contact.shape: about {100 * share:.2g} % of the load of a dry contact would sit on the edge columns "
-                f"of a patch {self.x.size * self.spacing[0]:.3g} m long (foretold, nothing was solved); {LONGER}"
+                f"contact.shape: {100 * share:.2g} % of the load of a dry contact sits on the edge columns of a patch "
+                f"{self.x.size * self.spacing[0]:.3g} m long (foretold, no film was solved); {LONGER}"
             )
+
+    def _given_way(self, bodies: Bodies) -> bool:
+        """Whether the patch, all of it at its hardness, carries less than the whole load: no dry contact to look at."""
+        length = self.x.size * self.spacing[0]
+        return self.hardness is not None and self.hardness * length * self.width <= bodies.load
+
+    def _on_the_ends(self, state: ContactState) -> float:
+        """Share of the load on the edge columns; one of coarser cells counts by the part of it that is one of these."""
+        if state.pressure is None or self.x.size <= 2:
+            return 0.0
+        cell, step = state.x[1] - state.x[0], self.spacing[0]
+        ends = [i for i in (0, -1) if abs(abs(state.x[i] - self.x[i]) - 0.5 * (cell - step)) < 0.25 * step]
+        return step / cell * float(sum(state.pressure[i].sum() for i in ends) / state.pressure.sum())
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
         """With the same operator."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .. import validate
+from .. import budget, validate
 from ..errors import InputError
+from ..show.brief import Brief
 
 MOST_THREADS = 1024
 CAVITATED_SHEAR = ("none", "striated")
@@ -29,8 +30,8 @@ class Tolerances:
     balance: float
 
 
-@dataclass(frozen=True)
-class Numerics:
+@dataclass(frozen=True, repr=False)
+class Numerics(Brief):
     """How accurately, and how much, a scene is solved. Tolerances are relative.
 
     Attributes
@@ -102,18 +103,11 @@ class Numerics:
         validate.boolean("numerics.accept", self.accept)
 
     @property
-    def forced_film_level(self) -> str:
-        """Film level given by name, by ``model = "full"`` or by the total deflection, which rigid films have none of;
-        "auto" where it is to be chosen."""
-        numerical = self.model == "full" or self.film_deflection == "total"
-        return "ehl" if numerical and self.film_level == "auto" else self.film_level
-
-    @property
     def tolerances(self) -> Tolerances:
         """As given, or as they follow from ``tolerance``."""
         asked = self.tolerance
         return Tolerances(
-            film=self.film_tolerance or min(0.3 * asked, 0.01),
-            contact=self.contact_tolerance or min(1e-2 * asked, 1e-4),
-            balance=self.balance_tolerance or min(5e-2 * asked, 1e-3),
+            film=self.film_tolerance or min(budget.FILM_GRID * asked, budget.FIRST_FILM),
+            contact=self.contact_tolerance or min(budget.CONTACT * asked, budget.FIRST_CONTACT),
+            balance=self.balance_tolerance or min(budget.BALANCE * asked, budget.FIRST_VOLUME),
         )

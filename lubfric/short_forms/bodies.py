@@ -75,9 +75,8 @@ def _of_materials(names) -> dict:
 def _load(given: dict, old, pressure: float) -> float:
     """Load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
     validate.number("bodies.hertz_pressure", pressure, "Pa", minimum=1e3, maximum=1e11)
-    values = {}
-    for key in ("radius", "width", "e_prime"):
-        if key not in given and old is None:
-            raise InputError(f"[bodies] hertz_pressure needs {key!r} as well")
-        values[key] = validate.positive(f"bodies.{key}", given.get(key, getattr(old, key, None)), "")
+    needed = ("radius", "width", "e_prime")
+    if missing := [repr(key) for key in needed if key not in given and old is None]:
+        raise InputError(f"[bodies] hertz_pressure needs {', '.join(missing)} as well")
+    values = {key: validate.positive(f"bodies.{key}", given.get(key, getattr(old, key, None)), "") for key in needed}
     return 2 * math.pi * values["radius"] * pressure**2 / values["e_prime"] * values["width"]

@@ -27,11 +27,7 @@ def load_study(path) -> StudyPlan:
     """
     path = Path(path)
     table = _table(path)
-    for key in table:
-        if key not in KEYS:
-            raise InputError(
-                f"unknown key {key!r} in {path.name}{validate.nearest(key, KEYS)}; allowed: {', '.join(KEYS)}"
-            )
+    validate.keys(path.name, table, KEYS)
     name = table.get("scene")
     if not isinstance(name, str):
         raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')

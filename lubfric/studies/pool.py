@@ -11,21 +11,31 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 
 WATCH = 0.2  # s between two looks at whether the command still lives
+LAST = 2.0  # s that an interrupted process is waited for
+
+
+def processors() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager
 def pool(workers: int):
-    """An executor of ``workers`` processes, or None for one: this process itself."""
+    """An executor of ``workers`` processes, which begin at once, or None for one: this process itself."""
     if workers == 1:
         yield None
         return
     executor = ProcessPoolExecutor(workers, initializer=_follow, initargs=(os.getpid(),))
     try:
+        for _ in range(workers):
+            executor.submit(os.getpid)
         yield executor
     except BaseException:
         executor.shutdown(wait=False, cancel_futures=True)
         for process in multiprocessing.active_children():
             process.terminate()
+        for process in multiprocessing.active_children():
+            process.join(LAST)
         raise
     executor.shutdown()
 
