@@ -56,14 +56,10 @@ def stribeck(
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
-    motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
-        return _judged(auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point), raise_on_failure)
-    if speeds is None:
-        speeds = motion.speeds or (motion.entrainment_speed,)
-    if isinstance(speeds, (Real, np.number)):
-        speeds = [speeds]
-    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
+        found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
+        return _judged(found, raise_on_failure)
+    speeds = _given(speeds, scene_of(scene).motion)
     prepared = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points: list[FrictionResult | None] = [None] * speeds.size
@@ -83,6 +79,15 @@ def stribeck(
         fault.result = collected(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
         raise
     return _judged(collected(speeds, points, errors), raise_on_failure)
+
+
+def _given(speeds, motion) -> np.ndarray:
+    """Speeds [m/s] asked, one or many, or those of the scene."""
+    if speeds is None:
+        speeds = motion.speeds or (motion.entrainment_speed,)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    return validate.array("speeds", speeds, "m/s", ndim=1).copy()
 
 
 def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
