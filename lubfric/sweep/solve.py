@@ -59,10 +59,8 @@ def stribeck(
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
-        found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
-        return _judged(found, raise_on_failure)
-    if speeds is None:
-        speeds = motion.speeds or (motion.entrainment_speed,)
+        return _judged(auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point), raise_on_failure)
+    speeds = motion.speeds or (motion.entrainment_speed,) if speeds is None else speeds
     if isinstance(speeds, (Real, np.number)):
         speeds = [speeds]
     speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
