@@ -16,7 +16,8 @@ CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
 CONTACT = 1e-2  # solver of the rough contact
 DEFLECTION = 0.5  # leaving the pressure of the contact out of the deflection of the film
-HEAT = 0.2  # what leaving heat out changes: of the film by the inlet, of f by film and flash temperature
+HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
+INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f

@@ -23,7 +23,8 @@ def _figure(*args, **kwargs):
 
 
 def make_ready() -> None:
-    """Import what draws, and its letters: half a second that can pass while something else is computed."""
+    """Import matplotlib and load its fonts. That takes half a second, which can pass while something else is
+    computed."""
     figure = _figure(figsize=(1, 1))
     figure.subplots()
     figure.savefig(io.BytesIO())
@@ -83,7 +84,8 @@ def plot_stribeck(
 
 
 def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
-    """Ring the points at which an assumption fails, cross out those that it makes meaningless, and say which below."""
+    """Ring the points at which an assumption fails, and cross out those where it makes f meaningless. Say below
+    which."""
     if not any(entries):
         return
     severe = np.array([any(entry.severe for entry in told) for told in entries])
@@ -99,11 +101,11 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 
 
 def plot_contact(path: Path, prepared, point) -> None:
-    """Contact pressure map, and film, separation and surface on a section through the highest pressure.
+    """Contact pressure map; beside it film, separation and surface on a section through the highest pressure.
 
-    ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
-    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in
-    which u has zero mean over the section.
+    ``point``: a `FrictionResult` with fields. The section shows what the paper's Fig. 10 shows: the smooth film h, the
+    separation h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z). epsilon and u are known up to one
+    constant. It is chosen so that u has zero mean over the section.
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
@@ -123,7 +125,7 @@ def plot_contact(path: Path, prepared, point) -> None:
 
 
 def _place_on_the_line(axes, prepared, point, row) -> None:
-    """Of a long line the part around the section, about twice as long as wide, and where it lies."""
+    """Of a long line, draw only the part around the section, about twice as long as wide, and say where it lies."""
     step, (across, along) = prepared.surface.spacing[1], prepared.surface.size
     if prepared.lines is None or along < WHOLE * across:
         return

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 from ..lines.pieces import line_contact
 from ..point.adapt import Solved, solved
-from ..point.balance import Balance, Lubricated, balanced, divided, separated
+from ..point.balance import Balance, Lubricated, balanced, separated
 from ..point.deflection import solved_as_deflected
+from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact

@@ -114,15 +114,19 @@ class Pooled:
 
 def pooled(records) -> Pooled:
     """The mean over ``records``; their errors add as independent ones do. A line without contact is as uncertain, for
-    its length, as those with it."""
+    its length, as those with it. Under one film the gaps of all lines are averaged, which fall as the logarithm of the
+    load: so the mean of the loads at which each fills its film is geometric, where every line touches."""
     length = sum(r.length for r in records)
 
     def mean(name):
         return sum(r.length * getattr(r, name) for r in records) / length
 
+    loads = [r.contact_load for r in records]
+    logs = [r.length * math.log(r.contact_load) for r in records] if min(loads) > 0 else None
+
     return Pooled(
         length,
-        mean("contact_load"),
+        mean("contact_load") if logs is None else math.exp(sum(logs) / length),
         _over_lines(records, "gap"),
         _over_lines(records, "area"),
         _over_lines(records, "touched"),

@@ -32,7 +32,7 @@ def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
         if coarse is None:
             break
         thickness, shape = at(prepared, speed, coarse, balance.lubricated).film_on(coarse, balance.lubricated.film)
-        found.append(coarse.close(thickness, balance.contact_load, None, shape).volume_residual)
+        found.append(coarse.close(thickness, balance.contact_load, balance.contact, shape).volume_residual)
     if len(found) == 1:
         return math.nan
     return 2 * balance.forces.sensitivity * half_again([a - b for a, b in zip(found, found[1:])])

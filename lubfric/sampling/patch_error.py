@@ -113,7 +113,9 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
     per_gap = response.relative("coefficient", 1.0)
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
     area = 0.0 if decision.grid_error is None else math.nan
-    return Numerical(film_error(point), volume + grid, point.balance.forces.quadrature, area)
+    return Numerical(
+        film_error(point), volume + grid + balance.contact.gap_error, point.balance.forces.quadrature, area
+    )
 
 
 def _from_slope(point: Solved) -> Response:

@@ -10,7 +10,8 @@ from .. import budget
 from ..lines.contract import Lines
 from ..lines.length import LONGEST, MOST, MOST_CELLS, next_length
 from ..point.adapt import Solved
-from ..point.balance import Balance, divided
+from ..point.balance import Balance
+from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
