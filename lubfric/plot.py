@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import io
-import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -29,10 +30,17 @@ def make_ready() -> None:
     figure.savefig(io.BytesIO())
 
 
-def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:
+def plot_stribeck(
+    path: Path,
+    columns: dict[str, np.ndarray],
+    title: str,
+    entries: Sequence[Sequence[Any]],
+    measured=None,
+) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
+    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out. ``entries``: row by
+    row, the assumptions that do not hold (`lubfric.validity.entry.Validity`).
     ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """
     from matplotlib.ticker import LogLocator, NullFormatter
@@ -53,7 +61,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
         error = None if measured.deviation is None else 1.96 * measured.deviation
         top.errorbar(np.abs(measured.x), measured.coefficient, error, fmt="D", ms=4, color="k", mfc="none", lw=1)
         top.plot([], [], "D", ms=4, color="k", mfc="none", label=measured.source)
-    _mark(figure, top, speed, c)
+    _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
     top.set_ylabel("friction coefficient (-)")
     lowest = c["coefficient"].min() if measured is None else min(c["coefficient"].min(), measured.coefficient.min())
     top.set_ylim(bottom=min(0, 1.1 * lowest))
@@ -75,22 +83,20 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
     figure.savefig(path, dpi=150)
 
 
-def _mark(figure, axes, speed, columns) -> None:
+def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
     """Ring the points at which an assumption fails, and cross out those where it makes f meaningless. Say below
     which."""
-    told = columns.get("validity")
-    if told is None or not any(told):
+    if not any(entries):
         return
-    severe = np.array(["not valid: " in text for text in told])
-    minor = np.array([bool(text) for text in told]) & ~severe
+    severe = np.array([any(entry.severe for entry in told) for told in entries])
+    minor = np.array([bool(told) for told in entries]) & ~severe
     for chosen, marker, color, label in (
         (minor, "o", GREY, "with cautions"),
         (severe, "x", RED, "no answer (accepted)"),
     ):
         if chosen.any():
-            axes.plot(speed[chosen], columns["coefficient"][chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    heads = dict.fromkeys(entry.split(": ")[1] for text in told for entry in text.split(" | ") if entry)
-    names = list(dict.fromkeys(re.split(r" [-\d.]+(?:e[+-]?\d+)?(?: \S+)?, ", head)[0] for head in heads))
+            axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    names = dict.fromkeys(entry.what for told in entries for entry in told)
     figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
 
 

@@ -141,7 +141,8 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), prepared.scene.name)
+        columns, told = read_csv(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
+        folder.draw("stribeck.png", plot_stribeck, columns, prepared.scene.name, told)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))

@@ -28,12 +28,14 @@ BASES = tuple(GOLD)
 
 @dataclass(frozen=True)
 class Estimate:
-    """A pressure-viscosity coefficient [1/Pa], the bounds [1/Pa] within which measured oils lie, and its source."""
+    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, its source in
+    words, and the name of the method, "gold" or "so-klaus" ("": given, not estimated)."""
 
     value: float
     low: float
     high: float
     source: str
+    method: str = ""
 
     @property
     def text(self) -> str:
@@ -56,7 +58,7 @@ def gold(nu: float, base: str) -> Estimate:
     s, t = GOLD[base]
     value = s * (nu * 1e6) ** t * 1e-9
     low, high = GOLD_RANGE[base]
-    return Estimate(value, low * value, high * value, "Gold et al. (2001)")
+    return Estimate(value, low * value, high * value, "Gold et al. (2001)", "gold")
 
 
 def so_klaus(nu: float, slope: float, density: float) -> Estimate:
@@ -74,4 +76,4 @@ def so_klaus(nu: float, slope: float, density: float) -> Estimate:
     l = math.log10(nu * 1e6)
     fitted = 1.216 + 4.143 * l**3.0627 + 2.848e-4 * slope**5.1903 * l**1.5976 - 3.999 * l**3.0975 * rho**0.1162
     value = fitted * 1e-8
-    return Estimate(value, SO_KLAUS_RANGE[0] * value, SO_KLAUS_RANGE[1] * value, "So and Klaus (1980)")
+    return Estimate(value, SO_KLAUS_RANGE[0] * value, SO_KLAUS_RANGE[1] * value, "So and Klaus (1980)", "so-klaus")
