@@ -64,6 +64,9 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="keep results outside the range of the model, marked, instead of refusing them",
     )
+    run.add_argument(
+        "--workers", type=int, help="processes that share the speeds of a curve (default: 2 where that pays, else 1)"
+    )
     run.add_argument("--report", action="store_true", help="also write report.html, one page that needs nothing else")
     run.add_argument("--vtk", action="store_true", help="also write the contacts of --fields for ParaView")
     run.set_defaults(command=_run)
@@ -119,6 +122,7 @@ def _oils(arguments) -> int:
 
 
 def _run(arguments) -> int:
+    from .errors import InputError
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
@@ -126,12 +130,13 @@ def _run(arguments) -> int:
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
+    if arguments.workers is not None and (arguments.ratios or scene.transient is not None):
+        raise InputError("--workers shares the speeds of a Stribeck curve; allowed: without --ratios and [transient]")
     if arguments.ratios and scene.transient is None:
         from .curves.command import run_traction
 
         return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
-        from .errors import InputError
         from .unsteady.command import run_history
 
         if arguments.report or arguments.vtk:
@@ -140,7 +145,7 @@ def _run(arguments) -> int:
         return run_history(scene, arguments.out, arguments.animation)
     from .run_sweep import Extras, run_sweep
 
-    more = Extras(arguments.report, arguments.vtk)
+    more = Extras(arguments.report, arguments.vtk, arguments.workers)
     return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
 
 
@@ -165,6 +170,7 @@ def _plot(arguments) -> int:
     from .plot import plot_stribeck
     from .store import whole_file
     from .unsteady.command import plot_again
+    from .validity.entry import Validity
 
     if plot_again(arguments.folder):
         return 0
@@ -174,12 +180,15 @@ def _plot(arguments) -> int:
             raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
     record = arguments.folder / "result.json"
     try:
-        name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
-    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        found = json.loads(record.read_text(encoding="utf-8"))
+        name, told = found["scene"]["name"], [[Validity(**e) for e in p.get("validity", ())] for p in found["points"]]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
         raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
-    measured = _measured(arguments)
+    measured, columns = _measured(arguments), read_csv(source)
+    if len(columns["speed"]) != len(told):
+        raise InputError(f"{source} has {len(columns['speed'])} speeds and {record} {len(told)}; allowed: of one run")
     with whole_file(arguments.folder / "stribeck.png") as part:
-        plot_stribeck(part, read_csv(source), str(name), measured)
+        plot_stribeck(part, columns, str(name), told, measured)
     return 0
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from .errors import InputError
 from .oil.oil import Oil
 from .oil.temperature import checked_temperature
+from .show.brief import Brief
 from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -25,8 +26,8 @@ VISCOSITY_LAWS = ("roelands", "barus", "constant")
 DENSITY_LAWS = ("constant", "dowson-higginson")
 
 
-@dataclass(frozen=True)
-class Lubricant:
+@dataclass(frozen=True, repr=False)
+class Lubricant(Brief):
     """A lubricant at one temperature.
 
     Parameters

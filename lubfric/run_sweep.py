@@ -14,6 +14,7 @@ from . import validate
 from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
+from .lines.make import takes_line
 from .output import csv_bytes, curve_record, fields_bytes, read_csv
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
@@ -22,28 +23,47 @@ from .run_folder import RunFolder, drawn, run_folder
 from .scene import FASTEST, Scene
 from .show.report import report_page
 from .store import fingerprint
+from .studies.pool import pool, processors
 from .sweep import AUTO, stribeck
 from .vtk import vtk_bytes
 
 MOST = 10**6  # speeds of a curve
+WORTH = 8  # speeds from which a second process gains more than it costs
 
 
 @dataclass(frozen=True)
 class Extras:
-    """What else is written: report.html, and contact_0.vtk ... for ParaView."""
+    """What else is written, report.html, and contact_0.vtk ... for ParaView; ``workers``: processes that share the
+    speeds (None: two where that pays)."""
 
     report: bool = False
     vtk: bool = False
+    workers: int | None = None
 
 
 def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, more: Extras = Extras()) -> int:
-    """Compute and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
 
-    The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run
-    has is written, then `ConvergenceError` raised.
+    The scene is checked and made ready before ``out`` is touched. The results of an earlier run stay until those of
+    this one are there. Every point is on disk when it ends, so an interrupted run goes on from there. A failed run
+    writes what it has, then raises `ConvergenceError`.
     """
     asked, chosen = _asked(scene, speeds, fields)
+    with pool(_workers(scene, asked, more.workers)) as executor:
+        return _run(scene, out, (asked, chosen), more, executor)
+
+
+def _workers(scene: Scene, asked, given: int | None) -> int:
+    """Processes that share the speeds ``asked``: as ``given``, else two where there are as many processors, the speeds
+    are enough, and each is solved on a long line. The numbers do not depend on it."""
+    if given is not None:
+        return int(validate.number("--workers", validate.integer("--workers", given, minimum=1), "-", maximum=1024))
+    return 2 if asked != AUTO and len(asked) >= WORTH and takes_line(scene) and processors() > 1 else 1
+
+
+def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
+    """See `run_sweep`; ``speeds``: asked for, and those whose fields are kept; ``executor``: solves them, or None."""
+    asked, chosen = speeds
     begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
@@ -66,7 +86,13 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     ):
         artist.submit(make_ready)  # while the speeds are solved
         curve = stribeck(
-            prepared, asked, fields=chosen, store=folder.unfinished, on_point=on_point, raise_on_failure=False
+            prepared,
+            asked,
+            None if asked == AUTO else executor,
+            fields=chosen,
+            store=folder.unfinished,
+            on_point=on_point,
+            raise_on_failure=False,
         )
         _write(folder, prepared, curve, chosen, pictures)
         record = curve_record(prepared, curve, time.perf_counter() - begun)
@@ -83,7 +109,7 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
 
 
 def _doubts(curve) -> tuple[str, ...]:
-    """What the errors of f say beside numbers: at how many speeds, and at the first of them in full."""
+    """What the errors of f say in words: at how many speeds, and in full for the first of them."""
     told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
     if not told:
         return ()
@@ -111,11 +137,12 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
 
 
 def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Future[bytes]]) -> None:
-    """All but the result; ``pictures``: of contacts by speed, drawn or being drawn."""
+    """Write everything but result.json. ``pictures``: of contacts, by speed; they may still be being drawn."""
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), prepared.scene.name)
+        columns, told = read_csv(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
+        folder.draw("stribeck.png", plot_stribeck, columns, prepared.scene.name, told)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))
@@ -130,7 +157,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
 
 
 def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:
-    """The page and the files for ParaView, where they are asked for."""
+    """Write the page and the files for ParaView, where they are asked for."""
     if more.vtk:
         touching = [p for p in curve.points if p is not None and p.shows_contact]
         for i, point in enumerate(touching):
@@ -166,7 +193,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
 
 
 def _with_chosen(speeds, chosen):
-    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
+    """``speeds`` with the chosen ones put in, and the chosen ones as they stand among them."""
     own = []
     for speed in chosen:
         near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tomllib
 from copy import deepcopy
-from dataclasses import MISSING, fields
+from dataclasses import fields
 from importlib import resources
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from .lubricant import Lubricant
 from .plausible import told_slips
 from .roughness import GENERATED, Roughness, check_keys, named
 from .scene import Bodies, ContactDomain, Motion, Numerics, Scene
+from .scene_missing import check_complete
 from .short_forms import resolve, short_keys
 
 SECTIONS = {
@@ -28,15 +29,6 @@ SECTIONS = {
     "contact": ContactDomain,
     "numerics": Numerics,
     "transient": Transient,
-}
-INSTEAD = {  # of a missing key
-    (
-        "lubricant",
-        "viscosity",
-    ): " in Pa s, or an oil: grade and viscosity_index, or nu40 and nu100, with its temperature",
-    ("bodies", "e_prime"): " in Pa, or material, or young_modulus and poisson_ratio",
-    ("bodies", "radius"): " in m, or radii of both bodies",
-    ("bodies", "load"): " in N, or hertz_pressure in Pa",
 }
 OPTIONAL = ("counterface", "contact", "numerics", "transient")
 ROUGH = ("surface", "counterface")
@@ -121,13 +113,14 @@ def builtin_scenes() -> tuple[str, ...]:
 def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
     allowed = ("name", *SECTIONS)
-    _known("scene", table, allowed)
+    validate.keys("scene", table, allowed)
     for section in SECTIONS:
-        if section not in table and section not in OPTIONAL:
-            raise InputError(f"scene {name} has no [{section}] table")
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
     table, plan = _plan(table, folder)
+    for section in (s for s in SECTIONS if s in table and s != "transient"):
+        validate.keys(f"[{section}]", table[section], _keys(section))
+    check_complete(name, table, {s: kind for s, kind in SECTIONS.items() if s not in OPTIONAL}, ROUGH)
     parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in (*ROUGH, "transient")}
     for section in ROUGH:
         if section in table:
@@ -138,7 +131,6 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
 
 
 def _rough(section: str, given: dict, folder: Path) -> Roughness:
-    _known(f"[{section}]", given, [f.name for f in fields(Roughness)])
     if isinstance(given.get("file"), str):
         given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
     with named(section):
@@ -147,8 +139,11 @@ def _rough(section: str, given: dict, folder: Path) -> Roughness:
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
-    """The `Transient` of the histories in [transient] and, as inline tables, in the sections they belong to; these
-    then hold the plain value: the largest load, else the value at the start."""
+    """The `Transient` of a scene, and the table without its histories.
+
+    Histories stand in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
+    plain value: the largest load, else the value at the start.
+    """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
     found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
@@ -191,27 +186,14 @@ def _text(source) -> tuple[str, Path, str]:
         raise InputError(f"scene {str(source)!r} cannot be read as UTF-8 text: {error}") from None
 
 
-def _known(where: str, table: dict, allowed) -> None:
-    for key in table:
-        if key not in allowed:
-            raise InputError(
-                f"unknown key {validate.shown(key)} in {where}{validate.nearest(key, allowed)}; allowed: "
-                f"{', '.join(allowed)}"
-            )
-
-
 def _build(section: str, table: dict):
-    kind = SECTIONS[section]
-    names = [f.name for f in fields(kind)]
-    histories = ("sliding_speed",) if section == "motion" else ()
-    _known(f"[{section}]", table, (*names, *short_keys(section), *histories))
+    validate.keys(f"[{section}]", table, _keys(section))
     with told_slips(section, dict(table)):
-        return _made(section, kind, resolve(section, table))
+        plain = resolve(section, table)
+        return SECTIONS[section](**{k: tuple(v) if isinstance(v, list) else v for k, v in plain.items()})
 
 
-def _made(section: str, kind, table: dict):
-    """The section ``kind`` of plain fields."""
-    for f in fields(kind):
-        if f.default is MISSING and f.default_factory is MISSING and f.name not in table:
-            raise InputError(f"[{section}] needs {f.name!r}{INSTEAD.get((section, f.name), '')}")
-    return kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in table.items()})
+def _keys(section: str) -> tuple[str, ...]:
+    """All keys of a section, short forms and histories too."""
+    histories = ("sliding_speed",) if section == "motion" else ()
+    return (*(f.name for f in fields(SECTIONS[section])), *short_keys(section), *histories)

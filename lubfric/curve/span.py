@@ -17,8 +17,8 @@ SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
 def span(scene: Scene, sq: float) -> tuple[float, float]:
-    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that
-    Moes' formula gives the whole load is 0.02 and 10 times Sq.
+    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
+    which Moes' film of the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for a smooth surface without speeds, which has no such range.
     """
@@ -29,7 +29,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
         raise InputError(
             "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
         )
-    if _ratio(scene, sq, SLOWEST) > THIN or _ratio(scene, sq, FASTEST) < THICK:
+    if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
         raise InputError(
             "speeds = 'auto' finds no range from boundary lubrication to a full film; allowed: motion.speed_range"
         )
@@ -37,13 +37,18 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.4,
-    1.2, 2.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
+    """The speeds [m/s] to begin with, fastest first, at least 5.
+
+    They are both ends of `span`, and where Moes' film of the whole load is 0.4, 1.2, 2.5 and 4.5 times Sq. There rough
+    line contacts pass from contact to film.
+    """
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:
         inside = [
-            ratio for ratio in MIXED if _ratio(scene, sq, low) < 0.9 * ratio and 1.1 * ratio < _ratio(scene, sq, high)
+            ratio
+            for ratio in MIXED
+            if film_ratio(scene, sq, low) < 0.9 * ratio and 1.1 * ratio < film_ratio(scene, sq, high)
         ]
         found += [_speed_of(scene, sq, ratio, low, high) for ratio in inside]
     while len(found) < FEWEST:
@@ -53,7 +58,7 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     return tuple(sorted(found, reverse=True))
 
 
-def _ratio(scene: Scene, sq: float, speed: float) -> float:
+def film_ratio(scene: Scene, sq: float, speed: float) -> float:
     """Moes' film of the whole load over Sq."""
     bodies = scene.bodies
     line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
@@ -61,9 +66,9 @@ def _ratio(scene: Scene, sq: float, speed: float) -> float:
 
 
 def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:
-    """The speed [m/s] between ``low`` and ``high`` at which `_ratio` is ``ratio``."""
+    """The speed [m/s] between ``low`` and ``high`` at which `film_ratio` is ``ratio``."""
 
     def excess(log_speed: float) -> float:
-        return math.log(_ratio(scene, sq, math.exp(log_speed)) / ratio)
+        return math.log(film_ratio(scene, sq, math.exp(log_speed)) / ratio)
 
     return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-6))

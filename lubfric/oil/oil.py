@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from ..show.brief import Brief
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index
@@ -23,8 +24,8 @@ STEP = 0.05  # K, of a central difference
 Temperatures = Sequence[float] | np.ndarray
 
 
-@dataclass(frozen=True)
-class Oil:
+@dataclass(frozen=True, repr=False)
+class Oil(Brief):
     """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
 
     viscosity_law : kinematic viscosity over temperature, `Walther` (ASTM D341, constant 0.7) or `ViscosityTable`
@@ -77,10 +78,10 @@ class Oil:
     @overload
     def density_at(self, temperature: Temperatures) -> np.ndarray: ...
     def density_at(self, temperature: float | Temperatures) -> float | np.ndarray:
-        """rho [kg/m³] at ``temperature`` [K], one or an array of them: that at 15 °C less ``density_slope`` times the
-        distance from there.
+        """Density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
-        A straight line, good to some 0.5 % between 0 and 100 °C.
+        It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
+        some 0.5 % between 0 and 100 °C.
         """
         slope = DENSITY_SLOPE[self.base] if self.density_slope is None else self.density_slope
         return at_each(lambda t: self.density_15 - slope * (checked_temperature(t) - AT_15), temperature)
@@ -114,14 +115,16 @@ class Oil:
         return log(self.viscosity(low) / self.viscosity(high)) / (high - low)
 
     def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:
-        """alpha at ``temperature`` [K] with the range in which measured oils lie; as given where it is known."""
+        """alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
+        returned as given."""
         if self.alpha is not None:
             return Estimate(self.alpha, self.alpha, self.alpha, "the scene")
         method = self.estimate or ("so-klaus" if self.base == "mineral" else "gold")
         return self._estimated(method, temperature)
 
     def other_estimate(self, temperature: float) -> Estimate | None:
-        """alpha by the estimate that was not chosen, where there is one: their difference is a warning."""
+        """alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is a
+        warning."""
         if self.alpha is not None or self.base != "mineral":
             return None
         return self._estimated("gold" if self.estimate in (None, "so-klaus") else "so-klaus", temperature)

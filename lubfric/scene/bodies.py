@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from .. import validate
 from ..analytic import hertz
 from ..errors import InputError
+from ..show.brief import Brief
 
 
-@dataclass(frozen=True)
-class Bodies:
+@dataclass(frozen=True, repr=False)
+class Bodies(Brief):
     """The line contact: a cylinder on a plane, or the nominally flat strip under it.
 
     Attributes

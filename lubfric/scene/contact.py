@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from .. import validate
 from ..errors import InputError
+from ..show.brief import Brief
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
@@ -15,8 +16,8 @@ CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 
 
-@dataclass(frozen=True)
-class ContactDomain:
+@dataclass(frozen=True, repr=False)
+class ContactDomain(Brief):
     """The part of the contact that is resolved, and how the two models meet on it.
 
     Attributes

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import validate
+from ..show.brief import Brief
 
 FASTEST = 1e6  # m/s
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, repr=False)
+class Motion(Brief):
     """Speeds of the two surfaces. Surface 2 is the upper one, on which the shear is taken (paper, Eq. 12).
 
     Attributes

@@ -9,6 +9,7 @@ from ..errors import InputError
 from ..history.plan import Transient
 from ..lubricant import Lubricant
 from ..roughness import Roughness
+from ..show.scene import SceneShown
 from .bodies import Bodies
 from .change import changed_section
 from .contact import ContactDomain
@@ -16,8 +17,8 @@ from .motion import Motion
 from .numerics import Numerics
 
 
-@dataclass(frozen=True)
-class Scene:
+@dataclass(frozen=True, repr=False)
+class Scene(SceneShown):
     """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
 
     Attributes
@@ -57,6 +58,7 @@ class Scene:
             if section not in self.__dataclass_fields__:
                 raise InputError(
                     f"scene has no section {section!r}{validate.nearest(section, self.__dataclass_fields__)}"
+                    f"{_dotted(section, values)}"
                 )
             changed[section] = changed_section(section, getattr(self, section), values)
         return replace(self, **changed)
@@ -66,6 +68,12 @@ class Scene:
         from ..scene_text import scene_as_toml
 
         return scene_as_toml(self)
+
+
+def _dotted(key: str, value) -> str:
+    """How to write what a key with its section in front, such as ``numerics.tolerance``, was meant to say."""
+    section, _, name = key.partition(".")
+    return f"; allowed: with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 
 
 def scene_as_dict(scene: Scene) -> dict:

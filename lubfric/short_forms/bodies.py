@@ -15,8 +15,13 @@ PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyra
 
 
 def resolve(given: dict, old) -> dict:
-    """``radii`` [m]; ``material``, or ``young_modulus`` [Pa] with ``poisson_ratio``; ``hardness_hv`` -> hardness
-    10.58 MPa HV (load over the projected area of the indentation); ``hertz_pressure`` [Pa], the peak -> load."""
+    """Plain fields of [bodies].
+
+    - ``radii`` [m] of both bodies become the reduced radius.
+    - ``material``, or ``young_modulus`` [Pa] with ``poisson_ratio``, becomes E'.
+    - ``hardness_hv`` becomes the hardness, 10.58 MPa HV (load over the projected area of the indentation).
+    - ``hertz_pressure`` [Pa], the peak, becomes the load.
+    """
     only_one("bodies", given, "radius", "radii")
     only_one("bodies", given, "e_prime", "material", "young_modulus+poisson_ratio")
     only_one("bodies", given, "hardness", "hardness_hv")
@@ -75,9 +80,8 @@ def _of_materials(names) -> dict:
 def _load(given: dict, old, pressure: float) -> float:
     """Load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
     validate.number("bodies.hertz_pressure", pressure, "Pa", minimum=1e3, maximum=1e11)
-    values = {}
-    for key in ("radius", "width", "e_prime"):
-        if key not in given and old is None:
-            raise InputError(f"[bodies] hertz_pressure needs {key!r} as well")
-        values[key] = validate.positive(f"bodies.{key}", given.get(key, getattr(old, key, None)), "")
+    needed = ("radius", "width", "e_prime")
+    if missing := [repr(key) for key in needed if key not in given and old is None]:
+        raise InputError(f"[bodies] hertz_pressure needs {', '.join(missing)} as well")
+    values = {key: validate.positive(f"bodies.{key}", given.get(key, getattr(old, key, None)), "") for key in needed}
     return 2 * math.pi * values["radius"] * pressure**2 / values["e_prime"] * values["width"]

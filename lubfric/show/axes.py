@@ -65,7 +65,7 @@ def history_axes(history, ax=None):
     scale, unit = time_scale(float(history.time[-1]))
     time, contact = history.time * scale, history.boundary_force * sense / history.load
     low, high = history.uncertainty.interval.T
-    if np.isfinite(low).any():
+    if (high > low).any():
         axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
     axes.plot(time, history.coefficient, color=BLUE, label="friction coefficient")
     axes.plot(time, contact, "--", color=RED, lw=1, label="from the contact spots")
@@ -87,13 +87,19 @@ def time_scale(longest: float) -> tuple[float, str]:
 
 
 def loop_axes(history, ax=None):
-    """Friction over entrainment speed of a `lubfric.TransientResult`: its hysteresis loop, the start marked."""
+    """Friction over entrainment speed of a `lubfric.TransientResult`: its hysteresis loop, the start marked.
+
+    At a standstill no friction coefficient is defined, and none is drawn.
+    """
     axes = axes_or_new(ax)
-    axes.plot(history.entrainment_speed, history.coefficient, color=BLUE)
-    axes.plot(history.entrainment_speed[:1], history.coefficient[:1], "o", color=GREY, label="start")
+    moving = (history.entrainment_speed != 0) | (history.sliding_speed != 0)
+    speed, friction = history.entrainment_speed, np.where(moving, history.coefficient, np.nan)
+    axes.plot(speed, friction, color=BLUE)
+    begin = np.flatnonzero(moving)[:1]
+    axes.plot(speed[begin], friction[begin], "o", color=GREY, label="start")
     middle = history.time.size // 2
-    if history.time.size > 2:
-        ends = [(history.entrainment_speed[i], history.coefficient[i]) for i in (middle, middle + 1)]
+    if history.time.size > 2 and moving[middle] and moving[middle + 1]:
+        ends = [(speed[i], friction[i]) for i in (middle, middle + 1)]
         axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "->", "color": BLUE, "mutation_scale": 18})
     axes.set(xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
     axes.legend(frameon=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+ROUGHNESS = {"sq": "m", "correlation_length": "m", "spacing": "m", "s_filter": "m", "l_filter": "m"}
 UNITS = {
     "bodies": {
         "radius": "m",
@@ -22,7 +23,8 @@ UNITS = {
         "conductivity": "W/(m K)",
     },
     "motion": {"entrainment_speed": "m/s", "speeds": "m/s"},
-    "surface": {"sq": "m", "correlation_length": "m", "spacing": "m"},
-    "counterface": {"sq": "m", "correlation_length": "m", "spacing": "m"},
+    "surface": ROUGHNESS,
+    "counterface": ROUGHNESS,
     "contact": {"spacing": "m"},
+    "transient": {"duration": "s", "initial_film": "m"},
 }

@@ -1,4 +1,5 @@
-"""Speeds solved one after the other, each started from its neighbour: the smallest piece of work that is handed out."""
+"""Speeds that are solved one after the other, each started from its neighbour. This is the smallest piece of work
+that is handed out."""
 
 from __future__ import annotations
 
@@ -18,13 +19,15 @@ from .journal import Journal, without_fields
 class Chain:
     """Entrainment ``speeds`` [m/s] in the order in which they are solved, and the ``key`` of each point.
 
-    A key is a hash of all that its point depends on: the input and, as every start depends on the point before it, the
-    whole chain up to there. ``fields``: whether film and contact of the point are kept.
+    A key is a hash of all that its point depends on: the input and the whole chain up to there, since every start
+    depends on the point before it. ``fields``: whether film and contact of each point are kept. ``after``: the chain of
+    one point from which the first one starts (None: it starts from nothing).
     """
 
     speeds: tuple[float, ...]
     keys: tuple[str, ...]
     fields: tuple[bool, ...]
+    after: Chain | None = None
 
     @property
     def name(self) -> str:
@@ -32,32 +35,35 @@ class Chain:
         return self.keys[0]
 
 
-def make_chain(fingerprint: str, speeds, fields=None) -> Chain:
+def make_chain(fingerprint: str, speeds, fields=None, after: Chain | None = None) -> Chain:
     """The chain of ``speeds`` for an input of that ``fingerprint`` (`lubfric.store.fingerprint`)."""
     speeds = tuple(float(u) for u in speeds)
     kept = (False,) * len(speeds) if fields is None else tuple(bool(f) for f in fields)
-    keys, last = [], fingerprint
+    keys, last = [], fingerprint if after is None else after.keys[-1]
     for speed, keep in zip(speeds, kept):
         last = digest([last, speed, keep])
         keys.append(last)
-    return Chain(speeds, tuple(keys), kept)
+    return Chain(speeds, tuple(keys), kept, after)
 
 
 def run_chain(
-    prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0
+    prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0, before=None
 ) -> Iterator[tuple[int, object]]:
-    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in
-    ``journal`` first.
+    """Yield (index, `FrictionResult` or `LubfricError`) for the points after the first ``done``. Each is kept in
+    ``journal`` before.
 
-    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program
-    and goes through. The results are the same to the last bit wherever an earlier run was cut.
+    A point that fails leaves its error, and the next one begins cold. Every other exception is a fault of the program
+    and is raised. The results are the same to the last bit wherever an earlier run was cut. ``before``: the whole
+    outcome of ``chain.after``. Where it is None, that outcome is read or solved again when it is needed.
     """
-    start, parent = None, os.getppid()
+    parent = os.getppid()
     if journal is not None and done:
         start, caught_up = resumed(prepared, chain, journal, done)
         if caught_up is not None:
             yield done, caught_up if chain.fields[done] else without_fields(caught_up)
             done += 1
+    else:
+        start = start_from(before if before is not None else _before(prepared, chain, journal))
     for index in range(done, len(chain.speeds)):
         outcome = solved(prepared, chain, index, start)
         start = start_from(outcome)
@@ -70,8 +76,24 @@ def run_chain(
         journal.end(chain.name)
 
 
+def first_outcome(prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0):
+    """The outcome of a chain of one point with all that others start from: read from ``journal``, or solved and kept
+    there."""
+    parent = os.getppid()
+    key, outcome = ("", None) if journal is None else journal.state(chain.name)
+    if key != chain.keys[0]:
+        outcome = solved(prepared, chain, 0, None)
+    if journal is not None and not done and os.getppid() == parent:
+        journal.keep(chain.name, chain.keys[0], outcome, chain.fields[0])
+    return outcome
+
+
+def _before(prepared: Prepared, chain: Chain, journal: Journal | None):
+    return None if chain.after is None else first_outcome(prepared, chain.after, journal, done=1)
+
+
 def start_from(outcome) -> FrictionResult | None:
-    """The result, refused or not, from which a neighbour can start."""
+    """The result that a neighbour can start from, refused or not; None where there is none."""
     result = outcome.result if isinstance(outcome, ValidityError) else outcome
     return result if isinstance(result, FrictionResult) and result.starts else None
 
@@ -90,14 +112,14 @@ def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fi
 
 
 def resumed(prepared: Prepared, chain: Chain, journal: Journal, done: int):
-    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done``
-    points."""
+    """What to go on with after ``done`` points: the start of the next point, and the outcome of the point whose
+    record a kill had left out (or None)."""
     key, outcome = journal.state(chain.name)
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])
         return start_from(outcome), outcome
     if key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
-        outcome = None
+        outcome = _before(prepared, chain, journal)
         for index in range(done):
             outcome = solved(prepared, chain, index, start_from(outcome))
     return start_from(outcome), None

@@ -1,4 +1,4 @@
-"""The processes of a command: they end with it, whatever ends it."""
+"""The worker processes of a command. They end with it, whatever ends it."""
 
 from __future__ import annotations
 
@@ -11,27 +11,38 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 
 WATCH = 0.2  # s between two looks at whether the command still lives
+LAST = 2.0  # s that an interrupted process is waited for
+
+
+def processors() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager
 def pool(workers: int):
-    """An executor of ``workers`` processes, or None for one: this process itself."""
+    """An executor of ``workers`` processes, which begin at once. None where one is asked for: then this process does
+    the work itself."""
     if workers == 1:
         yield None
         return
     executor = ProcessPoolExecutor(workers, initializer=_follow, initargs=(os.getpid(),))
     try:
+        for _ in range(workers):
+            executor.submit(os.getpid)
         yield executor
     except BaseException:
         executor.shutdown(wait=False, cancel_futures=True)
         for process in multiprocessing.active_children():
             process.terminate()
+        for process in multiprocessing.active_children():
+            process.join(LAST)
         raise
     executor.shutdown()
 
 
 def _follow(parent: int) -> None:
-    """In a worker: leave Ctrl-C to the command, and end when it is gone."""
+    """Run in a worker: leave Ctrl-C to the command, and end when the command is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 

@@ -7,54 +7,96 @@ from dataclasses import dataclass
 from functools import partial
 
 from ..prepared import Prepared
-from .chain import Chain, run_chain
-from .journal import Journal, outcome_of
+from .chain import Chain, first_outcome, run_chain
+from .journal import Journal, outcome_of, without_fields
 from .spread import spread
 
 
 @dataclass(frozen=True)
 class Part:
-    """A chain as it is handed out. ``folder`` of the store, or None; ``done``: its leading points that are solved."""
+    """A chain as it is handed out.
+
+    ``folder``: of the store, or None; ``done``: how many of its first points are solved; ``before``: the outcome that
+    its first point starts from.
+    """
 
     chain: Chain
     folder: str | None
     done: int
+    before: object = None
+
+    @property
+    def left(self) -> bool:
+        """Whether points of it remain to be solved."""
+        return self.done < len(self.chain.keys)
 
 
-def solve_chains(prepared: Prepared, chains: list, executor, store, keep: Callable) -> None:
-    """Solve ``chains``, pairs of a `Chain` and the indices of its speeds; ``keep(index, outcome)`` for every point as
-    it ends.
+class Kept:
+    """The points of each chain that ``keep(index, outcome)`` was told of. ``indices``: those of the speeds, by name
+    of chain."""
 
-    With a ``store`` the points found there come first.
+    def __init__(self, indices: dict, folder: str | None, keep: Callable):
+        self._indices, self._folder, self._keep = indices, folder, keep
+        self._told = dict.fromkeys(indices, 0)
+
+    def tell(self, name: str, at: int, outcome) -> None:
+        """Point number ``at`` of a chain has ended."""
+        if at == self._told[name]:
+            self._told[name] += 1
+            self._keep(int(self._indices[name][at]), outcome)
+
+    def read(self, chain: Chain, before=None) -> Part:
+        """Tell what the store holds of ``chain``. Returns what is left of it."""
+        told = self._told[chain.name]
+        if self._folder is not None:
+            for at, outcome in enumerate(_finished(self._folder, chain, told), told):
+                self.tell(chain.name, at, outcome)
+        return Part(chain, self._folder, self._told[chain.name], before)
+
+
+def solve_chains(prepared: Prepared, first: Chain, chains: list, executor, store, keep: Callable) -> None:
+    """Solve the chain ``first``, which has one point, then the ``chains`` that start from it. Every point that ends is
+    given to ``keep(index, outcome)``.
+
+    ``chains``: pairs of a `Chain` and the indices of its speeds, ``first`` among them. With a ``store``, the points
+    found there come first. Points that a process of the ``executor`` puts there are told while it goes on.
     """
     folder = None if store is None else str(store)
-    indices = {chain.name: run for chain, run in chains}
-    known: dict[str, int] = {}
-
-    def found(chain: Chain) -> Part:
-        outcomes = [] if folder is None else _finished(folder, chain)
-        for at in range(known.get(chain.name, 0), len(outcomes)):
-            keep(int(indices[chain.name][at]), outcomes[at])
-        known[chain.name] = max(len(outcomes), known.get(chain.name, 0))
-        return Part(chain, folder, len(outcomes))
-
-    parts = [found(chain) for chain, _ in chains]
-    parts = [part for part in parts if part.done < len(part.chain.keys)]
+    kept = Kept({chain.name: run for chain, run in chains}, folder, keep)
+    lead, *parts = [kept.read(chain) for chain in (first, *(chain for chain, _ in chains if chain is not first))]
+    parts = [part for part in parts if part.left]
+    before = None
+    if lead.left or any(not part.done for part in parts):
+        (before,) = spread(executor, partial(_first, prepared), [lead], lambda part: kept.read(part.chain))
+        kept.tell(first.name, 0, before if first.fields[0] else without_fields(before))
+    parts = [part if part.done else Part(part.chain, folder, 0, before) for part in parts]
     if executor is None:
         for part in parts:
             for at, outcome in _points(prepared, part):
-                keep(int(indices[part.chain.name][at]), outcome)
-        return
-    for name, outcomes in spread(executor, partial(_solved, prepared), parts, lambda part: found(part.chain)):
+                kept.tell(part.chain.name, at, outcome)
+    else:
+        _spread(prepared, parts, executor, kept, before)
+    if folder is not None:
+        Journal(folder).end(first.name)
+
+
+def _spread(prepared: Prepared, parts: list[Part], executor, kept: Kept, before) -> None:
+    def look() -> None:
+        for part in parts:
+            kept.read(part.chain)
+
+    work = partial(_solved, prepared)
+    again = partial(kept.read, before=before)
+    for name, outcomes in spread(executor, work, parts, lambda part: again(part.chain), look):
         for at, outcome in outcomes:
-            keep(int(indices[name][at]), outcome)
+            kept.tell(name, at, outcome)
 
 
-def _finished(folder: str, chain: Chain) -> list:
-    """Outcomes of the leading points of ``chain`` that are in a store, whole."""
-    journal, outcomes = Journal(folder), []
-    records = {key: record for key, record in journal.records.read() if key in chain.keys}
-    for key, fields in zip(chain.keys, chain.fields):
+def _finished(folder: str, chain: Chain, told: int) -> list:
+    """Outcomes of the first points of ``chain`` from number ``told`` on, as far as a store holds them whole."""
+    journal, outcomes, keys = Journal(folder), [], chain.keys[told:]
+    records = {key: record for key, record in journal.records.read() if key in keys}
+    for key, fields in zip(keys, chain.fields[told:]):
         if key not in records:
             break
         outcome = outcome_of(records[key])
@@ -66,10 +108,19 @@ def _finished(folder: str, chain: Chain) -> list:
     return outcomes
 
 
+def _first(prepared: Prepared, part: Part):
+    journal = None if part.folder is None else Journal(part.folder)
+    try:
+        return first_outcome(prepared, part.chain, journal, part.done)
+    finally:
+        if journal is not None:
+            journal.close()
+
+
 def _points(prepared: Prepared, part: Part):
     journal = None if part.folder is None else Journal(part.folder)
     try:
-        yield from run_chain(prepared, part.chain, journal, part.done)
+        yield from run_chain(prepared, part.chain, journal, part.done, part.before)
     finally:
         if journal is not None:
             journal.close()

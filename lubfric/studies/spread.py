@@ -1,27 +1,42 @@
-"""Pieces of work on any executor: what a lost worker leaves undone is done again, faults of the program go through."""
+"""Pieces of work on any executor. What a lost worker leaves undone is done again. Faults of the program are raised."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
+
+LOOK, SHARE = (
+    0.1,
+    0.1,
+)  # s between two looks at what is under way, at least; share of the time spent on looking, at most
 
 
-def spread(executor, work: Callable, pieces: list, again: Callable | None = None) -> Iterator:
+def spread(
+    executor, work: Callable, pieces: list, again: Callable | None = None, look: Callable | None = None
+) -> Iterator:
     """Yield ``work(piece)`` for every piece, as they end.
 
-    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable and
-    catch what a piece may rightly raise. An exception out of it is a fault and is raised as it is, the pieces not yet
-    begun cancelled. When a *worker* is lost (killed, or its machine gone), its pieces and those of a pool that broke
-    with it are done here; ``again(piece)`` then gives what is left of a piece (None: all of it).
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
+    must catch what a piece may rightly raise. An exception out of it is a fault: pieces not yet begun are cancelled,
+    and it is raised as it is.
+
+    A *worker* may be lost: killed, or its machine gone. Then its pieces, and those of a pool that broke with it, are
+    done here. ``again(piece)`` gives what is left of a piece (None: all of it). ``look()`` is called every now and then
+    while pieces are under way on an executor.
     """
     if executor is None:
         for piece in pieces:
             yield work(piece)
         return
-    waiting = {executor.submit(_attempt, work, piece): piece for piece in pieces}
-    lost, broken = [], False
+    waiting, lost, broken = {}, [], False
+    for piece in pieces:
+        try:
+            waiting[executor.submit(_attempt, work, piece)] = piece
+        except BrokenExecutor:  # by a worker that was lost before
+            lost.append(piece)
     try:
-        for future in as_completed(list(waiting)):
+        for future in _ended(set(waiting), look):
             piece = waiting.pop(future)
             try:
                 done, value = future.result()
@@ -39,6 +54,18 @@ def spread(executor, work: Callable, pieces: list, again: Callable | None = None
         executor.shutdown(wait=True)  # its other workers are gone before their pieces are looked at
     for piece in lost:
         yield work(piece if again is None else again(piece))
+
+
+def _ended(left: set, look: Callable | None) -> Iterator:
+    """The futures as they end; ``look()`` in between."""
+    pause = LOOK
+    while left:
+        ended, left = wait(left, None if look is None else pause, FIRST_COMPLETED)
+        yield from ended
+        if look is not None and left:
+            begun = time.perf_counter()
+            look()
+            pause = max(LOOK, (time.perf_counter() - begun) / SHARE)
 
 
 def _attempt(work, piece):

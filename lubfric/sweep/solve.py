@@ -1,4 +1,4 @@
-"""Stribeck curves: friction over speed, neighbours warm-started, nothing lost to a failing point."""
+"""Stribeck curves: friction over speed. Each speed starts from its neighbour, and a failing point costs no other."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from numbers import Real
 import numpy as np
 
 from .. import validate
+from ..curve.span import film_ratio
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
@@ -14,9 +15,12 @@ from ..scene import Scene
 from ..store import fingerprint
 from ..studies.adaptive import AUTO
 from ..studies.chain import Chain, make_chain
+from ..studies.plan import CHAIN
 from ..studies.solve import solve_chains
 from .auto import auto_curve
 from .result import StribeckResult, collected
+
+MIXED = 2.0  # Moes' film of the whole load over Sq of the speed that comes first
 
 
 def stribeck(
@@ -33,8 +37,9 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of a scene: friction over the entrainment speed.
 
-    Speeds are solved from the fastest down, each started from its neighbour. A point that fails leaves NaN, and its
-    exception in ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
+    One speed of mixed lubrication comes first, then the slower and the faster ones, each started from its neighbour.
+    An ``executor`` solves both sides at once, to the same bits. A point that fails leaves NaN, and its exception in
+    ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
 
     Parameters
     ----------
@@ -51,15 +56,10 @@ def stribeck(
     """
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
-    motion = scene_of(scene).motion
     if isinstance(speeds, str) and speeds == AUTO:
         found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
         return _judged(found, raise_on_failure)
-    if speeds is None:
-        speeds = motion.speeds or (motion.entrainment_speed,)
-    if isinstance(speeds, (Real, np.number)):
-        speeds = [speeds]
-    speeds = validate.array("speeds", speeds, "m/s", ndim=1).copy()
+    speeds = _given(speeds, scene_of(scene).motion)
     prepared = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
     points: list[FrictionResult | None] = [None] * speeds.size
@@ -74,11 +74,20 @@ def stribeck(
             on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
     try:
-        solve_chains(prepared, sweep_chains(prepared, speeds, kept, executor is not None), executor, store, keep)
+        solve_chains(prepared, *sweep_chains(prepared, speeds, kept), executor, store, keep)
     except BaseException as fault:
         fault.result = collected(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
         raise
     return _judged(collected(speeds, points, errors), raise_on_failure)
+
+
+def _given(speeds, motion) -> np.ndarray:
+    """Speeds [m/s] asked, one or many, or those of the scene."""
+    if speeds is None:
+        speeds = motion.speeds or (motion.entrainment_speed,)
+    if isinstance(speeds, (Real, np.number)):
+        speeds = [speeds]
+    return validate.array("speeds", speeds, "m/s", ndim=1).copy()
 
 
 def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
@@ -94,9 +103,32 @@ def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
     return result
 
 
-def sweep_chains(prepared: Prepared, speeds, kept, spread: bool) -> list[tuple[Chain, np.ndarray]]:
-    """The chains of a sweep, each with the indices of its speeds: one, or up to 8 where they are to be spread."""
+def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Chain, np.ndarray]]]:
+    """The chain of the speed that comes first, and all chains, each with the indices of its speeds.
+
+    The others go from the first speed to either side, at most 25 speeds each.
+    """
     order = np.argsort(-np.abs(speeds), kind="stable")
-    runs = np.array_split(order, min(order.size, 8)) if spread else [order]
-    whole = fingerprint(prepared)
-    return [(make_chain(whole, speeds[run], np.isin(speeds[run], kept)), run) for run in runs]
+    whole, middle = fingerprint(prepared), _middle(prepared.scene, prepared.surface.sq, np.abs(speeds[order]))
+
+    def chain(run, after=None):
+        return make_chain(whole, speeds[run], np.isin(speeds[run], kept), after), run
+
+    first = chain(order[middle : middle + 1])
+    sides = [side for side in (order[:middle][::-1], order[middle + 1 :]) if side.size]
+    runs = [run for side in sides for run in np.array_split(side, -(-side.size // CHAIN))]
+    return first[0], [first, *(chain(run, first[0]) for run in runs)]
+
+
+def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
+    """Number of the speed that comes first, counted from the fastest down.
+
+    It is where the film that Moes' formula gives the whole load is about twice Sq. There the contact carries a third of
+    the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
+    the fastest speed comes first: it is the easy one to begin with.
+    """
+    numerics, moving = scene.numerics, np.flatnonzero(speeds)
+    if sq <= 0 or numerics.model == "deterministic" or numerics.closure == "one-way" or not moving.size:
+        return 0
+    ratios = np.array([film_ratio(scene, sq, float(u)) for u in speeds[moving]])
+    return int(np.abs(np.log(ratios / MIXED)).argmin())

@@ -117,6 +117,35 @@ def test_bad_input_is_a_clear_error(tmp_path, changes, words):
         assert word in str(caught.value)
 
 
+def test_all_that_is_missing_is_told_at_once(tmp_path):
+    """In one message: every section, every key, and for each what else would do."""
+    keys = ("width", "load", "e_prime")
+    changes = {f"bodies__{key}": None for key in keys} | {"surface__sq": None, "motion__entrainment_speed": None}
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene(write(tmp_path, toml(**changes)))
+    for word in (*map(repr, keys), "'sq'", "'entrainment_speed'", "surface_speeds", "hertz_pressure", "material"):
+        assert word in str(caught.value)
+    assert "radius" not in str(caught.value) and "[lubricant]" not in str(caught.value)
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene({})
+    for section in ("bodies", "lubricant", "motion", "surface"):
+        assert f"[{section}] needs" in str(caught.value)
+    with pytest.raises(lubfric.InputError, match="hertz_pressure needs 'width', 'e_prime'"):
+        lubfric.load_scene(
+            write(
+                tmp_path, toml(bodies__width=None, bodies__load=None, bodies__e_prime=None, bodies__hertz_pressure=1e9)
+            )
+        )
+    with pytest.raises(lubfric.InputError, match="did you mean 'load'"):  # a slip comes before what it leaves missing
+        lubfric.load_scene(write(tmp_path, toml(bodies__load=None, bodies__laod="5.5")))
+
+
+def test_a_key_with_its_section_is_told_how_to_be_changed():
+    scene = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError, match=r"with_\(numerics=\{'tolerance': 0.1\}\)"):
+        scene.with_(**{"numerics.tolerance": 0.1})
+
+
 def test_missing_files_and_broken_toml(tmp_path):
     with pytest.raises(lubfric.InputError, match="did you mean 'paper'"):
         lubfric.load_scene("papr")

@@ -89,6 +89,24 @@ def test_a_history_and_its_loop_are_drawn(history):
     np.testing.assert_array_equal(loop, np.stack([history.entrainment_speed, history.coefficient], axis=1))
 
 
+def test_a_loop_leaves_out_a_standstill_and_a_history_names_no_band_it_has_not(history):
+    """At rest f is 0 by convention; on one patch the error of the surface is not known."""
+    names = {"entrainment_speed": 0.0, "sliding_speed": 0.0, "coefficient": 0.0}
+    columns = {name: np.concatenate([[at_rest], history.columns[name][1:]]) for name, at_rest in names.items()}
+    loop, begin = replace(history, columns=history.columns | columns).plot_loop(axes()).lines
+    np.testing.assert_array_equal(loop.get_ydata()[1:], history.coefficient[1:])
+    assert np.isnan(loop.get_ydata()[0]) and begin.get_ydata() == history.coefficient[1]
+    rolling = history.columns | {"sliding_speed": np.zeros(21)}
+    assert np.isfinite(replace(history, columns=rolling).plot_loop(axes()).lines[0].get_ydata()).all()
+
+    def legend(sampling):
+        known = replace(history, columns=history.columns | {"sampling_error": np.full(21, sampling)})
+        return [text.get_text() for text in known.plot(axes()).get_legend().get_texts()]
+
+    assert "95 %: finite surface" in legend(0.02)
+    assert not any("95 %" in text for sampling in (np.nan, 0.0) for text in legend(sampling))
+
+
 def test_maps_are_drawn_the_right_way_round(point):
     ax = point.plot_contact(axes())
     image = ax.images[0]
@@ -105,6 +123,21 @@ def test_without_axes_new_ones_are_made(curve):
     ax = curve.plot()
     assert ax.figure.number in pyplot.get_fignums()
     pyplot.close(ax.figure)
+
+
+def test_a_scene_prints_in_a_line_and_as_a_table_of_keys_values_and_units():
+    from lubfric.scene import Bodies
+
+    oil = {"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}
+    scene = SCENE.with_(lubricant=oil, motion={"speeds": np.geomspace(1e-3, 1, 40)})
+    assert repr(scene).startswith("<Scene: paper") and "5.5 N" in repr(scene) and len(repr(scene)) < 200
+    assert repr(scene.bodies).count("=") == 6 and eval(repr(scene.bodies), {"Bodies": Bodies}) == scene.bodies
+    assert repr(lubfric.Numerics(tolerance=0.02)) == "Numerics(tolerance=0.02)"
+    html = scene._repr_html_()
+    for row in (("load", "5.5", "N"), ("oil", "ISO VG 68, VI 95", ""), ("correlation_length", "4e-06", "m")):
+        assert f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" in html
+    assert "(40 values)" in html and "film_level" not in html and len(html) < 4000
+    assert html.count("<tr>") == html.count("</tr>") and html.startswith("<table>")
 
 
 # scenes as dicts and text

@@ -45,7 +45,21 @@ def counted(*arguments, **options):
     return found
 chain.friction = counted
 from lubfric.cli import main
-sys.exit(main(["run", sys.argv[1], "--out", sys.argv[2]]))
+sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
+"""
+SHARED = """
+import os, signal, sys, time
+from lubfric.studies import chain
+real, command = chain.friction, os.getpid()
+def dying(model, speed, **options):
+    if os.getpid() != command and speed in (0.003, 0.3):
+        if sys.argv[3] == "worker":
+            os.kill(os.getpid(), signal.SIGKILL)
+        time.sleep(60)
+    return real(model, speed, **options)
+chain.friction = dying
+from lubfric.cli import main
+sys.exit(main(["run", *sys.argv[1:2], "--out", sys.argv[2], "--workers", "2"]))
 """
 
 
@@ -54,10 +68,10 @@ def written(folder, text=SCENE):
     return str(folder / "scene.toml")
 
 
-def start(scene, out, code=COUNTED, **options):
+def start(scene, out, *more, code=COUNTED, **options):
     environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
-    return subprocess.Popen([sys.executable, "-c", code, scene, str(out)], env=environment, **options)
+    return subprocess.Popen([sys.executable, "-c", code, scene, str(out), *more], env=environment, **options)
 
 
 def same(one: Path, other: Path):
@@ -194,6 +208,40 @@ def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkey
     same(out, whole)
 
 
+def test_processes_share_a_run_to_the_same_bits(tmp_path, whole):
+    out = tmp_path / "out"
+    assert main(["run", written(tmp_path), "--out", str(out), "--workers", "2"]) == 0
+    complete(out)
+    same(out, whole)
+
+
+def test_a_killed_worker_loses_nothing(tmp_path, whole):
+    out = tmp_path / "out"
+    process = start(written(tmp_path), out, "worker", code=SHARED)
+    told = process.communicate(timeout=120)
+    assert process.returncode == 0, told
+    complete(out)
+    same(out, whole)
+
+
+@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
+def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tmp_path, whole, sent, code):
+    out = tmp_path / "out"
+    process = start(written(tmp_path), out, "command", code=SHARED)
+    said = []
+    while sum("U = " in line for line in said) < 3:  # the others wait for a minute
+        said.append(process.stderr.readline())
+        assert said[-1], said
+    process.send_signal(sent)
+    text = process.communicate(timeout=30)[1]  # the ends of its pipes that its processes hold are closed
+    assert process.returncode == code
+    if sent == signal.SIGINT:
+        assert text == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there\n"
+    again = start(written(tmp_path), out)
+    assert again.communicate()[0].count("solved") == 2
+    same(out, whole)
+
+
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
     from lubfric.unsteady import checkpoint
 
@@ -218,7 +266,7 @@ def test_broken_streams_never_stop_a_computation(tmp_path, text):
     process = start(
         written(tmp_path, text),
         tmp_path / "out",
-        "import sys; from lubfric.cli import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
+        code="import sys; from lubfric.cli import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
     )
     process.stderr.close(), process.stdout.close()
     assert process.wait() == 0
@@ -227,7 +275,7 @@ def test_broken_streams_never_stop_a_computation(tmp_path, text):
 
 def test_a_closed_stdout_is_no_error_of_info():
     code = "import sys; from lubfric.cli import main; sys.exit(main(['info', sys.argv[1]]))"
-    process = start("paper", "-", code)
+    process = start("paper", "-", code=code)
     process.stdout.close()
     with process.stderr as stderr:
         assert process.wait() == 0 and stderr.read() == ""

@@ -3,6 +3,7 @@
 import os
 import pickle
 import signal
+import threading
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -52,7 +53,35 @@ def test_results_come_in_the_order_asked_for(curve):
 def test_any_executor_gives_the_same_curve(curve, pool):
     with pool(2) as executor:
         spread = lubfric.stribeck(SCENE, SPEEDS, executor)
-    np.testing.assert_allclose(spread.coefficient, curve.coefficient, rtol=SCENE.numerics.tolerance)
+    same(spread, curve)
+
+
+def test_where_a_curve_begins_moves_it_within_the_tolerance(curve):
+    cold = [lubfric.friction(curve_model(), speed).coefficient for speed in SPEEDS]
+    np.testing.assert_allclose(curve.coefficient, cold, rtol=SCENE.numerics.tolerance)
+
+
+def curve_model():
+    return prepare(SCENE)
+
+
+def test_points_in_a_store_are_told_while_others_are_solved(tmp_path, monkeypatch):
+    """Also those of another process, before the piece of work that they belong to has ended."""
+    gate, told = threading.Event(), []
+
+    def waiting(model, speed, **options):
+        assert speed != SPEEDS[0] or gate.wait(60)  # the last of all
+        return FRICTION(model, speed, **options)
+
+    def seen(done, total, speed, outcome):
+        told.append(speed)
+        if done == SPEEDS.size - 1:
+            gate.set()
+
+    monkeypatch.setattr(chain, "friction", waiting)
+    with ThreadPoolExecutor(2) as executor:
+        lubfric.stribeck(SCENE, SPEEDS, executor, store=tmp_path, on_point=seen)
+    assert sorted(told) == sorted(SPEEDS) and told[-1] == SPEEDS[0]
 
 
 def test_a_failing_point_loses_nothing(monkeypatch, curve):
@@ -130,7 +159,8 @@ def test_a_fault_of_the_program_is_no_failed_point(monkeypatch):
     monkeypatch.setattr(chain, "friction", faulty)
     with pytest.raises(TypeError, match="a fault of the program") as caught:
         lubfric.stribeck(prepare(SCENE), SPEEDS, raise_on_failure=False)
-    assert np.isfinite(caught.value.result.coefficient).sum() == 4  # the faster ones, which came first
+    solved = np.isfinite(caught.value.result.coefficient)  # the first, and the faster ones, which came before it
+    assert 0 < solved.sum() < SPEEDS.size and not solved[4] and solved[5:].all()
 
 
 @pytest.mark.parametrize("cut", [1, 4, 8])
@@ -166,6 +196,14 @@ def test_progress_counts_every_point():
         prepare(SCENE), SPEEDS[:3], on_point=lambda done, total, speed, point: seen.append((done, total, speed))
     )
     assert seen == [(1, 3, SPEEDS[2]), (2, 3, SPEEDS[1]), (3, 3, SPEEDS[0])]
+
+
+def test_a_curve_goes_outwards_from_mixed_lubrication():
+    seen = []
+    lubfric.stribeck(prepare(SCENE), SPEEDS, on_point=lambda *told: seen.append(told[2]))
+    first = int(np.flatnonzero(SPEEDS == seen[0])[0])
+    assert 0 < first < SPEEDS.size - 1
+    assert seen[1:] == [*SPEEDS[first + 1 :], *SPEEDS[:first][::-1]]
 
 
 def test_zero_speed_belongs_to_a_sweep():
