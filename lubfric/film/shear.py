@@ -56,8 +56,7 @@ def shear_force(
     followed to -infinity in closed form) to the rupture of the film; cavitated="striated" adds the streamers behind it,
     which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
     Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was
-    solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes and its error, as the film knows it (None: it
-    is summed); what the spots take of it is summed.
+    solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: it is summed.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
