@@ -39,7 +39,7 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
-    """Of a map that was handed over nothing is known."""
+    """How the map was made. Nothing is known of a map that was handed over."""
     scene = prepared.scene
     maps = [] if prepared.given else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
     return {
