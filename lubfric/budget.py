@@ -16,7 +16,8 @@ CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
 CONTACT = 1e-2  # solver of the rough contact
 DEFLECTION = 0.5  # leaving the pressure of the contact out of the deflection of the film
-HEAT = 0.2  # what leaving heat out changes: of the film by the inlet, of f by film and flash temperature
+HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
+INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f
@@ -26,7 +27,7 @@ TIGHTEST_CONTACT = 1e-9  # of Sq
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
-# what holds where f has not been looked at yet: the tolerances of `Numerics`
+# the most that holds where f has not been looked at yet: see `Numerics.tolerances`
 FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-4, 1e-3
 
 LARGEST_LEFT_OUT = 0.3  # of a film, to first order: beyond it the estimate is none

@@ -15,8 +15,8 @@ from .plain import plain
 from .prepared import Prepared
 from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
-from .scene import scene_as_dict
-from .surface import rms_slope
+from .scene import Scene, scene_as_dict
+from .surface import Surface, rms_slope
 from .sweep import QUANTITIES, StribeckResult
 from .validate import shown
 from .version import __version__
@@ -43,22 +43,7 @@ IN_WORDS = ("validity", "uncertainty")  # columns of a table
 
 def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
     """The record of a run in plain JSON types: resolved input, versions, seed, timings, numbers and reports."""
-    import scipy
-
-    record = {
-        "scene": scene_as_dict(prepared.scene),
-        "surface": {
-            "shape": prepared.surface.heights.shape,
-            "spacing": prepared.surface.spacing,
-            "statistics": _statistics(prepared.surface),
-            "notes": list(prepared.surface.notes),
-        },
-        "versions": {
-            "lubfric": __version__,
-            "numpy": np.__version__,
-            "scipy": scipy.__version__,
-            "python": platform.python_version(),
-        },
+    record = made_of(prepared.scene, prepared.surface, statistics=_statistics(prepared.surface)) | {
         "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
@@ -66,6 +51,16 @@ def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> d
         "points": [_point(curve, i) for i in range(curve.speed.size)],
     }
     return plain(record)
+
+
+def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
+    """What every record of a run begins with: the resolved input, the map (and how it is ``described``), versions."""
+    import scipy
+
+    map_ = {"shape": surface.heights.shape, "spacing": surface.spacing, **described, "notes": list(surface.notes)}
+    versions = {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
+    versions["python"] = platform.python_version()
+    return {"scene": scene_as_dict(scene), "surface": map_, "versions": versions}
 
 
 def csv_bytes(curve: StribeckResult) -> bytes:

@@ -9,6 +9,8 @@ from typing import Any
 
 from .report import CONVERGED, ITERATION_LIMIT
 
+NEARER = 0.3  # of the value before: the secant leads on
+
 
 @dataclass(frozen=True)
 class Root:
@@ -31,17 +33,21 @@ def increasing_root(
     bounds: tuple[float, float],
     tolerance: float,
     slope: float | None = None,
-    first: Any = None,
+    first: tuple[float | None, Any] = (None, None),
     max_evaluations: int = 60,
 ) -> Root:
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
-    ``f(x, last)`` returns (value, payload); ``last``: the payload before it, ``first`` to begin with. Stops when
-    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``; a function of one sign there ends with
-    "iteration_limit". Where ``slope`` is roughly known, the first step is Newton's, at most ``step``.
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it. ``first``: value and payload at ``guess``
+    inside the bounds where they are at hand, which counts as an evaluation, or None and a payload to begin with. Stops
+    when |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant where a step came
+    much nearer; a function of one sign there ends with "iteration_limit". Where ``slope`` is roughly known, the first
+    step is Newton's, at most ``step``.
     Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
     """
-    search = _Search(f, tolerance, max_evaluations, first)
+    search = _Search(f, tolerance, max_evaluations, first[1])
+    if (value := first[0]) is not None:
+        search.keep(guess, value, first[1])
     bracket = _bracket(search, min(max(guess, bounds[0]), bounds[1]), step, bounds, slope)
     if bracket is not None:
         _close_in(search, *bracket)
@@ -58,10 +64,14 @@ class _Search:
 
     def at(self, x: float) -> tuple[float, float]:
         """(x, f(x))."""
-        value, self.last = self.f(x, self.last)
+        return self.keep(x, *self.f(x, self.last))
+
+    def keep(self, x: float, value: float, payload) -> tuple[float, float]:
+        """(x, f(x)), found with its payload."""
+        self.last = payload
         self.points.append((x, value))
         if len(self.points) == 1 or abs(value) < abs(self.best[1]):
-            self.best = (x, value, self.last)
+            self.best = (x, value, payload)
         return x, value
 
     @property
@@ -85,10 +95,8 @@ class _Search:
 def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
     """Points (upper, lower) of both signs; None where the search ended before they were found."""
     lower = upper = None
-    while True:
-        point = search.at(x)
-        if search.done:
-            return None
+    point = search.points[0] if search.points else search.at(x)
+    while not search.done:
         if point[1] < 0:
             lower = point
         else:
@@ -101,7 +109,9 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
         if x == edge:
             return None
         x = min(x + step, edge) if upper is None else max(x - step, edge)
-        step *= 2
+        last, point = point, search.at(x)
+        step = abs(point[1] / (point[1] - last[1])) * step if abs(point[1]) < NEARER * abs(last[1]) else 2 * step
+    return None
 
 
 def _close_in(search: _Search, a, b) -> None:

@@ -113,13 +113,13 @@ def builtin_scenes() -> tuple[str, ...]:
 def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
     allowed = ("name", *SECTIONS)
-    _known("scene", table, allowed)
+    validate.keys("scene", table, allowed)
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
     table, plan = _plan(table, folder)
     for section in (s for s in SECTIONS if s in table and s != "transient"):
-        _known(f"[{section}]", table[section], _keys(section))
+        validate.keys(f"[{section}]", table[section], _keys(section))
     check_complete(name, table, {s: kind for s, kind in SECTIONS.items() if s not in OPTIONAL}, ROUGH)
     parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in (*ROUGH, "transient")}
     for section in ROUGH:
@@ -139,8 +139,11 @@ def _rough(section: str, given: dict, folder: Path) -> Roughness:
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
-    """The `Transient` of the histories in [transient] and, as inline tables, in the sections they belong to; these
-    then hold the plain value: the largest load, else the value at the start."""
+    """The `Transient` of a scene, and the table without its histories.
+
+    Histories stand in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
+    plain value: the largest load, else the value at the start.
+    """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
     found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
@@ -183,17 +186,8 @@ def _text(source) -> tuple[str, Path, str]:
         raise InputError(f"scene {str(source)!r} cannot be read as UTF-8 text: {error}") from None
 
 
-def _known(where: str, table: dict, allowed) -> None:
-    for key in table:
-        if key not in allowed:
-            raise InputError(
-                f"unknown key {validate.shown(key)} in {where}{validate.nearest(key, allowed)}; allowed: "
-                f"{', '.join(allowed)}"
-            )
-
-
 def _build(section: str, table: dict):
-    _known(f"[{section}]", table, _keys(section))
+    validate.keys(f"[{section}]", table, _keys(section))
     with told_slips(section, dict(table)):
         plain = resolve(section, table)
         return SECTIONS[section](**{k: tuple(v) if isinstance(v, list) else v for k, v in plain.items()})

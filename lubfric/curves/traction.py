@@ -15,7 +15,7 @@ from ..show.cite import together
 from ..steady import FrictionResult, friction
 from ..sweep import QUANTITIES
 from ..validity.entry import Validity
-from ..validity.gather import gathered
+from ..validity.gather import entries_of, gathered
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,7 @@ class TractionResult:
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a ratio, refused or not."""
-        point, error = self.points[index], self.errors.get(index)
-        if point is None and isinstance(error, ValidityError) and error.result is not None:
-            return error.result.validity
-        return () if point is None else point.validity
+        return entries_of(self.points[index], self.errors.get(index))
 
     def cite(self) -> str:
         """The papers behind what was used at any of the ratios, one a line, the model's first."""

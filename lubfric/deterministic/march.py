@@ -17,10 +17,9 @@ INNER, LOOSE = 6, 1e-2  # Newton steps in a step in time, and how well they solv
 
 @dataclass(frozen=True)
 class March:
-    """The state at its end, whether it got there, and the work (LU factorisations, GMRES iterations, steps in time)."""
+    """The state at its end, and the work (LU factorisations, GMRES iterations, steps in time)."""
 
     state: State
-    arrived: bool
     factorisations: int
     krylov: int
     steps: int
@@ -42,8 +41,8 @@ def march(problem: Problem, state: State, *, most: int) -> March:
         else:
             step *= SHRINK
         if not LEAST * unit <= step <= LAST * unit:
-            return March(at.state, step > unit, factorisations, krylov, steps)
-    return March(at.state, False, factorisations, krylov, steps)
+            return March(at.state, factorisations, krylov, steps)
+    return March(at.state, factorisations, krylov, steps)
 
 
 def _solved(found: Found) -> bool:

@@ -78,12 +78,14 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     return x
 
 
+def trapezoidal(cells: np.ndarray) -> np.ndarray:
+    """Weights of the nodes (n + 1,) between ``cells`` (n,), by the trapezoidal rule."""
+    return 0.5 * (np.append(0.0, cells) + np.append(cells, 0.0))
+
+
 def make_grid(xi: np.ndarray) -> Grid:
     """The operators on node positions ``xi``."""
     cells = np.diff(xi)
-    weights = np.zeros_like(xi)
-    weights[1:] += 0.5 * cells
-    weights[:-1] += 0.5 * cells
     kernel = hat_kernel(xi, xi)
     columns, values = _upwind(xi)
     n = cells.size
@@ -94,7 +96,7 @@ def make_grid(xi: np.ndarray) -> Grid:
         + values[:, 1:2] * kernel[columns[:, 1]]
         + values[:, 2:] * kernel[columns[:, 2]]
     )
-    return Grid(xi, kernel, face_film, face_kernel, cells, weights)
+    return Grid(xi, kernel, face_film, face_kernel, cells, trapezoidal(cells))
 
 
 def _upwind(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -98,6 +99,7 @@ def _isoviscous_pressure(line: LineContact, x, h0: float) -> np.ndarray:
     return rigid.pressure(x, h0, radius=line.radius, entrainment_speed=speed, viscosity=viscosity)
 
 
+@lru_cache(maxsize=16)
 def true_pressure(lubricant: Lubricant):
     """p(q) [Pa] of the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest q there is."""
     alpha = lubricant.pressure_viscosity_coefficient

@@ -1,16 +1,17 @@
-"""A fit drawn: the curve among the points, and what is left between them."""
+"""A fit drawn: the curve among the measured points, and the residuals."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..plot import BLUE, GREY, RED
+from ..show.axes import axes_or_new
 from .measured import SPEED, Measured
 
 
 def plot_fit(result, ax=None):
     """See `FitResult.plot`."""
-    axes = _axes(ax)
+    axes = axes_or_new(ax)
     x, (low, high) = np.abs(result.measured.x), result.band
     order = np.argsort(x)
     error = None if result.measured.deviation is None else 1.96 * result.measured.deviation
@@ -25,7 +26,7 @@ def plot_fit(result, ax=None):
 
 def plot_residuals(result, ax=None):
     """See `FitResult.plot_residuals`."""
-    axes = _axes(ax)
+    axes = axes_or_new(ax)
     miss = 100 * (result.measured.coefficient / result.predicted - 1)
     axes.axhline(0, color=GREY, lw=0.8)
     axes.plot(np.abs(result.measured.x), miss, "o", ms=4, color=RED)
@@ -36,16 +37,8 @@ def plot_residuals(result, ax=None):
 
 
 def x_label(measured: Measured) -> str:
-    """Of the axis of a measured curve."""
+    """The label of the x axis of a measured curve."""
     return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"
-
-
-def _axes(ax):
-    if ax is not None:
-        return ax
-    from matplotlib import pyplot
-
-    return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
 
 
 def _finish(axes, result, label: str) -> None:

@@ -72,7 +72,7 @@ class Heat:
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} % budget"
-        inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} % < {limit}"
+        inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} %"
         if self.used:
             inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
         if self.heated is None:
@@ -94,7 +94,7 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
         slide_roll_ratio=scene.motion.slide_roll_ratio,
         pressure_ratio=4 / math.pi * bodies.mean_hertz_pressure / bodies.e_prime,
     )
-    wanted = numerics.heat == "on" or numerics.model == "full" or 1 - found.factor > budget.HEAT * numerics.tolerance
+    wanted = numerics.heat == "on" or numerics.model == "full" or 1 - found.factor > budget.INLET * numerics.tolerance
     return found, wanted
 
 

@@ -33,12 +33,7 @@ def history(name: str, given, folder: Path = Path()) -> History:
     table = dict(given)
     kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
     allowed = {"file", "column", "time_column", "repeat"} if kind == "file" else {f.name for f in fields(KINDS[kind])}
-    for key in table:
-        if key not in allowed:
-            raise InputError(
-                f"unknown key {validate.shown(key)} in {name}{validate.nearest(key, allowed)}; "
-                f"allowed: {', '.join(sorted(allowed))}"
-            )
+    validate.keys(name, table, sorted(allowed))
     needed = {"constant": ("value",), "file": ("file", "column"), "table": ("times", "values")}.get(kind, ())
     missing = [key for key in needed if key not in table]
     if missing:

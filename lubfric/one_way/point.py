@@ -103,7 +103,7 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
             bounds=LIFTS if lift else SHARES,
             tolerance=tolerance,
             slope=near.slope if near else None,
-            first=_before(problem, near) if near else None,
+            first=(None, _before(problem, near) if near else None),
         )
         if abs(root.value) <= tolerance:
             break

@@ -26,6 +26,7 @@ from .tolerances import (
 )
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
+LIGHTLY = 0.3  # volume residual of a film with the whole load, up to which the contact carries little
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,8 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
         else:
             if found.decision.clearance is not None and found.decision.clearance >= 0:
                 return found
+            if start is None or start.contact_load == 0:
+                start = _first_touch(found.balance) or start
     found = _in_contact(prepared, speed, start, given_grid)
     return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
 
@@ -87,6 +90,12 @@ def _certainly_touching(prepared: Prepared, speed: float) -> bool:
     return prepared.contact.close(film + x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
 
 
+def _first_touch(alone: Balance) -> Balance | None:
+    """``alone``, the film of the whole load, as a start where it nearly clears the summits: what it needs, the film of
+    nearly the whole load does."""
+    return alone if alone.contact.volume_residual < LIGHTLY else None
+
+
 def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solved:
     """The film with the whole load, at the level and on the cells that f asks for."""
     numerics, load = prepared.scene.numerics, prepared.scene.bodies.load
@@ -111,7 +120,7 @@ def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_g
     level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
     settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)
     point = OperatingPoint(prepared, speed, prepared.contact, settings)
-    if start is not None and start.film is not None and start.contact_load > 0:
+    if start is not None and start.film is not None and (start.contact_load > 0 or start.contact.volume_residual > 0):
         share = felt_share(numerics, start)
         allowed, line = allowed_left_out(numerics, share), point.line(start.film_load)
         level, _ = level_for(prepared.film_levels, numerics, line, allowed)

@@ -14,8 +14,8 @@ from ..rough.contract import ContactState
 from . import total_pressure
 from .forces import Forces, forces
 from .operating_point import OperatingPoint, Start, Trial
+from .split import BOUNDS, divided, foretold_split
 
-BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
 THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
 NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
@@ -25,8 +25,9 @@ FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a nei
 class Balance:
     """One operating point in balance, loads in N; film and its level are None without entrainment.
 
-    slope: of the residual over ``split``, from the last two points of the root (None: not known). ``states``: the
-    contact as found on the grids on the way here, the coarsest first, from which those of a neighbour start.
+    slope: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
+    ``states``: the contact as found on the grids on the way here, the coarsest first, from which those of a neighbour
+    start. coarse: volume residual on the first of them less that on the last, under one film.
     """
 
     film_load: float
@@ -38,6 +39,7 @@ class Balance:
     level: FilmLevel | None
     slope: float | None = None
     states: tuple[ContactState, ...] = ()
+    coarse: float = 0.0
 
     @property
     def closure(self) -> ContactState:
@@ -55,6 +57,11 @@ class Balance:
     def lubricated(self) -> Lubricated | None:
         """Itself, where it has a film."""
         return None
+
+    @property
+    def closed(self) -> Self:
+        """With the loads at which its volume residual, by the slope, would be zero."""
+        return self.moved(-self.contact.volume_residual / self.slope) if self.slope and self.contact_load > 0 else self
 
     def moved(self, step: float) -> Self:
         """The loads divided as if ``split`` were larger by ``step``; film and contact as they were."""
@@ -74,38 +81,47 @@ class Lubricated(Balance):
         """Itself."""
         return self
 
+    @property
+    def trial(self) -> Trial:
+        """Film and contact, as a point of the root."""
+        touched = None if self.contact.pressure is None else self.contact
+        return Trial(
+            film=self.film,
+            contact=self.contact,
+            film_load=self.film_load,
+            contact_load=self.contact_load,
+            touched=touched,
+            solved=(self.film.cells,),
+        )
 
-def divided(load: float, split: float) -> tuple[float, float]:
-    """(F_H, F_C) of ``load`` at split = ln(F_H/F_C)."""
-    return load / (1 + math.exp(-split)), load / (1 + math.exp(split))
 
-
-def balanced(point: OperatingPoint, start: Balance | None = None) -> Lubricated:
+def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial | None = None) -> Lubricated:
     """The division of the load at which film and contact agree, the way ``numerics.closure`` asks for.
 
     "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
     root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
     contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual| <= settings.balance_tolerance. ``start``: a neighbour, its split moved as if a
-    film at the same gap carried in proportion to its speed. That the summits touch is known, or shown by a root.
+    construction. Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; where this
+    one's balance should be from there, see `lubfric.point.split`. ``known``: film and contact of this point at the
+    split of ``start``, of the closure by load. That the summits touch is known, or shown by a root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
-    begin = point.guessed_split() if start is None else start.split + _faster(point, start)
+    begin, foretold = (point.guessed_split(), None) if start is None else _begin(point, start)
     root = increasing_root(
         partial(volume_residual if by_load else load_residual, point),
         begin if by_load else begin - THICKER,
         step=FIRST_STEP if by_load and start is None else NEXT_STEP,
         bounds=BOUNDS,
         tolerance=point.settings.balance_tolerance,
-        slope=start.slope if start else None,
-        first=first,
+        slope=foretold,
+        first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
     )
     found = root.payload
     residuals = {"volume": min(root.history), "load": 0.0}
     if not by_load:
         residuals = {"volume": abs(found.contact.volume_residual), "load": min(root.history)}
-    slope = (root.slope or (start.slope if start else None)) if by_load else None
+    slope = (root.slope or foretold) if by_load else None
     return _balance(point, found, residuals, root.history, root.status, (), slope)
 
 
@@ -117,13 +133,13 @@ def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
 
 
 def volume_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
-    """That of the contact solved at its share of the load under the film solved at its own."""
+    """That of the contact solved at its share of the load under the film solved at its own, less the one aimed at."""
     film_load, contact_load = divided(point.scene.bodies.load, split)
     if point.scene.numerics.film_deflection == "total":
         found = total_pressure.film_and_contact(point, film_load, contact_load, last)
     else:
         found = point.trial(film_load, contact_load, last)
-    return found.contact.volume_residual, found
+    return found.contact.volume_residual - point.settings.aim, found
 
 
 def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
@@ -133,11 +149,11 @@ def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[flo
     return math.log((found.contact_load + found.film_load) / load), found
 
 
-def _faster(point: OperatingPoint, start: Balance) -> float:
-    """How much more, in ln, a film carries at the same gap than that of ``start``."""
+def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
+    """Split at which the balance should be, from that of ``start``, and the slope of the residual there."""
     if start.film is None or start.film.entrainment_speed == 0:
-        return 0.0
-    return math.log(abs(point.speed / start.film.entrainment_speed))
+        return start.split, start.slope
+    return foretold_split(point, start.film.entrainment_speed, start.split, start.slope)
 
 
 def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Lubricated:

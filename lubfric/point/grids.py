@@ -22,12 +22,14 @@ LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
 @dataclass(frozen=True)
 class Refined:
     """The grid reached (its index), what the volume residual changed by from grid to grid on the way there, and the
-    point and balance, moved from a coarser grid to where this one should have its own."""
+    point on it. Either film and contact there, at the split of ``balance``, are a ``known`` point of its root, or
+    ``balance`` is moved from a coarser grid to where this one should have its own."""
 
     index: int
     changes: tuple[float, ...]
     point: OperatingPoint
     balance: Balance
+    known: Stage | None = None
 
 
 def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
@@ -47,8 +49,8 @@ def on_enough_cells(
     """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid,
     and that error (infinite: unknown).
 
-    On the coarsest of several the volume is closed loosely: the balance is moved from there to the next by the residual
-    left, what the grid changes it by, and its slope.
+    On the coarsest of several the volume is closed loosely, and short by what finer grids took away at ``start``: the
+    balance goes on from there by the residual left, what the grid changes it by, and its slope.
     """
     numerics = point.scene.numerics
     limit, movable = budget.CONTACT_GRID * numerics.tolerance, numerics.closure == "load"
@@ -56,26 +58,31 @@ def on_enough_cells(
     index, last = 0, len(grids) - 1
     known = () if start is None else start.states
     if start is not None and known:
-        start = replace(start, contact=known[0])
+        start = replace(start.closed, contact=known[0])
     point = replace(point, contact=grids[0])
     changes: tuple[float, ...] = ()
+    refound: Stage | None = None
     while True:
         states = () if start is None or not index else start.states
         loosest = budget.LOOSEST_VOLUME if movable and index < last and not changes else 0.0
         tolerance = max(balance_tolerance(numerics, sensitivity), loosest)
-        point = replace(point, settings=replace(point.settings, balance_tolerance=tolerance))
-        stage = on_grid(point, grids[index], start, loosest)
+        aim = 0.0 if start is None or not loosest else start.coarse
+        point = replace(point, settings=replace(point.settings, balance_tolerance=tolerance, aim=aim))
+        stage = on_grid(point, grids[index], start, loosest, refound)
         sensitivity = felt_share(numerics, stage.balance)
-        stage = replace(stage, balance=replace(stage.balance, states=(*states, stage.balance.contact)))
+        balance = replace(stage.balance, states=(*states, stage.balance.contact), coarse=-sum(changes))
+        stage = replace(stage, balance=balance)
         error = grid_error(changes, stage.balance, limit) if changes else math.inf
         if index == last or error <= limit:
             point.prepared.contact.check(stage.balance.contact)
             return stage, index, error
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
-            index, changes, point, start = index + 1, (), replace(stage.point, contact=grids[index + 1]), None
+            index, changes, refound = index + 1, (), None
+            point, start = replace(stage.point, contact=grids[index]), None
         else:
             finer = refined(stage, grids, (index, changes, limit), known)
-            index, changes, point, start = finer.index, finer.changes, finer.point, finer.balance
+            index, changes, refound = finer.index, finer.changes, finer.known
+            point, start = finer.point, finer.balance
 
 
 def refined(
@@ -104,11 +111,21 @@ def refined(
         states.append(found)
         if grid_error(changes, balance, limit) <= limit:
             break
+    point = replace(stage.point, contact=contact)
+    found_here = replace(balance, contact=state, states=tuple(states[:-1]))
+    if _is_trial(stage):
+        return Refined(index, changes, point, found_here, replace(stage, point=point, balance=found_here))
     step = 0.0 if not balance.slope else -state.volume_residual / balance.slope
     step = min(max(step, -LARGEST_MOVE), LARGEST_MOVE)
-    point = replace(stage.point, contact=contact)
-    moved = replace(balance, contact=state, states=tuple(states[:-1])).moved(step)
-    return Refined(index, changes, point, moved)
+    return Refined(index, changes, point, found_here.moved(step))
+
+
+def _is_trial(stage: Stage) -> bool:
+    """A contact under the film of ``stage`` is what a trial of its root on that grid would find, and the way on from
+    there is known."""
+    numerics, settings = stage.point.scene.numerics, stage.point.settings
+    by_load = numerics.closure == "load" and numerics.film_deflection != "total"
+    return by_load and settings.contact_tolerance is None and bool(stage.balance.slope)
 
 
 def under_the_film(

@@ -32,24 +32,45 @@ class Stage:
     left_out: LeftOut
 
 
-def on_grid(point: OperatingPoint, whole: RoughContact, start: Balance | None, loosest: float = 0.0) -> Stage:
+def on_grid(
+    point: OperatingPoint,
+    whole: RoughContact,
+    start: Balance | None,
+    loosest: float = 0.0,
+    known: Stage | None = None,
+) -> Stage:
     """The balance on the point's contact, a part of ``whole``; on all of it where the part is not enough.
 
     It is found again, from the last, until its settings are those that it shows to be needed. ``loosest``: volume
-    residual that is good enough whatever f needs, where finer grids follow.
+    residual that is good enough whatever f needs, where finer grids follow. ``known``: film and contact at the split of
+    ``start``, on a part that is enough, and what that film leaves out.
     """
     for _ in range(ROUNDS):
-        balance = balanced(point, start)
-        if not point.suffices(whole, balance.film, balance.contact):
-            point = replace(point, contact=whole)
+        balance = balanced(point, start, None if known is None else known.balance.trial)
+        again = known is not None and balance.contact is known.balance.contact
+        if not again and not point.suffices(whole, balance.film, balance.contact):
+            point, known = replace(point, contact=whole), None
             continue
-        line = point.line(balance.film_load)
-        stage = Stage(point, balance, point.settings.level.left_out(balance.film, line, math.inf))
+        stage = Stage(point, balance, known.left_out if known is not None and again else _left_out(point, balance))
         settings = needed_settings(stage, loosest)
         if settings is None:
             break
+        known = stage if _as_good(stage, settings) else None
         point, start = replace(point, settings=settings), balance
     return stage
+
+
+def _left_out(point: OperatingPoint, balance: Lubricated) -> LeftOut:
+    """By the film of ``balance``."""
+    return point.settings.level.left_out(balance.film, point.line(balance.film_load), math.inf)
+
+
+def _as_good(stage: Stage, settings: Settings) -> bool:
+    """Film and contact of the balance are what they would be by ``settings`` too."""
+    old, numerics, film = stage.point.settings, stage.point.scene.numerics, stage.balance.film
+    solved_so = replace(old, balance_tolerance=settings.balance_tolerance, film_tolerance=settings.film_tolerance)
+    by_load = numerics.closure == "load" and numerics.film_deflection != "total"
+    return by_load and solved_so == settings and film.report.residual <= settings.film_tolerance
 
 
 def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
@@ -68,7 +89,7 @@ def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
     cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
-        closed = abs(balance.contact.volume_residual) <= budget.SLACK * volume
+        closed = abs(balance.contact.volume_residual - settings.aim) <= budget.SLACK * volume
         if not balance.report.converged or closed and (fine or not settings.level.numerical):
             return None
     return replace(

@@ -20,13 +20,14 @@ from ..scene import Scene
 @dataclass(frozen=True)
 class Settings:
     """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at
-    least; tolerance of the contact (None: its own)."""
+    least; tolerance of the contact (None: its own); volume residual aimed at: what finer grids should take away."""
 
     level: FilmLevel
     film_tolerance: float
     balance_tolerance: float
     film_cells: int = 0
     contact_tolerance: float | None = None
+    aim: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,16 +11,19 @@ from .. import validate
 from ..contact import solve_contact
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used
-SPACING = 4.0  # pressure ratio between neighbouring nodes at first
+SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
+SMALL = 128**2  # cells and fewer, whose summits come into contact one by one
 ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
 NOTHING = 1e-9  # of the lightest gap: below it the contact is full
+MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
 
 
 @dataclass(frozen=True)
 class ContactCurve:
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
-    touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes.
+    touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
+    1,): estimated error of the gap read between two nodes; empty where it is none.
     """
 
     mean_pressure: np.ndarray
@@ -28,6 +32,13 @@ class ContactCurve:
     plastic_area_fraction: np.ndarray
     touching_gap: float
     evaluations: int
+    gap_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def error_at(self, mean_pressure: float) -> float:
+        """Estimated error [m] of the gap read at a mean pressure [Pa]."""
+        lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
+        inside = 0 < lighter < self.mean_pressure.size and self.gap_error.size
+        return float(self.gap_error[lighter - 1]) if inside else 0.0
 
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
@@ -74,14 +85,17 @@ def contact_curve(
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
     Each node starts from its heavier neighbour. Nodes are added between the first ones until the mean gap
-    interpolated is within about ``accuracy`` (relative): the error at a node left out of the interpolation, by
-    four for the halved distance, is the estimate for the intervals beside it. It needs most of them where the
-    contact is nearly full and the gap falls by orders of magnitude. Raises what `lubfric.solve_contact` raises.
+    interpolated is within about ``accuracy`` (relative), and so is the load at a given gap, as far as it moves the
+    friction of a film that carries the rest of ``heaviest``; the errors at nodes left out of the interpolation are the
+    estimate (`ContactCurve.gap_error`). It needs most of them where the
+    contact is nearly full and the gap falls by orders of magnitude, and on small maps, whose summits come into
+    contact one by one. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
-    count = 1 + int(np.ceil(np.log(1 / LIGHTEST) / np.log(SPACING)))
+    spread = SPACING if gap0.size > SMALL else math.sqrt(SPACING)
+    count = 1 + math.ceil(math.log(1 / LIGHTEST) / math.log(spread))
     solved = {}
 
     def add(pressure, start):
@@ -102,7 +116,8 @@ def contact_curve(
         start = add(float(pressure), start)
     for _ in range(ROUNDS):
         pressures = sorted(solved, reverse=True)
-        wide = _inaccurate(np.array(pressures), np.array([solved[p].mean_gap for p in pressures]), accuracy)
+        gap = np.array([solved[p].mean_gap for p in pressures])
+        wide = _inaccurate(np.array(pressures), gap, accuracy)
         for heavier, lighter in zip(np.array(pressures)[:-1][wide], np.array(pressures)[1:][wide]):
             add(float(np.sqrt(heavier * lighter)), solved[heavier])
         if not wide.any():
@@ -111,17 +126,28 @@ def contact_curve(
 
 
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
-    """Intervals in which the interpolated gap may be off by more than ``accuracy``."""
+    """Intervals in which the interpolated gap, or the load read off it, may be off by more than ``accuracy``."""
+    log_pressure, error = np.log(pressure), _left_out(pressure, gap)
+    rate = -np.diff(gap) / np.diff(log_pressure)
+    share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
+    felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
+    allowed = np.minimum(np.sqrt(gap[1:] * gap[:-1]), rate / np.maximum(felt, NOTHING))
+    deep = np.sqrt(gap[1:] * gap[:-1]) <= NOTHING * gap[-1]
+    return (error > 2 * accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
+
+
+def _left_out(pressure, gap) -> np.ndarray:
+    """Estimated error of the gap interpolated between neighbouring nodes: half of the most that any of the four
+    nodes around is missed by when it is left out of the interpolation."""
     from scipy.interpolate import PchipInterpolator
 
-    wide = np.zeros(pressure.size - 1, bool)
-    log_pressure = np.log(pressure)
+    log_pressure, missed = np.log(pressure), np.zeros(pressure.size)
     for i in range(1, pressure.size - 1):
         others = np.delete(np.arange(pressure.size), i)[::-1]
-        without = PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i])
-        if abs(without - gap[i]) > 4 * accuracy * gap[i] and gap[i] > NOTHING * gap[-1]:
-            wide[i - 1 : i + 1] = True
-    return wide & (np.diff(-log_pressure) > FINEST)
+        missed[i] = abs(PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i]) - gap[i])
+    near = np.maximum(missed[1:], missed[:-1])
+    wide = np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
+    return wide / 2
 
 
 def _curve(solved: dict, touching_gap: float) -> ContactCurve:
@@ -130,4 +156,5 @@ def _curve(solved: dict, touching_gap: float) -> ContactCurve:
     gap, area, plastic, work = np.array(
         [(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations) for r in results]
     ).T
-    return ContactCurve(np.array(pressures), gap, area, plastic, touching_gap, int(work.sum()))
+    nodes = np.array(pressures)
+    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), _left_out(nodes, gap))

@@ -25,7 +25,7 @@ class ContactState:
     ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m]; real_contact_area_fraction,
     plastic_area_fraction: of the area A. fields: pressure and gap on the contact grid, (nx, ny) (None: separated, or a
     contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from; y [m] (ny,): of their
-    cells.
+    cells; gap_error [m]: estimated error of mean_gap where it is read off a curve.
     """
 
     mean_gap: float
@@ -37,6 +37,7 @@ class ContactState:
     fields: ContactResult | None = None
     pressure: np.ndarray | None = field(default=None, repr=False)
     y: np.ndarray | None = field(default=None, repr=False)
+    gap_error: float = 0.0
 
     @property
     def volume_residual(self) -> float:

@@ -48,6 +48,7 @@ class FlatContact(RoughContact):
             contact_fraction=np.full(self.x.size, touching),
             real_contact_area_fraction=touching,
             plastic_area_fraction=plastic,
+            gap_error=self.curve.error_at(pressure),
         )
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:

@@ -35,10 +35,10 @@ class HalfSpaceContact(HalfSpaceGrid):
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """The surface loaded under the film's shape: `lubfric.solve_contact`."""
-        gap0 = (film if shape is None else shape)[:, None] - self.heights
-        length = self.x.size * self.spacing[0]
+        under, length = film if shape is None else shape, self.x.size * self.spacing[0]
         if load == 0:
-            return self._state(film, gap0 - gap0.min(), None)
+            return self._first_touch(film, under)
+        gap0 = under[:, None] - self.heights
         found = solve_contact(
             gap0,
             self.spacing,
@@ -126,6 +126,20 @@ class HalfSpaceContact(HalfSpaceGrid):
         """With the same operator."""
         check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return half_space_contact(scene, self.heights, self.spacing, self.operator)
+
+    def _first_touch(self, film, under) -> ContactState:
+        """Without load: the gap is open everywhere, and zero at one cell."""
+        mean, highest = self.profiles
+        nothing = np.zeros(self.x.size)
+        return ContactState(
+            mean_gap=weighted_mean(under - mean, self.weight) - float((under - highest).min()),
+            mean_film=weighted_mean(film, self.weight),
+            x=self.x,
+            contact_fraction=nothing,
+            real_contact_area_fraction=0.0,
+            plastic_area_fraction=0.0,
+            y=np.arange(self.heights.shape[1]) * self.spacing[1],
+        )
 
     def _state(self, film, gap, found) -> ContactState:
         touching = np.zeros(gap.shape, bool) if found is None else found.pressure > 0

@@ -3,7 +3,8 @@ pressure."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -39,14 +40,27 @@ class HalfSpaceGrid(RoughContact):
         """Its cells."""
         return Grid(self.heights.shape, self.spacing)
 
-    @property
+    @cached_property
     def sq(self) -> float:
         """Standard deviation [m] of the heights on this grid."""
         return float(self.heights.std())
 
+    @cached_property
+    def profiles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mean and highest of the heights [m] at every x, (nx,) each."""
+        return self.heights.mean(axis=1), self.heights.max(axis=1)
+
     def coarsened(self) -> Self | None:
         """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A
-        stays wider than a cell. None where neither axis can be halved."""
+        stays wider than a cell. None where neither axis can be halved. Made once."""
+        return self._coarser
+
+    def __getstate__(self) -> dict:
+        """What was derived is not pickled."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    @cached_property
+    def _coarser(self) -> Self | None:
         operator, half_width = self.operator, self.half_width
         wide = half_width is not None and 2 * self.spacing[0] > half_width
         factors = tuple(
@@ -108,7 +122,7 @@ class HalfSpaceGrid(RoughContact):
         pressure[first : first + part.x.size] = state.fields.pressure
         gap = self.operator.apply(pressure) + shape[:, None] - self.heights - state.fields.approach
         gap[first : first + part.x.size] = 0.0
-        return bool(gap.min() >= -TOUCH * self.heights.std())
+        return bool(gap.min() >= -TOUCH * self.sq)
 
     def pressure_of(self, state: ContactState | None) -> np.ndarray | None:
         """The pressure of ``state``, if any, on these cells: the nearest ones of its own."""

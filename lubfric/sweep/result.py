@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import validate
 from ..curve.interpolate import Interpolant, knee_of
-from ..errors import InputError, ValidityError
+from ..errors import InputError
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..result import FrictionResult
 from ..sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
@@ -17,7 +17,7 @@ from ..show import Shown
 from ..show.cite import together
 from ..studies.adaptive import FEWEST, samples_of
 from ..validity.entry import Validity
-from ..validity.gather import gathered
+from ..validity.gather import entries_of, gathered
 
 FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
 NOT_NUMBERS = (
@@ -84,10 +84,7 @@ class StribeckResult(Shown):
 
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at a speed, refused or not."""
-        point, error = self.points[index], self.errors.get(index)
-        if point is None and isinstance(error, ValidityError) and error.result is not None:
-            return error.result.validity
-        return () if point is None else point.validity
+        return entries_of(self.points[index], self.errors.get(index))
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""

@@ -110,7 +110,7 @@ def inlet_viscosity(source: SceneInTime) -> History:
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
     if scene.numerics.heat == "auto" and scene.numerics.model != "full":
-        limit = budget.HEAT * scene.numerics.tolerance
+        limit = budget.INLET * scene.numerics.tolerance
         thinned = (inlet_at(now, now.motion.entrainment_speed)[0] for now in map(source.at, _looks(source)))
         if not any(inlet is not None and 1 - inlet.factor > limit for inlet in thinned):
             return cold

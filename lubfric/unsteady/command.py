@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import platform
 import time
 from pathlib import Path
 
 import numpy as np
 
-from .. import __version__
 from ..console import keeping, say
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..output import npz_bytes, read_csv, table_bytes
+from ..output import made_of, npz_bytes, read_csv, table_bytes
 from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
-from ..scene import Scene, scene_as_dict
+from ..scene import Scene
 from ..store import fingerprint
 from .checkpoint import STATE
 from .moment import UNITS
@@ -108,22 +106,7 @@ def _progress(reached: list[float]):
 
 
 def _record(scene: Scene, prepared, result: TransientResult, seconds: float) -> dict:
-    import scipy
-
-    record = {
-        "scene": scene_as_dict(scene),
-        "surface": {
-            "shape": prepared.surface.heights.shape,
-            "spacing": prepared.surface.spacing,
-            "sq": prepared.surface.sq,
-            "notes": list(prepared.surface.notes),
-        },
-        "versions": {
-            "lubfric": __version__,
-            "numpy": np.__version__,
-            "scipy": scipy.__version__,
-            "python": platform.python_version(),
-        },
+    record = made_of(scene, prepared.surface, sq=prepared.surface.sq) | {
         "seconds": seconds,
         "report": result.report.as_dict(),
         "validity": list(result.validity),

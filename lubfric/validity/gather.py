@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from ..errors import ValidityError
 from .entry import Validity
 
 
+def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
+    """Assumptions that do not hold at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
+    refused = error.result if point is None and isinstance(error, ValidityError) else None
+    found = point if refused is None else refused
+    return () if found is None else found.validity
+
+
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
-    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst of
-    them.
+    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst
+    value.
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """

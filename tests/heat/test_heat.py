@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
+import lubfric
 from lubfric.analytic import hertz, nahme
 from lubfric.heat import Surroundings, heated_film, heated_stress, inlet_heat, viscosity_at
 from lubfric.heat.conjunction import isothermal_heat
@@ -217,3 +218,25 @@ def test_a_limit_far_below_the_newtonian_stress_is_found():
     oil = Lubricant(0.033, 2.19e-8, limiting_stress_coefficient=0.06, temperature=365.0, temperature_coefficient=0.034)
     found, _ = heated_stress(oil, np.array([6.9e9]), np.array([1e-6]), 3.5, np.array([365.0]))
     assert 0 < found[0] <= 1e6 + 0.06 * 6.9e9
+
+
+def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
+    """Film -0.15 % moves an f that is a small difference of large parts by 3 %: beside a hundredth of the tolerance."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.0236, "width": 1e-2, "load": 96.15, "boundary_friction_coefficient": 0.0557},
+        lubricant={
+            "viscosity": 0.0238,
+            "pressure_viscosity_coefficient": 7.1e-9,
+            "eyring_stress": 5e6,
+            "temperature": 350.0,
+            "temperature_coefficient": 0.035,
+        },
+        motion={"entrainment_speed": 0.0923, "slide_roll_ratio": -1.11},
+        surface={"sq": 2.6e-8, "correlation_length": 2.2e-5, "seed": 1122854145},
+        contact={"shape": (48, 48), "spacing": 6.25e-6},
+        numerics={"sampling": "patch", "grid": "given", "film_deflection": "hydrodynamic"},
+    )
+    found, right = (lubfric.friction(scene.with_(numerics={"tolerance": t})) for t in (1e-2, 1e-4))
+    parts = abs(found.couette_force) + abs(found.rolling_force) + found.boundary_force
+    assert found.coefficient * 96.15 < 0.2 * parts and 1 - found.inlet_film_factor > 1e-3
+    assert found.coefficient == pytest.approx(right.coefficient, rel=1e-2)

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.point.balance import balanced, divided, separated
+from lubfric.point.balance import balanced, separated
 from lubfric.point.operating_point import OperatingPoint, Settings, Start
+from lubfric.point.split import divided
 from lubfric.report import ITERATION_LIMIT
 from lubfric.rough.strip import strip_weight
 

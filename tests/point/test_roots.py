@@ -74,7 +74,7 @@ def test_every_evaluation_is_handed_the_payload_of_the_one_before():
         seen.append(last)
         return math.tanh(x - 1.3), x
 
-    increasing_root(f, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first="nothing yet")
+    increasing_root(f, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first=(None, "nothing yet"))
     assert seen[0] == "nothing yet" and len(set(seen)) == len(seen) and seen[1] == 0.0
 
 
@@ -82,3 +82,18 @@ def test_the_slope_is_that_of_the_last_two_points():
     found = increasing_root(lambda x, _: (3 * x - 1, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9)
     assert found.slope == pytest.approx(3.0)
     assert increasing_root(lambda x, _: (x, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9).slope is None
+
+
+def test_a_known_point_is_not_evaluated_again():
+    g, calls = counted(lambda x: math.tanh(x - 1.3))
+    found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first=(math.tanh(-1.3), "known"))
+    assert found.x == pytest.approx(1.3, abs=1e-8) and 0.0 not in calls and len(found.history) == len(calls) + 1
+    found = increasing_root(g, 1.0, step=0.5, bounds=BOUNDS, tolerance=0.4, first=(math.tanh(-0.3), "known"))
+    assert found.payload == "known" and found.x == 1.0
+
+
+def test_a_first_step_that_nearly_hits_goes_on_by_the_secant():
+    """Doubled steps would leave the neighbourhood of the root that Newton's step has reached."""
+    g, calls = counted(lambda x: x + 0.01 * x**2 - 1)
+    found = increasing_root(g, 0.0, step=5.0, bounds=BOUNDS, tolerance=1e-6, slope=1.05)
+    assert found.status == CONVERGED and len(calls) <= 5 and max(calls) < 1.1

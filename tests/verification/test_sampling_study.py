@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import lubfric
 from verification import sampling
 from verification.sampling import charts, cost, lengths, measure, pieces, verdict
 from verification.sampling.cases import SPEEDS, Case
@@ -69,10 +70,24 @@ def test_what_is_kept_is_not_solved_again(tmp_path, monkeypatch):
     assert found.truth == F and len(found.rows) == SIZE
     with pytest.raises(TypeError):
         measure.run(CASE, SIZE + 1, 0, tmp_path)
-    done = {"map": 0, "low": 0.9, "high": 1.1, "whole": 1.0}
-    (tmp_path / "pieces-0.jsonl").write_text(json.dumps(done) + "\n")
+
+
+def test_a_map_is_cut_into_its_pieces_and_those_kept_are_not_solved_again(tmp_path, monkeypatch):
+    seen = []
+
+    def solve(scene, speed, asked):
+        seen.append(np.load(scene.surface.file))
+        return {"f": float(len(seen)), "low": 0.0, "high": 1.0}
+
+    monkeypatch.setattr(pieces, "solve", solve)
+    surface = lubfric.generate_surface((24, 36), 1e-6, sq=1e-7, correlation_length=2e-6, seed=3)
+    np.save(tmp_path / "map.npy", surface.heights)
+    scene = lubfric.load_scene("paper").with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 1e-6, "unit": "m"})
+    rows = pieces.measured(scene, (2, 3), tmp_path)
+    assert [row["whole"] for row in rows] == [1.0] * 6 and [row["f"] for row in rows] == [2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+    assert np.array_equal(np.block([seen[1:4], seen[4:]]), seen[0])
     monkeypatch.setattr(pieces, "solve", None)
-    assert pieces.run(1, 0, tmp_path) == [done]
+    assert pieces.measured(scene, (2, 3), tmp_path) == rows
 
 
 def test_the_command_reports_what_is_kept_and_the_table_of_the_page_reads_it(tmp_path, monkeypatch, capsys):

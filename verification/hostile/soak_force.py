@@ -9,7 +9,7 @@ import numpy as np
 from ..stability.film_check import viscosity_ratio
 from .soak_heat import heated_stress, heats
 
-HEATED = 350  # nodes at most on which the heat of the film is found
+HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
 def friction_force(scene, sides, contact_load: float, speed: float) -> float:
@@ -22,23 +22,36 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> float:
     wet = x <= sign * film.rupture + 1e-12 * film.half_width
     x, p, h = x[wet], p[wet], h[wet]
     slide = abs(ratio * speed)
-    free = 1 - np.interp(sign * x, sides.x, sides.touching, 0.0, 0.0)
+    cells = 1 - _touched(sign * x, sides)
     if scene.contact.geometry == "flat":
-        free = 1 - np.where(np.abs(x) <= bodies.half_width, sides.touching[0], 0.0)
+        cells = 1 - sides.touching[0] * _inside(x, bodies.half_width)
+    free = np.concatenate([cells[:1], 0.5 * (cells[1:] + cells[:-1]), cells[-1:]])
     couette = 0.0
     if ratio:
         couette = _couette(scene, x, p, h, free, contact_load, speed) + oil.viscosity * slide * 2 * bodies.radius / abs(
             x[0]
         )
-    rolling = np.sum(0.25 * (free[1:] + free[:-1]) * (h[1:] + h[:-1]) * np.diff(p)) / 2
+    rolling = np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.diff(p)) / 2
     rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
     sense = -1.0 if ratio < 0 else 1.0  # along the sliding; the pressure flow pushes along the entrainment
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
     return float(boundary + bodies.width * (couette + sense * rolling))
 
 
+def _touched(x, sides) -> np.ndarray:
+    """Share of the width in contact over each cell between neighbouring ``x``, of columns that are even inside."""
+    step = sides.x[1] - sides.x[0]
+    edges = np.concatenate([sides.x - step / 2, sides.x[-1:] + step / 2])
+    return np.diff(np.interp(x, edges, np.concatenate([[0.0], step * np.cumsum(sides.touching)]))) / np.diff(x)
+
+
+def _inside(x, half) -> np.ndarray:
+    """Part of each cell that lies within ``half`` of the middle."""
+    return np.diff(np.clip(x, -half, half)) / np.diff(x)
+
+
 def _couette(scene, x, p, h, free, contact_load, speed) -> float:
-    """Couette force over the film per width [N/m]; what heat takes off is summed over fewer nodes."""
+    """Couette force over the film per width [N/m]; that of a film that heats itself from fewer nodes."""
     oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
     log_ratio = viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
     eta = oil.viscosity * np.exp(log_ratio)
@@ -53,8 +66,8 @@ def _couette(scene, x, p, h, free, contact_load, speed) -> float:
         force = float(np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])))
     if heats(scene):
         some = np.unique(np.linspace(0, x.size - 1, min(x.size, HEATED)).round().astype(int))
-        heated = heated_stress(scene, x[some], p[some], h[some], log_ratio[some], free[some], contact_load, speed)
-        force += float(np.trapezoid(free[some] * (heated - tau[some]), x[some]))
+        x, p, h, log_ratio, free = (a[some] for a in (x, p, h, log_ratio, free))
+        return float(np.trapezoid(free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed), x))
     return force
 
 

@@ -20,6 +20,7 @@ from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
+SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of all lines and one of each may differ
 LOOSE, TIGHT, CANCELS = 2e-3, 3e-4, 0.2  # of a film; f over its parts below which they cancel
 BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
 
@@ -137,7 +138,7 @@ class Judge:
 
 def judge_of(prepared: Prepared, result) -> Judge:
     """What is needed to close ``result`` of ``prepared`` anew."""
-    scaled = "by the whole load" in (result.decision.deflection or "")
+    scaled = result.decision.deflected_by == "scaled"
     n = prepared.surface.shape[0]
     x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
@@ -177,7 +178,10 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
     }
     if scene.contact.model == "half-space" and scene.surface.sq:
         coefficient, split = closed_again(judge_of(prepared, result), share)
-        found["friction"] = abs(result.coefficient / coefficient - 1) / scene.numerics.tolerance
+        stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
+        if result.line is not None and len(result.line.used):
+            stated += SECOND_ORDER * result.uncertainty.sampling**2
+        found["friction"] = abs(result.coefficient / coefficient - 1) / stated
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
     return {name: value / ALLOWED[name] for name, value in found.items()}
 

@@ -48,7 +48,7 @@ def random_scene(rng: np.random.Generator) -> lubfric.Scene:
             "speeds": (),
         },
         numerics={
-            "accept": True,
+            "accept": False,
             "tolerance": float(rng.choice((0.01, 0.01, 0.05))),
             "sampling": "line" if line else "patch",
             "sampling_tolerance": 0.02 if rng.random() < 0.1 else 0.2,

@@ -11,6 +11,9 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
+
+import lubfric
 
 from ..check import Item, Table
 from ..frame import Command
@@ -53,11 +56,12 @@ def coverage(level: str, out: Path, seed: int) -> Iterator[Item]:
     yield charts.coverage(results)
 
 
-def map_in_pieces(level: str, out: Path, seed: int) -> Iterator[Item]:
-    """How often the interval of a piece holds the friction of the map that it was cut from."""
+def map_in_pieces(level: str, out: Path, seed: int, scene=None, cuts=(2, 2)) -> Iterator[Item]:
+    """How often the interval of a piece holds the friction of the map that it was cut from: of generated maps, or of
+    the measured map of ``scene``."""
     from . import pieces, verdict
 
-    yield verdict.of_pieces(pieces.run(MAPS[level], seed, out))
+    yield verdict.of_pieces(pieces.measured(scene, cuts, out) if scene else pieces.run(MAPS[level], seed, out))
 
 
 def other_numbers(level: str, out: Path, seed: int) -> Iterator[Item]:
@@ -94,7 +98,14 @@ def _truths(out: Path, seed: int) -> dict[float, float]:
 
 def _options(parser: ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=SEED, help="of the surfaces (default: %(default)s)")
+    parser.add_argument(
+        "--map", metavar="SCENE", help="cut the measured map of this scene in pieces, in place of others"
+    )
+    parser.add_argument("--cuts", type=int, nargs=2, default=(2, 2), metavar=("X", "Y"), help="of that map")
 
 
 def _prepared(study: Study, options: Namespace) -> Study:
-    return replace(study, options={"out": options.out, "seed": options.seed})
+    own: dict[str, Any] = {"out": options.out, "seed": options.seed}
+    if study.name == "pieces" and options.map:
+        own |= {"scene": lubfric.load_scene(options.map), "cuts": tuple(options.cuts)}
+    return replace(study, options=own)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..grid import trapezoidal
 from ..kernel import hat_kernel
 
 EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
@@ -58,14 +59,11 @@ class Faces:
 def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     """The operators on increasing nodes ``x``."""
     cells = np.diff(x)
-    weights = np.zeros_like(x)
-    weights[1:] += 0.5 * cells
-    weights[:-1] += 0.5 * cells
     kernel = hat_kernel(x, x)
     return FixedGrid(
         x,
         cells,
-        weights,
+        trapezoidal(cells),
         kernel,
         _faces(x, kernel, (-1, 0, 1)),
         _faces(x, kernel, (0, 1, 2)),

@@ -31,9 +31,7 @@ def outside(
     a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
 ) -> tuple[Tail, Tail]:
     """(pressure at a, load beyond a)."""
-    s = a / _POINTS
-    h = film + 0.5 * curvature * (s * s - a * a)
-    weight = _WEIGHTS * s * s / a  # ds
+    s, h, weight = _nodes(a, film, curvature)
     d = s - a
 
     def moment(power, lever):
@@ -56,7 +54,11 @@ def outside_shear(
     a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
 ) -> tuple[float, float]:
     """(∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the same film."""
-    s = a / _POINTS
-    h = film + 0.5 * curvature * (s * s - a * a)
-    weight = _WEIGHTS * s * s / a
+    s, h, weight = _nodes(a, film, curvature)
     return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))
+
+
+def _nodes(a: float, film: float, curvature: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points s beyond a, the film there, and the weights ds."""
+    s = a / _POINTS
+    return s, film + 0.5 * curvature * (s * s - a * a), _WEIGHTS * s * s / a

@@ -1,0 +1,64 @@
+"""Where the balance of another speed should be."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+import lubfric
+from lubfric.point.adapt import solved
+from lubfric.point.operating_point import OperatingPoint, Settings
+from lubfric.point.split import divided, foretold_split
+
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+
+
+def at(scene, speed):
+    made = lubfric.prepare(scene.with_(contact={"shape": (32, 32), "spacing": 2.8e-6}))
+    return OperatingPoint(made, speed, made.contact, Settings(made.film_levels[0], 0.03, 1e-3))
+
+
+@pytest.mark.parametrize("stiffness", [0.05, 0.2])
+@pytest.mark.parametrize("speeds", [(0.03, 0.02), (0.01, 0.02), (1e-4, 3e-4)])
+def test_it_closes_the_balance_of_moes_film_and_a_power_law_contact(speeds, stiffness):
+    """The slope of that balance, by differences, is all that is told of the contact."""
+    first, second = (at(PAPER, u) for u in speeds)
+    load, split = PAPER.bodies.load, 0.2
+
+    def mismatch(point, split):
+        film_load, contact_load = divided(load, split)
+        return math.log(contact_load**-stiffness / point.line(film_load).moes_film)
+
+    slope = (mismatch(first, split + 1e-4) - mismatch(first, split - 1e-4)) / 2e-4 / 2
+    found, slope_there = foretold_split(second, speeds[0], split, slope)
+    assert mismatch(second, found) == pytest.approx(mismatch(first, split), abs=2e-3)
+    there = (mismatch(second, found + 1e-4) - mismatch(second, found - 1e-4)) / 2e-4 / 2
+    assert slope_there == pytest.approx(there, rel=0.02)
+
+
+def test_without_a_slope_the_film_carries_in_proportion_to_its_speed():
+    assert foretold_split(at(PAPER, 0.02), 0.01, 0.3, None) == (0.3 + math.log(2), None)
+    assert foretold_split(at(PAPER, 0.02), 0.02, 0.3, 0.2) == (0.3, 0.2)
+
+
+@pytest.mark.parametrize("speed", [0.03, 0.003])
+def test_the_paper_balance_is_foretold(speed):
+    """From half as far again: nearer than the film carrying in proportion to its speed, by far."""
+    made = lubfric.prepare(PAPER)
+    before, there = solved(made, 1.5 * speed).balance, solved(made, speed).balance
+    point = OperatingPoint(made, speed, made.contact, Settings(before.level, 0.03, 1e-3))
+    found, slope = foretold_split(point, 1.5 * speed, before.split, before.slope)
+    plain = before.split - math.log(1.5)
+    assert abs(found - there.split) < max(0.35 * abs(plain - there.split), 0.02)
+    assert slope == pytest.approx(there.slope, rel=0.25)
+
+
+def test_a_neighbour_saves_contacts_and_moves_nothing():
+    """One film and one contact on every grid, where the balance is foretold well; f as from a cold start."""
+    made = lubfric.prepare(PAPER)
+    before = solved(made, 1e-3).balance
+    warm, cold = solved(made, 7e-4, before).balance, solved(made, 7e-4).balance
+    assert warm.report.evaluations == 1 and warm.contact is not cold.contact
+    assert warm.forces.coefficient == pytest.approx(cold.forces.coefficient, rel=1e-3)
+    shifted = solved(made, 7e-4, replace(before, coarse=0.5)).balance  # what finer grids take away, foretold wrongly
+    assert shifted.forces.coefficient == pytest.approx(cold.forces.coefficient, rel=1e-3)
