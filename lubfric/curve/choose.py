@@ -17,17 +17,11 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     """The speed [m/s] to solve next, or None where the curve is known; and the largest estimated relative error of f
     now.
 
-<<<<<<< HEAD
     ``tried``: speeds that failed, which are left alone.
 
     First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
     before how it ends. Then the speed at which the error is estimated to be largest, until that is below ``tolerance``
     everywhere.
-=======
-    First the knee is enclosed: a film that only just clears the summits tells where they touch. After that, the speed
-    with the largest estimated error is next, until the error is below 0.8 ``tolerance`` everywhere. ``tried``: speeds
-    that failed, which are left alone.
->>>>>>> main
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 """Friction between the solved speeds: the share of the load on the contact and the traction coefficient of the film, in
 coordinates in which each is smooth.
 
@@ -8,15 +7,6 @@ ln t over the speed, and over ln U. The odds of the film (1 - s)/s grow about as
 lift-off U_0 the share ends as that of one Hertz asperity, as (1 - U/U_0)^(3/2). What is left when both are taken out,
 ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows about as the film does. All by
 cubic splines; shape-preserving cubics beside them tell how sure that is.
-=======
-"""Friction between the solved speeds. Each of the two parts of f is interpolated in coordinates in which it is smooth,
-with a knee at lift-off.
-
-The boundary part b = f_b F_C/F_T falls to zero at lift-off as a power of the remaining speed, about 3/2 as for one
-Hertz asperity. So b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is
-close to a power of the speed on either side of the knee. So ln g is interpolated over ln U. Both use cubic splines.
-Shape-preserving cubics beside them tell how sure the result is.
->>>>>>> main
 """
 
 from __future__ import annotations
@@ -78,15 +68,9 @@ class Interpolant:
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
-<<<<<<< HEAD
         """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
         place of the knee and the way in which the contact ends there are unsure by, and a share of what the curve
         through the other points misses the neighbouring ones by."""
-=======
-        """Estimated relative error at speeds [m/s]. It is the largest of three numbers: how much the two kinds of
-        cubics differ; how much f depends on where the knee may be; and a share of how much the curve misses a
-        neighbouring point that is left out."""
->>>>>>> main
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
         for other in self._others:
@@ -109,13 +93,8 @@ class Interpolant:
         return CLOSER * between * np.maximum(missed[right - 1], missed[right])
 
     @cached_property
-<<<<<<< HEAD
     def _others(self) -> tuple[Interpolant, ...]:
         """The same with the ends of what is known of the place of the knee, and of how the contact ends there."""
-=======
-    def _other_knees(self) -> tuple[Interpolant, ...]:
-        """The same curve with the knee at either end of the range in which it may be."""
->>>>>>> main
         if self.lift_off is None:
             return ()
         knees = tuple(replace(self, lift_off=knee) for knee in knee_range(self.samples) if knee != self.lift_off)
@@ -168,13 +147,8 @@ class Interpolant:
 
 
 def knee_of(samples: Samples) -> float | None:
-<<<<<<< HEAD
     """Lift-off [m/s]: where the film, a power of the speed through the slowest two without contact, is as thick as the
     summits are high. Their height is what its clearance leaves of the slower of these."""
-=======
-    """Lift-off [m/s]. It is where the clearance of the slowest films without contact, as a straight line over U^0.6,
-    reaches zero."""
->>>>>>> main
     k = samples.contacts
     if k in (0, samples.speed.size):
         return None
@@ -193,13 +167,8 @@ def knee_of(samples: Samples) -> float | None:
 
 
 def knee_range(samples: Samples) -> tuple[float, float]:
-<<<<<<< HEAD
     """Ends of where lift-off [m/s] may be: a share of the way from its estimate to the slowest film without contact, to
     either side, but not where it is known to touch."""
-=======
-    """The lowest and highest lift-off [m/s] that are likely: a quarter of the way from the estimate to the speeds
-    that enclose it."""
->>>>>>> main
     k, knee = samples.contacts, knee_of(samples)
     low, high = samples.speed[k - 1], samples.speed[k]
     away = (high / knee) ** UNSURE

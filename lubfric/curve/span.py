@@ -37,16 +37,8 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-<<<<<<< HEAD
     """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.5,
     1.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
-=======
-    """The speeds [m/s] to begin with, fastest first, at least 5.
-
-    They are both ends of `span`, and where Moes' film of the whole load is 0.4, 1.2, 2.5 and 4.5 times Sq. There rough
-    line contacts pass from contact to film.
-    """
->>>>>>> main
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:
