@@ -170,6 +170,7 @@ def _plot(arguments) -> int:
     from .plot import plot_stribeck
     from .store import whole_file
     from .unsteady.command import plot_again
+    from .validity.entry import Validity
 
     if plot_again(arguments.folder):
         return 0
@@ -179,12 +180,15 @@ def _plot(arguments) -> int:
             raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
     record = arguments.folder / "result.json"
     try:
-        name = json.loads(record.read_text(encoding="utf-8"))["scene"]["name"]
-    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        found = json.loads(record.read_text(encoding="utf-8"))
+        name, told = found["scene"]["name"], [[Validity(**e) for e in p.get("validity", ())] for p in found["points"]]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
         raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
-    measured = _measured(arguments)
+    measured, columns = _measured(arguments), read_csv(source)
+    if len(columns["speed"]) != len(told):
+        raise InputError(f"{source} has {len(columns['speed'])} speeds and {record} {len(told)}; allowed: of one run")
     with whole_file(arguments.folder / "stribeck.png") as part:
-        plot_stribeck(part, read_csv(source), str(name), measured)
+        plot_stribeck(part, columns, str(name), told, measured)
     return 0
 
 

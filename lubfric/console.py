@@ -1,4 +1,4 @@
-"""What a command says, and how it ends: a broken stream or an interrupt never costs what was computed."""
+"""What a command says, and how it ends. A broken stream or an interrupt never costs what was computed."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def interruptible():
 
 @contextmanager
 def keeping(what):
-    """On an interrupt, say by ``what()`` what is kept."""
+    """On an interrupt, say what is kept: the words come from ``what()``."""
     try:
         yield
     except Interrupted as error:

@@ -122,7 +122,8 @@ def _map_lines(scene: Scene, surface) -> list[str]:
 
 
 def _correlation_length(surface, axis) -> float | None:
-    """[m], or None for a map without one: flat, of one cell, or shorter than twice its correlation length."""
+    """Correlation length [m] along an axis. None where a map has none: it is flat, has one cell, or is shorter than
+    twice that length."""
     try:
         return correlation_length(surface, axis)
     except InputError:

@@ -1,4 +1,4 @@
-"""Arrays that stay read-only, also in what is copied or unpickled."""
+"""Arrays that stay read-only, even after the object that holds them was copied or unpickled."""
 
 from __future__ import annotations
 

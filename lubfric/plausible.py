@@ -65,7 +65,8 @@ NOUGHT = (
 
 
 def slip(name: str, value) -> str | None:
-    """What ``value`` of the key ``name`` (section.key) may have been meant as, or None: usual, or nothing fits."""
+    """What ``value`` of the key ``name`` (section.key) may have been meant as. None: the value is usual; "": nothing
+    fits."""
     usual = USUAL.get(name)
     numbers = value if isinstance(value, (list, tuple)) else (value,)
     numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
@@ -82,8 +83,8 @@ def slip(name: str, value) -> str | None:
 
 @dataclass(frozen=True)
 class Doubt:
-    """A value [unit] of a key outside its usual range, the bound it is beyond, and what it may have been meant as
-    ("")."""
+    """A value [unit] of a key outside its usual range, and the bound it is beyond. ``meant``: what it may have been
+    meant as, or ""."""
 
     name: str
     value: float
@@ -113,8 +114,7 @@ def doubts(scene) -> tuple[Doubt, ...]:
 
 @contextmanager
 def told_slips(section: str, values: dict):
-    """An `InputError` about one of ``values`` leaves with the likely slip, where one fits, at the end of its
-    message."""
+    """Add the likely slip, where one fits, to the message of an `InputError` about one of ``values``."""
     try:
         yield
     except InputError as error:
@@ -128,7 +128,8 @@ def told_slips(section: str, values: dict):
 
 @contextmanager
 def told_doubts(scene):
-    """An `InputError` or `ConvergenceError` of a scene leaves with its unusual values, the likely cause, at the end."""
+    """Add the unusual values of a scene to the message of an `InputError` or `ConvergenceError`: they are its likely
+    cause."""
     try:
         yield
     except (InputError, ConvergenceError) as error:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import io
-import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,16 +23,24 @@ def _figure(*args, **kwargs):
 
 
 def make_ready() -> None:
-    """Import what draws, and its letters: half a second that can pass while something else is computed."""
+    """Import matplotlib and load its fonts. That takes half a second, which can pass while something else is
+    computed."""
     figure = _figure(figsize=(1, 1))
     figure.subplots()
     figure.savefig(io.BytesIO())
 
 
-def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:
+def plot_stribeck(
+    path: Path,
+    columns: dict[str, np.ndarray],
+    title: str,
+    entries: Sequence[Sequence[Any]],
+    measured=None,
+) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out.
+    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out. ``entries``: row by
+    row, the assumptions that do not hold (`lubfric.validity.entry.Validity`).
     ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """
     from matplotlib.ticker import LogLocator, NullFormatter
@@ -52,7 +61,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
         error = None if measured.deviation is None else 1.96 * measured.deviation
         top.errorbar(np.abs(measured.x), measured.coefficient, error, fmt="D", ms=4, color="k", mfc="none", lw=1)
         top.plot([], [], "D", ms=4, color="k", mfc="none", label=measured.source)
-    _mark(figure, top, speed, c)
+    _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
     top.set_ylabel("friction coefficient (-)")
     lowest = c["coefficient"].min() if measured is None else min(c["coefficient"].min(), measured.coefficient.min())
     top.set_ylim(bottom=min(0, 1.1 * lowest))
@@ -74,30 +83,29 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
     figure.savefig(path, dpi=150)
 
 
-def _mark(figure, axes, speed, columns) -> None:
-    """Ring the points at which an assumption fails, cross out those that it makes meaningless, and say which below."""
-    told = columns.get("validity")
-    if told is None or not any(told):
+def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
+    """Ring the points at which an assumption fails, and cross out those where it makes f meaningless. Say below
+    which."""
+    if not any(entries):
         return
-    severe = np.array(["not valid: " in text for text in told])
-    minor = np.array([bool(text) for text in told]) & ~severe
+    severe = np.array([any(entry.severe for entry in told) for told in entries])
+    minor = np.array([bool(told) for told in entries]) & ~severe
     for chosen, marker, color, label in (
         (minor, "o", GREY, "with cautions"),
         (severe, "x", RED, "no answer (accepted)"),
     ):
         if chosen.any():
-            axes.plot(speed[chosen], columns["coefficient"][chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    heads = dict.fromkeys(entry.split(": ")[1] for text in told for entry in text.split(" | ") if entry)
-    names = list(dict.fromkeys(re.split(r" [-\d.]+(?:e[+-]?\d+)?(?: \S+)?, ", head)[0] for head in heads))
+            axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    names = dict.fromkeys(entry.what for told in entries for entry in told)
     figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
 
 
 def plot_contact(path: Path, prepared, point) -> None:
-    """Contact pressure map, and film, separation and surface on a section through the highest pressure.
+    """Contact pressure map; beside it film, separation and surface on a section through the highest pressure.
 
-    ``point``: a `FrictionResult` with fields. As in the paper's Fig. 10: the smooth film h, the separation
-    h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z); epsilon and u are taken in the gauge in
-    which u has zero mean over the section.
+    ``point``: a `FrictionResult` with fields. The section shows what the paper's Fig. 10 shows: the smooth film h, the
+    separation h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z). epsilon and u are known up to one
+    constant. It is chosen so that u has zero mean over the section.
     """
     figure = _figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
@@ -117,7 +125,7 @@ def plot_contact(path: Path, prepared, point) -> None:
 
 
 def _place_on_the_line(axes, prepared, point, row) -> None:
-    """Of a long line the part around the section, about twice as long as wide, and where it lies."""
+    """Of a long line, draw only the part around the section, about twice as long as wide, and say where it lies."""
     step, (across, along) = prepared.surface.spacing[1], prepared.surface.size
     if prepared.lines is None or along < WHOLE * across:
         return

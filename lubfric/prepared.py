@@ -33,9 +33,9 @@ class Prepared(Shown):
     surface : its height map
     contact : the rough contact on it
     film_levels : the film levels to choose from, the simplest first
-    known : assumptions that bodies and map do not meet
-    lines : where ``surface`` is a line of the scene's roughness: more of it
-    given : True: the map was given to `prepare`, and is all there is
+    known : assumptions of the model that bodies and map do not meet
+    lines : makes further lines, where ``surface`` is a line of the scene's roughness; else None
+    given : True: the map was given to `prepare`, and there is no more of it
     """
 
     scene: Scene
@@ -99,8 +99,8 @@ def prepare(
 
 
 def _another(scene: Scene, like: Prepared) -> Prepared:
-    """``scene`` on the map of ``like``: on the same lines, or others where it asks for another sampling or other
-    cells."""
+    """Make ``scene`` ready on the map of ``like``. Its lines serve too, unless the scene asks for another sampling
+    or other cells."""
     lines = None
     if not like.given and (like.lines is not None or takes_line(scene)):
         lines = like.lines.again(scene) if like.lines is not None and takes_line(scene) else None
@@ -126,7 +126,8 @@ def scene_of(scene: Scene | Prepared) -> Scene:
 
 
 def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
-    """``scene`` made ready, its tolerance on f and its model ("auto" or "full") replaced where given."""
+    """``scene`` made ready, with another tolerance on f and another model ("auto", "full", "deterministic") where
+    they are given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Prepared) else None
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)

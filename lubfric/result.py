@@ -30,24 +30,24 @@ class FrictionResult(PointShown):
     contact_load, film_load : F_C and F_H [N]
     shear_force : F_sh [N] = couette_force + rolling_force [N]
     boundary_force : f_b F_C [N], zero in pure rolling
-    real_contact_area_fraction, plastic_area_fraction : of the area A [-]
-    real_contact_area : of the whole line [m²]
-    min_film, central_film : of the smooth film that carries F_H [m]; NaN without entrainment
-    mean_gap : between the rough surfaces [m]; the film when they are separated
+    real_contact_area_fraction, plastic_area_fraction : shares of the area A that touch, and that yield [-]
+    real_contact_area : area in contact on the whole line [m²]
+    min_film, central_film : thickness of the smooth film that carries F_H [m]; NaN without entrainment
+    mean_gap : mean distance between the rough surfaces [m]; the film thickness when they are separated
     film_to_roughness_ratio : central_film/Sq [-]
-    inlet_film_factor : what the heat of the inlet leaves of the film [-]; 1 where heat is left out
-    flash_temperature_rise, film_temperature_rise : largest, of the surfaces and (mean across) of the film above them
-        [K]; 0 where heat is left out
+    inlet_film_factor : film thickness over that without the heat of the inlet [-]; 1 where heat is left out
+    flash_temperature_rise : largest temperature rise of the surfaces [K]; 0 where heat is left out
+    film_temperature_rise : largest rise of the film, mean across it, over the surfaces [K]; 0 where heat is left out
     load_residual : (F_C + F_H - F_T)/F_T [-]
     volume_residual : (gap - film)/(gap + film) [-]
     seconds : time of the solve [s]
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
-    uncertainty : of the coefficient, from solvers and grids, and because a finite surface stands for all of it
+    uncertainty : of the coefficient: from solvers and grids, and because a finite surface stands for all of it
         (`Uncertainty`, docs/uncertainty.md)
-    errors : relative errors of every other number (`FieldErrors`), as ``errors.contact_load``
-    methods : what it rests on, as far as a paper stands behind it. ``cite()`` gives the papers
-    line : what the long line of a scene leaves for a neighbouring speed to start from
+    errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
+    methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
+    line : on a long line, what a neighbouring speed starts from
     """
 
     speed: float
@@ -84,10 +84,10 @@ class FrictionResult(PointShown):
 
     @property
     def starts(self) -> bool:
-        """A neighbouring speed can start from it: it has its fields, and a film."""
+        """Whether a neighbouring speed can start from it: it has its fields, and a film."""
         whole = self.deterministic is not None or bool(self.one_way)
         return whole or (self.balance is not None and self.balance.film is not None)
 
     def without_fields(self) -> FrictionResult:
-        """Its numbers alone."""
+        """A copy with its numbers alone."""
         return replace(self, balance=None, deterministic=None, one_way=(), line=None)

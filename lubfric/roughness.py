@@ -54,8 +54,8 @@ class Roughness(Brief):
     acf : of a generated map: "exponential" or "gaussian"
     decay_level : value of the autocorrelation at ``correlation_length``
     seed : of a generated map
-    oversize : a generated map is made this many times as long in x and y, its middle is cut out and scaled to sq. This
-        is for lengths that do not fit the patch
+    oversize : a generated map is made this many times as long in x and y. Then its middle is cut out and scaled to sq.
+        This is for correlation lengths that do not fit the patch
     spacing : of a file that does not carry its own [m]
     unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own
     decimal : "." or ",", of a text file in which commas can be either
@@ -63,8 +63,8 @@ class Roughness(Brief):
     form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
     outliers : what to do with points that stand alone (`lubfric.surface.outliers`), which would carry the load:
         "refuse" the map, "keep" them, or "mask" and fill them
-    s_filter, l_filter : nesting indices of the Gaussian filters of ISO 16610-61, which take out what is shorter and
-        what is longer [m]
+    s_filter, l_filter : nesting indices [m] of the Gaussian filters of ISO 16610-61. The first takes out what is
+        shorter, the second what is longer
     motion_axis : the axis of the *file*, "x" or "y", that lies along the motion
     extension : "mirror" continues a map that is too short along x by its mirror image
 
@@ -108,7 +108,7 @@ class Roughness(Brief):
 
 
 def not_for_this(name: str, value: Any, generated: bool) -> InputError:
-    """A key that has no meaning for the kind of map there is."""
+    """The error for a key that has no meaning for the kind of map there is."""
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     return InputError(
         f"surface.{name} = {validate.shown(value)} applies to {this}, and this one is {other}; allowed: leave it out"
@@ -125,7 +125,7 @@ def check_keys(given: dict[str, Any]) -> None:
 
 @contextmanager
 def named(section: str) -> Iterator[None]:
-    """An `InputError` about a field names the ``section`` that it stands in."""
+    """Make an `InputError` about a field name the ``section`` that the field stands in."""
     try:
         yield
     except InputError as error:
@@ -150,7 +150,8 @@ def counterface(values: dict[str, Any]) -> Roughness:
 
 
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
-    """Fields that ``values`` change in ``old``; a file in place of a generated map leaves nothing of that."""
+    """The fields that ``values`` change in ``old``. Where a file takes the place of a generated map, the keys of
+    that map go."""
     if old is not None and old.file is None and values.get("file") is not None:
         return {"sq": None, **GENERATED, **values}
     return values

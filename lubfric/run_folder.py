@@ -1,4 +1,5 @@
-"""The folder of ``lubfric run``: one writer, files that are whole, result.json last, the unfinished kept apart."""
+"""The folder of ``lubfric run``: one writer at a time, whole files only, result.json last. What an unfinished run
+kept stands apart."""
 
 from __future__ import annotations
 
@@ -46,29 +47,29 @@ class RunFolder:
         self.written: list[str] = []
 
     def clear(self) -> None:
-        """Remove the results of an earlier run, now that those of this one are there to be written."""
+        """Remove the results of an earlier run. Call it when those of this run are ready to be written."""
         with saying(f"results of an earlier run in {self.path} were not removed"):
             for path in (*(self.path / name for name in OUTPUTS), *self.path.glob("contact_*.vtk")):
                 path.unlink(missing_ok=True)
 
     def write(self, name: str, content: bytes) -> None:
-        """A file of the run, whole or not at all."""
+        """Write a file of the run, whole or not at all."""
         write_whole(self.path / name, content)
         self.written.append(name)
 
     def draw(self, name: str, plot: Callable, *arguments) -> None:
-        """A figure: ``plot(file, *arguments)``."""
+        """Write the figure that ``plot(file, *arguments)`` draws."""
         self.write(name, drawn(plot, *arguments))
 
     def make(self, name: str, save: Callable, *arguments) -> None:
-        """A file that ``save(path, *arguments)`` can only write by name."""
+        """Write a file by ``save(path, *arguments)``, for what can only be written by name."""
         with whole_file(self.path / name) as part:
             save(part, *arguments)
         self.written.append(name)
 
     def finish(self, record: dict) -> None:
-        """Write result.json, which names what belongs to it: the run is complete, and what it kept for a resume
-        goes."""
+        """Write result.json, which names the files that belong to it. The run is complete then, and what was kept
+        for a resume is removed."""
         files = sorted([*self.written, RESULT])
         self.write(RESULT, json.dumps({"files": files} | record, indent=1, allow_nan=False).encode())
         shutil.rmtree(self.unfinished, ignore_errors=True)
@@ -79,10 +80,11 @@ class RunFolder:
 
 @contextmanager
 def run_folder(path, fingerprint: str):
-    """A `RunFolder` for the run of that ``fingerprint`` in ``path``.
+    """Open ``path`` for the run with that ``fingerprint``, as a `RunFolder`.
 
-    Raises `InputError` for a file and for a folder that another process writes to, `OutputError` where it cannot be
-    used. What an interrupted run of the same fingerprint kept is in ``.unfinished``; that of others is left alone.
+    ``.unfinished`` holds what an interrupted run of the same fingerprint kept. What other runs kept is left alone.
+    Raises `InputError` where ``path`` is a file, or a folder that another process writes to, and `OutputError` where it
+    cannot be used.
     """
     path = Path(path)
     if path.exists() and not path.is_dir():

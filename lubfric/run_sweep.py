@@ -42,11 +42,11 @@ class Extras:
 
 
 def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, more: Extras = Extras()) -> int:
-    """Compute and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
 
-    The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. Every point is on disk as it ends, and an interrupted run goes on from there. What a failed run
-    has is written, then `ConvergenceError` raised.
+    The scene is checked and made ready before ``out`` is touched. The results of an earlier run stay until those of
+    this one are there. Every point is on disk when it ends, so an interrupted run goes on from there. A failed run
+    writes what it has, then raises `ConvergenceError`.
     """
     asked, chosen = _asked(scene, speeds, fields)
     with pool(_workers(scene, asked, more.workers)) as executor:
@@ -109,7 +109,7 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
 
 
 def _doubts(curve) -> tuple[str, ...]:
-    """What the errors of f say beside numbers: at how many speeds, and at the first of them in full."""
+    """What the errors of f say in words: at how many speeds, and in full for the first of them."""
     told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
     if not told:
         return ()
@@ -137,11 +137,12 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
 
 
 def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Future[bytes]]) -> None:
-    """All but the result; ``pictures``: of contacts by speed, drawn or being drawn."""
+    """Write everything but result.json. ``pictures``: of contacts, by speed; they may still be being drawn."""
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        folder.draw("stribeck.png", plot_stribeck, read_csv(folder.path / "stribeck.csv"), prepared.scene.name)
+        columns, told = read_csv(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
+        folder.draw("stribeck.png", plot_stribeck, columns, prepared.scene.name, told)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))
@@ -156,7 +157,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
 
 
 def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:
-    """The page and the files for ParaView, where they are asked for."""
+    """Write the page and the files for ParaView, where they are asked for."""
     if more.vtk:
         touching = [p for p in curve.points if p is not None and p.shows_contact]
         for i, point in enumerate(touching):
@@ -192,7 +193,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
 
 
 def _with_chosen(speeds, chosen):
-    """Speeds with the chosen ones among them, and the chosen ones as they stand in there."""
+    """``speeds`` with the chosen ones put in, and the chosen ones as they stand among them."""
     own = []
     for speed in chosen:
         near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]

@@ -139,8 +139,11 @@ def _rough(section: str, given: dict, folder: Path) -> Roughness:
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
-    """The `Transient` of the histories in [transient] and, as inline tables, in the sections they belong to; these
-    then hold the plain value: the largest load, else the value at the start."""
+    """The `Transient` of a scene, and the table without its histories.
+
+    Histories stand in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
+    plain value: the largest load, else the value at the start.
+    """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
     found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}

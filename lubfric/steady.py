@@ -32,8 +32,8 @@ def friction(
 
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
     (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything. When
-    the film clears the summits, no contact is solved. Stops when ``|gap - film|/(gap + film)``, means over A, is <=
-    numerics.tolerances.balance, divided by the share of the film in f.
+    the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means over
+    A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f.
 
     Parameters
     ----------
@@ -42,8 +42,8 @@ def friction(
     start : a result at a neighbouring speed of the same map
     tolerance : relative, on f; None: ``numerics.tolerance``. No more is modelled than it needs (docs/levels.md)
     model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
-    fields : True: film and contact in ``result.balance`` on the scene's own contact grid (on a long line: on its cells)
-    raise_on_failure : False returns also what is not balanced or refused. A film or contact that failed always raises
+    fields : True: ``result.balance`` has film and contact on the scene's own contact grid (on a long line: its cells)
+    raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
 
     Returns a `FrictionResult`.
 

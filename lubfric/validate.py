@@ -33,8 +33,8 @@ NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values,
 
 
 def shown(value: Any) -> str:
-    """``value`` for a message: its ``repr``, cut where it is long, its type where it has none (an integer of 5000
-    digits)."""
+    """``value`` for a message: its ``repr``, cut where it is long. A value without one (an integer of 5000 digits)
+    is shown by its type."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):
@@ -43,8 +43,8 @@ def shown(value: Any) -> str:
 
 
 def _real(value: Any) -> float:
-    """``value`` as a float; TypeError where it is not one real number, OverflowError where it is none that a float
-    holds."""
+    """``value`` as a float. Raises TypeError where it is not one real number, OverflowError where it is too large
+    for a float."""
     if type(value) in (float, int):
         return float(value)
     if isinstance(value, (np.ma.MaskedArray, str, bytes)):
@@ -115,7 +115,7 @@ def boolean(name: str, value: Any) -> bool:
 
 
 def instance(name: str, value: Any, kind: type, allowed: str) -> None:
-    """``value`` is of ``kind``; ``allowed``: where such a value comes from, in words."""
+    """Check that ``value`` is of ``kind``. ``allowed`` says in words where such a value comes from."""
     if not isinstance(value, kind):
         raise InputError(f"{name} = {shown(value)} is a {type(value).__name__}; allowed: {allowed}")
 
@@ -147,7 +147,7 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
 
 
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
-    """``value`` as an array of floats, of any shape, NaN and infinity among them; a mask is left out."""
+    """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
     try:
         found = np.empty(0) if odd else np.asarray(value)
@@ -165,7 +165,7 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
 
 
 def _odd_entry(value: Any, depth: int) -> str:
-    """What a list holds that NumPy would turn into a number beside others: True and False, masked values."""
+    """The first entry of a list that is no number but that NumPy would turn into one: True, False or a masked value."""
     if isinstance(value, (list, tuple)) and depth > 0:
         return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
     if isinstance(value, (bool, np.bool_)):

@@ -1,4 +1,4 @@
-"""The numbers of one gap with one pressure as a `FrictionResult`, and what a reader has to know of them."""
+"""One gap with one pressure as a `FrictionResult`: its numbers, and what a reader has to know about them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian fil
 def deterministic_answer(
     prepared: Prepared, speed: float, start: FrictionResult | None, begun: float
 ) -> FrictionResult:
-    """``prepared`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
+    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed;
+    ``begun``: when, by `time.perf_counter`."""
     scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
     known = {} if found.error is None else {"coefficient": found.error}
@@ -67,7 +68,7 @@ def _words(found: Refined) -> str:
 
 
 def _notes(found: Refined) -> tuple[str, ...]:
-    """How the load divides by each rule, and how the finest grid was solved."""
+    """How the load divides by each rule, and how the finest grid was solved, in words."""
     result = found.result
     split, load = result.split, result.load
     return (

@@ -1,4 +1,4 @@
-"""The numbers of one operating point with what is known of their error, on a long line or on one patch."""
+"""The numbers of one operating point and what is known of their error, on a long line or on one patch."""
 
 from __future__ import annotations
 
@@ -25,8 +25,11 @@ from ..validity.model_form import load_sharing_error
 def load_sharing_answer(
     prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool, begun: float
 ) -> FrictionResult:
-    """``prepared`` at ``speed`` [m/s] on a long line where it has one, else on its patch; ``start``: of a neighbouring
-    speed, ``fields``: on the patch's own grid, ``begun``: by `time.perf_counter`."""
+    """Solve ``prepared`` at ``speed`` [m/s], on a long line where it has one, else on its patch.
+
+    ``start``: the result of a neighbouring speed; ``fields``: True: solve on the patch's own grid; ``begun``: when, by
+    `time.perf_counter`.
+    """
     if speed != 0 and (start is None or start.contact_load == 0):  # without film it is the dry contact that is solved
         foretell_ends(prepared, speed)
     if prepared.lines is not None:
@@ -56,14 +59,15 @@ def foretell_ends(prepared: Prepared, speed: float) -> None:
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:
-    """Known for a cylinder and the half-space contact, which were studied."""
+    """The error of the model. It is known for a cylinder with a half-space contact, which were studied; NaN
+    elsewhere."""
     if scene.contact.geometry != "cylinder" or scene.contact.model != "half-space":
         return math.nan
     return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)
 
 
 def _numbers(prepared: Prepared, speed: float, point: Solved, begun: float) -> FrictionResult:
-    """Of ``point``, beside what is known of their error."""
+    """The numbers of ``point``, without what is known of their error."""
     scene, balance = prepared.scene, point.balance
     contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan

@@ -39,7 +39,7 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
-    """Of a map that was handed over nothing is known."""
+    """How the map was made. Nothing is known of a map that was handed over."""
     scene = prepared.scene
     maps = [] if prepared.given else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
     return {
@@ -50,10 +50,10 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
 
 def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     told, scene, whole = result.decision, prepared.scene, result.deterministic is not None
-    scaled = scene.numerics.film_deflection == "scaled" or (told is not None and "scaled modulus" in told.deflection)
+    option = scene.numerics.film_deflection if told is None or not told.deflected_by else told.deflected_by
     return {
         "rigid film": told is not None and told.film in RIGID,
-        "scaled modulus": scaled and result.contact_load > 0,
+        "scaled modulus": option == "scaled" and result.contact_load > 0,
         "kept mass": whole,
         "sheared flow": whole and scene.lubricant.eyring_stress is not None,
     }
@@ -61,17 +61,17 @@ def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     lubricant, slides = prepared.scene.lubricant, prepared.scene.motion.slide_roll_ratio != 0
-    oil, estimated = lubricant.oil, ""
+    oil, estimate = lubricant.oil, ""
     if oil is not None and lubricant.temperature is not None:
-        estimated = oil.pressure_viscosity_coefficient(lubricant.temperature).source
+        estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson" and not result.one_way,
         "Eyring stress": lubricant.eyring_stress is not None and slides,
         "limiting stress": lubricant.limiting_stress_coefficient is not None and slides,
         "viscosity over temperature": oil is not None,
         "viscosity index": oil is not None and oil.by_index,
-        "So and Klaus": estimated.startswith("So and Klaus"),
-        "Gold": estimated.startswith("Gold"),
+        "So and Klaus": estimate == "so-klaus",
+        "Gold": estimate == "gold",
     }
 
 

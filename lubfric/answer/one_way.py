@@ -25,7 +25,8 @@ NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
 
 
 def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | None, begun: float) -> FrictionResult:
-    """``prepared`` at ``speed`` [m/s], not 0, ``start`` of a neighbouring speed, ``begun`` by `time.perf_counter`."""
+    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed;
+    ``begun``: when, by `time.perf_counter`."""
     scene = prepared.scene
     found = one_way_point(scene, prepared.surface, speed, () if start is None else start.one_way)
     one, error = found[-1], estimate([one.coefficient for one in found])
@@ -38,7 +39,7 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
 
 
 def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None) -> Resolved:
-    """``error``: estimated, of f by the grid, relative."""
+    """The numbers of ``one``. ``error``: the estimated relative error of f by the grid."""
     bodies = prepared.scene.bodies
     strip, central = np.abs(one.x) <= bodies.half_width, float(np.interp(0.0, one.x, one.gap.mean(axis=1)))
     hardness = math.inf if bodies.hardness is None else bodies.hardness
@@ -68,7 +69,7 @@ def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None)
 
 
 def _of_shear(scene: Scene, one: OneWay) -> list[Validity]:
-    """A film that drags more than any lubricant."""
+    """An entry where the film drags more than any lubricant does."""
     newtonian = scene.lubricant.eyring_stress is None and scene.lubricant.limiting_stress_coefficient is None
     force = abs(one.coefficient) * (one.contact_load + one.film_load)
     return of_shear(ShearForce(one.couette, one.rolling), one.film_load, force, scene.numerics.tolerance, newtonian)

@@ -19,9 +19,10 @@ from ..validity.entry import Validity
 class Resolved:
     """One operating point as a film in a resolved gap gives it.
 
-    film, contact: levels by name, film_words: of the film in words, notes: how it was solved; coefficient f [-]; loads
-    and forces per width [N/m]; the contact's area [m²] of a width of one patch, its fraction and the plastic one, of
-    the Hertz strip; gaps [m]; load_residual [-]; report: of the solve; entries: assumptions that do not hold.
+    - ``film``, ``contact``: levels by name; ``film_words``: the film in words; ``notes``: how it was solved.
+    - ``coefficient``: f [-]; loads and forces are per width [N/m].
+    - ``contact_area`` [m²]: of the width of one patch; ``contact_fraction``, ``plastic_fraction``: of the Hertz strip.
+    - gaps [m]; ``load_residual`` [-]; ``report``: of the solve; ``entries``: assumptions that do not hold.
     """
 
     film: str
@@ -46,7 +47,7 @@ class Resolved:
 
 
 def resolved_result(prepared: Prepared, speed: float, found: Resolved, begun: float) -> FrictionResult:
-    """The numbers of ``found``, of the whole width, isothermal; ``begun``: when the solve did, by
+    """The numbers of ``found`` for the whole width, isothermal. ``begun``: when the solve began, by
     `time.perf_counter`."""
     scene, width, sq = prepared.scene, prepared.scene.bodies.width, prepared.surface.sq
     entries = (*found.entries, *_heat_left_out(scene, speed, found))
@@ -87,8 +88,11 @@ def resolved_result(prepared: Prepared, speed: float, found: Resolved, begun: fl
 
 
 def _heat_left_out(scene: Scene, speed: float, found: Resolved) -> tuple[Validity, ...]:
-    """Told where heat, which these models leave out, would matter: by the inlet, or by the viscosity that the mean rise
-    of the film over its walls, ``tau du h/(12 k)``, takes away."""
+    """A caution where the heat that these models leave out would matter.
+
+    It would matter by the heat of the inlet, or by the viscosity that the film loses. For that the mean rise of the
+    film over its walls is ``tau du h/(12 k)``.
+    """
     inlet, _ = inlet_at(scene, speed)
     if inlet is None:
         return ()

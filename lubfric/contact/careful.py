@@ -1,5 +1,8 @@
-"""The search with exact steps: two or three convolutions an iteration, and sure where the pressure is far from small
-changes of the set (nearly rigid bodies, rounds that gained nothing)."""
+"""The search with exact steps: two or three convolutions an iteration.
+
+It is sure where the pressure is far from small changes of the set: for nearly rigid bodies, and after rounds that
+gained nothing.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have
 
 
 class CarefulDescent(Descent):
-    """`Descent` whose steps are exact for the cells that are free, and what the limits cut off is convolved at once."""
+    """A `Descent` whose steps are exact for the cells that are free. What the limits cut off is convolved at once."""
 
     def _precondition(self, operator, by_transform: bool) -> None:
         super()._precondition(operator, True)

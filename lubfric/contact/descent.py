@@ -1,13 +1,15 @@
 """Single-precision search for a better pressure on the cells that may touch: one convolution an iteration.
 
-Unknown is the change of the pressure since the gap was last computed in double precision, so that rounding is
-relative to the change. The free cells, whose pressure may change, are in elastic contact (0 < p < H), overlap without
-pressure, or have yielded and opened; on them the gap is the gradient of the energy. A conjugate direction (|k|, the
-inverse of the half-space, as preconditioner; kept when the set changes, where I. A. Polonsky and L. M. Keer, Wear 231
-(1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart) leads by a length learnt from the steps before to a trial,
-which is cut to 0..H and made to carry the load. What is convolved is the way from the *known* pressure, whose gap is
-at hand, to the trial; the step along it is exact. What the new pressure has more than the known one (cells cut
-again) is convolved together with the next trial.
+The unknown is the change of the pressure since the gap was last computed in double precision. So rounding is relative
+to that change. The free cells are those whose pressure may change: they are in elastic contact (0 < p < H), overlap
+without pressure, or have yielded and opened. On them the gap is the gradient of the energy.
+
+An iteration goes as follows. A conjugate direction leads to a trial, by a length learnt from the steps before. (The
+preconditioner is |k|, the inverse of the half-space. The direction is kept when the set changes, where I. A. Polonsky
+and L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart.) The trial is cut to 0..H and made
+to carry the load. The way from the *known* pressure, whose gap is at hand, to the trial is convolved, and the step
+along it is exact. The new pressure may differ from the known one by cells that are cut again. That difference is
+convolved together with the next trial.
 """
 
 from __future__ import annotations
@@ -38,9 +40,9 @@ PATIENCE = 8  # iterations without a tenth off the best residual
 
 
 class Descent:
-    """Search on ``cells``, from the `State` ``state``.
+    """The search on ``cells``, from the `State` ``state``.
 
-    ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is prescribed. ``pace``: of an
+    ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is prescribed; ``pace``: that of an
     earlier descent, or `FIRST_PACE`.
     """
 
@@ -79,8 +81,8 @@ class Descent:
             self.stencil = Stencil(self.cells.shape, operator.spacing, operator.boundary, self.cells.index, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
-        """Iterate until the residual is <= tolerance as far as these cells show, or falls no more, or ``limit``
-        times."""
+        """Iterate until the residual is <= tolerance as far as these cells show, until it falls no more, or
+        ``limit`` times."""
         best, waiting = math.inf, 0
         while True:
             worst = self._look()
@@ -129,7 +131,8 @@ class Descent:
         return max(overlap, misfit / total if total > 0 else math.inf, excess)
 
     def _follow(self) -> None:
-        """Level where cells may yield: mean gap in elastic contact, or between the highest yielded and lowest free."""
+        """The level of the gap where cells may yield: its mean in elastic contact, or between the highest yielded
+        and the lowest free cell."""
         f = self.fields
         yielded = f.change >= f.upper
         inside = (f.change > f.lower) & ~yielded
@@ -157,7 +160,7 @@ class Descent:
         return count, height
 
     def _narrowed(self) -> bool:
-        """Leave out cells that came nowhere near touch, where they are many."""
+        """Leave out the cells that came nowhere near touching, where they are many."""
         f, near = self.fields, self._near()
         if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return False
@@ -209,7 +212,7 @@ class Descent:
             each.residue, each.before = each.before, each.residue
 
     def _step(self) -> None:
-        """From the known pressure towards the trial, by the step that is exact along the change it asks for."""
+        """Go from the known pressure towards the trial, by the step that is exact along that change."""
         self._try()
         for b in self.blocks:
             np.subtract(b.trial, b.known, out=b.residue)
@@ -227,7 +230,7 @@ class Descent:
             self._move(b, answer[b.part], step)
 
     def _move(self, b, answer, step: float) -> None:
-        """A block, of whose change of gap ``answer`` is the whole, by ``step`` of the way in its residue."""
+        """Move a block by ``step`` of the way. ``answer`` is the whole change of its gap, and stands in its residue."""
         b.residue *= np.float32(step)
         b.known += b.residue
         b.gap += np.multiply(answer, np.float32(step * self.compliance), out=b.residue)
@@ -242,7 +245,7 @@ class Descent:
             np.copyto(b.change, b.upper, where=yielded)
 
     def _try(self) -> None:
-        """Trial: the change of pressure a pace along the direction, within the limits, with the load."""
+        """Make the trial: the change of pressure one pace along the direction, within the limits, carrying the load."""
         pace, carried = np.float32(self.pace), 0.0
         for b in self.blocks:
             np.multiply(b.direction, pace, out=b.residue)
@@ -266,8 +269,11 @@ class Descent:
             self._project()
 
     def _project(self) -> None:
-        """The trial by a bracketed shift of all cells, in double precision: where few of many cells stay in contact, or
-        the free ones cannot carry their share. They all are free then, and the direction is not kept."""
+        """Make the trial by a bracketed shift of all cells, in double precision.
+
+        This is for when few of many cells stay in contact, or when the free cells cannot carry their share. All cells
+        are free then, and the direction is not kept.
+        """
         f = self.fields
         base = np.negative(f.lower, dtype=float)
         pressure = with_load(base + f.residue, self.target + float(base.sum()), self.hardness / self.unit)

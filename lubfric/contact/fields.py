@@ -1,4 +1,5 @@
-"""Single-precision fields of a search, worked on block by block: each stays in the cache from one pass to the next."""
+"""Single-precision fields of a search. They are worked on block by block, so that a block stays in the cache from
+one pass to the next."""
 
 from __future__ import annotations
 
@@ -11,11 +12,13 @@ BLOCK = 16384  # cells
 
 @dataclass
 class Fields:
-    """One value a cell, on one axis; pressures in units of the mean one in contact, gaps in those of their scale.
+    """One value a cell, on one axis. Pressures are in units of the mean one in contact, gaps in units of their scale.
 
-    ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure. ``gap``: under the ``known``
-    change; ``change``: that and what is still to be convolved. ``weight``: 1 on free cells, else 0. ``residue``: of the
-    gap on them; ``before``: that which the ``direction`` was turned by. ``trial``: the change aimed at.
+    - ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure.
+    - ``gap``: that under the ``known`` change; ``change``: the known change and what is still to be convolved.
+    - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the one that the
+      ``direction`` was turned by.
+    - ``trial``: the change aimed at.
     """
 
     lower: np.ndarray
@@ -35,7 +38,8 @@ class Fields:
         return {name: function(values) for name, values in every if values is not None}
 
     def narrow(self, kept) -> None:
-        """Only positions ``kept`` from now on, one field after the other, so that the old ones are soon let go."""
+        """Keep only the positions ``kept`` from now on. Fields are cut one after the other, so that the old ones are
+        let go soon."""
         for name in self.each(len):
             self.__dict__[name] = self.__dict__[name].take(kept)
 

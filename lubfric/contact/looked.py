@@ -1,4 +1,4 @@
-"""What a pressure amounts to: gap, approach and residuals of the whole patch, from the pressure alone."""
+"""What follows from a pressure alone: gap, approach and residuals of the whole patch."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from .residual import blocks, contact_residuals, deflection_scale, dot
 
 @dataclass(frozen=True)
 class State:
-    """pressure [Pa] with its displacement and gap [m] (nx, ny), approach [m], the length ``scale`` [m] that residuals
-    are measured in, and complementarity and penetration; all in the precision of the operator used."""
+    """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
+
+    ``scale`` [m]: the length that residuals are measured in; complementarity and penetration: the residuals. All are in
+    the precision of the operator used.
+    """
 
     pressure: np.ndarray
     displacement: np.ndarray
@@ -27,7 +30,7 @@ class State:
         return max(self.residuals.values())
 
     def light(self) -> State:
-        """What a search needs: no displacement, the gap in single precision."""
+        """The state without displacement and with the gap in single precision, which is what a search needs."""
         return replace(self, displacement=np.empty((0, 0)), gap=self.gap.astype(np.float32))
 
     @property

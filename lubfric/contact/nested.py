@@ -27,8 +27,8 @@ def approach_controlled(problem, approach: float, guess: float, start=None) -> F
 
 
 def _from_coarse(problem, uniform: float, solve, *, mean_pressure=None, level=None) -> Found:
-    """Solve from a loose solution on cells twice as long, that one likewise; on a grid that cannot be halved from a
-    uniform pressure. Counts convolutions in units of this grid."""
+    """Solve from a loose solution on cells twice as long, which is made in the same way. A grid that cannot be
+    halved starts from a uniform pressure. Convolutions are counted in units of this grid."""
     coarse = problem.coarsened()
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
     if coarse is None:

@@ -19,9 +19,11 @@ ABSURD = 1e6  # times E': no start has such a pressure
 
 @dataclass(frozen=True)
 class Problem:
-    """gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection operator, hardness [Pa]
-    (inf: elastic), and when to stop. ``offset`` [m] is what was taken from the caller's gap0: near first touch
-    heights around zero keep the most digits."""
+    """The problem: gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection operator,
+    hardness [Pa] (inf: elastic), and when to stop.
+
+    ``offset`` [m] is what was taken off the caller's gap0. Heights around zero keep the most digits near first touch.
+    """
 
     gap0: np.ndarray
     offset: float
@@ -90,7 +92,7 @@ def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
 
 
 def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
-    """Exactly one control, in a range that has a solution."""
+    """Check that exactly one of load and mean gap is given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
         raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; allowed: exactly one of them")

@@ -10,9 +10,9 @@ NEWTON = 12  # steps before every other one halves the bracket
 def with_load(pressure, load: float, hardness: float) -> np.ndarray:
     """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
 
-    The Euclidean projection for 0 <= load <= hardness size. Newton's method on the piecewise linear sum
-    inside a shrinking bracket: exact once the right piece is found, but for the
-    rounding of a pressure far above the load, which the last factor removes; cells at the hardness stay there.
+    This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
+    inside a shrinking bracket, so it is exact once the right piece is found. What is left is the rounding of a pressure
+    far above the load. The last factor removes it; cells at the hardness stay there.
     """
     upper = min(hardness, load) - pressure.min()
     lower, shift = -pressure.max(), 0.0
@@ -39,8 +39,8 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor, then, with a hardness, shifted to carry ``load`` within 0..hardness: where it is
-    elastic if those cells can do it, else anywhere it is loaded, else everywhere."""
+    """``pressure`` times a factor. With a hardness it is then shifted to carry ``load`` within 0..hardness. Elastic
+    cells are shifted if they can do it, else all loaded ones, else all."""
     result = pressure * (load / pressure.sum())
     if hardness == np.inf:
         return result

@@ -1,8 +1,8 @@
 """Rounds of search and check: single precision on the cells that may touch, then double precision everywhere.
 
-The loop ends by what a `look` at the whole patch in double precision says of the pressure, never by what the search
-believes. Keeping conjugate directions while the set changes has no convergence proof: rounds that gain nothing end the
-solve as stagnated.
+Only the check ends the loop: a `look` at the whole patch in double precision, and never what the search believes. There
+is no proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end
+the solve as stagnated.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
 
 
 def _admissible(found, begun, load, hardness) -> np.ndarray:
-    """``found`` with the load; where single precision has lost it, what the search had ``begun`` with."""
+    """``found`` made to carry the load. Where single precision has lost it, what the search had ``begun`` with."""
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
         return begun
@@ -87,7 +87,7 @@ def _admissible(found, begun, load, hardness) -> np.ndarray:
 
 
 def _rigid(problem) -> bool:
-    """Cells yield before they bend noticeably: which ones is all that is to be found."""
+    """Whether cells yield before they bend noticeably. Then only the set of yielded cells is to be found."""
     bent = problem.hardness * min(problem.operator.spacing) / problem.operator.e_prime
     return bent < RIGID * problem.roughness
 

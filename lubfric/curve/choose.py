@@ -14,12 +14,12 @@ GRID = 400
 
 
 def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | None, float]:
-    """(speed [m/s] to solve next or None where the curve is known, largest estimated relative error of f now).
+    """The speed [m/s] to solve next, or None where the curve is known; and the largest estimated relative error of f
+    now.
 
-    ``tried``: speeds that failed, which are left alone.
-
-    First the knee is enclosed: a film that only just clears the summits tells where they touch. Then the speed at which
-    the error is estimated to be largest, until that is below ``tolerance`` times 0.8 everywhere.
+    First the knee is enclosed: a film that only just clears the summits tells where they touch. After that, the speed
+    with the largest estimated error is next, until the error is below 0.8 ``tolerance`` everywhere. ``tried``: speeds
+    that failed, which are left alone.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

@@ -1,10 +1,10 @@
-"""Friction between the solved speeds: the two parts of f in coordinates in which each is smooth, with a knee at
-lift-off.
+"""Friction between the solved speeds. Each of the two parts of f is interpolated in coordinates in which it is smooth,
+with a knee at lift-off.
 
-The boundary part b = f_b F_C/F_T falls to zero at lift-off as a power of the remaining speed, about 3/2 as of one Hertz
-asperity: b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is close to
-a power of the speed on either side: ln g over ln U. Both by cubic splines; shape-preserving cubics beside them tell how
-sure that is.
+The boundary part b = f_b F_C/F_T falls to zero at lift-off as a power of the remaining speed, about 3/2 as for one
+Hertz asperity. So b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is
+close to a power of the speed on either side of the knee. So ln g is interpolated over ln U. Both use cubic splines.
+Shape-preserving cubics beside them tell how sure the result is.
 """
 
 from __future__ import annotations
@@ -52,9 +52,9 @@ class Interpolant:
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
-        """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
-        place of the knee is unsure by, and a share of what the curve through the other points misses the neighbouring
-        ones by."""
+        """Estimated relative error at speeds [m/s]. It is the largest of three numbers: how much the two kinds of
+        cubics differ; how much f depends on where the knee may be; and a share of how much the curve misses a
+        neighbouring point that is left out."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
         for other in self._other_knees:
@@ -62,7 +62,8 @@ class Interpolant:
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), self._missed_beside(speed))
 
     def _missed_beside(self, speed) -> np.ndarray:
-        """`CLOSER` times the larger relative miss of the two points around each speed, each left out in its turn."""
+        """Leave each point out in turn, and see how much the curve misses it by, relative. Each speed gets `CLOSER`
+        times the larger miss of the two points around it."""
         s = self.samples
         missed = np.zeros(s.speed.size)
         for i in range(1, s.speed.size - 1):
@@ -75,7 +76,7 @@ class Interpolant:
 
     @cached_property
     def _other_knees(self) -> tuple[Interpolant, ...]:
-        """The same with the ends of what is known of the place of the knee."""
+        """The same curve with the knee at either end of the range in which it may be."""
         if self.lift_off is None:
             return ()
         low, high = knee_range(self.samples)
@@ -108,7 +109,8 @@ class Interpolant:
 
 
 def knee_of(samples: Samples) -> float | None:
-    """Lift-off [m/s]: where the clearance of the slowest films without contact, linear in U^0.6, is used up."""
+    """Lift-off [m/s]. It is where the clearance of the slowest films without contact, as a straight line over U^0.6,
+    reaches zero."""
     k = samples.contacts
     if k in (0, samples.speed.size):
         return None
@@ -125,7 +127,8 @@ def knee_of(samples: Samples) -> float | None:
 
 
 def knee_range(samples: Samples) -> tuple[float, float]:
-    """Ends of where lift-off [m/s] may be: a quarter of the way from its estimate to the speeds that enclose it."""
+    """The lowest and highest lift-off [m/s] that are likely: a quarter of the way from the estimate to the speeds
+    that enclose it."""
     k, knee = samples.contacts, knee_of(samples)
     low, high = samples.speed[k - 1], samples.speed[k]
     return float(knee * (low / knee) ** 0.25), float(knee * (high / knee) ** 0.25)

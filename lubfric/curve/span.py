@@ -17,8 +17,8 @@ SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
 
 def span(scene: Scene, sq: float) -> tuple[float, float]:
-    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``, or else where the film that
-    Moes' formula gives the whole load is 0.02 and 10 times Sq.
+    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
+    which Moes' film of the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for a smooth surface without speeds, which has no such range.
     """
@@ -37,8 +37,11 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.4,
-    1.2, 2.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
+    """The speeds [m/s] to begin with, fastest first, at least 5.
+
+    They are both ends of `span`, and where Moes' film of the whole load is 0.4, 1.2, 2.5 and 4.5 times Sq. There rough
+    line contacts pass from contact to film.
+    """
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:

@@ -12,8 +12,8 @@ from ..studies.quantities import KEYS
 
 
 def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: float) -> None:
-    """Friction over the slide-roll ratio with its parts, and temperatures below; ``columns``: of `TractionResult`, with
-    ``ratio``."""
+    """Draw friction over the slide-roll ratio with its parts, and temperatures below. ``columns``: those of a
+    `TractionResult`, and ``ratio``."""
     order = np.argsort(columns["ratio"])
     c = {name: column[order] for name, column in columns.items() if name != "validity"}
     figure = _figure(figsize=(7, 6.5))
@@ -39,8 +39,11 @@ def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: 
 
 
 def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
-    """``quantity`` of a `StudyResult` over two of its keys, for example ``"speed"`` and ``"motion.slide_roll_ratio"``,
-    as contours; points that have no number are marked. Raises `InputError` unless these are its only two dimensions."""
+    """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
+    ``"motion.slide_roll_ratio"``.
+
+    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions.
+    """
     coords = study.coords
     for key in (across, up):
         if key not in coords:

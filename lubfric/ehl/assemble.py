@@ -11,6 +11,7 @@ from .kernel import hat_kernel
 from .newton import Solution
 from .problem import Problem
 from .result import EHLResult, cubic, smallest
+from .rolling import rolling_resistance
 from .start import solution_state
 
 
@@ -134,4 +135,5 @@ def assemble(
         report=report,
         state=solution_state(problem, last, error),
         imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored(),
+        rolling=rolling_resistance(problem, levels),
     )

@@ -11,6 +11,7 @@ from ..line_contact import LineContact
 from ..report import Report
 from ..show import Shown
 from .imposed import LinePressure, line_deflection
+from .rolling import Rolling
 from .start import State
 
 
@@ -34,6 +35,7 @@ class EHLResult(Shown):
     imposed : the pressure, if any, that deflects the film beside its own
     report : how the solve ended
     state : what a neighbouring solve starts from
+    rolling : half of ∫ h dp [N/m] and its estimated error (`lubfric.ehl.rolling`; None: not known)
 
     Notes
     -----
@@ -67,6 +69,7 @@ class EHLResult(Shown):
     report: Report
     state: State = field(repr=False)
     imposed: LinePressure | None = field(default=None, repr=False)
+    rolling: Rolling | None = None
 
     @property
     def load(self) -> float:

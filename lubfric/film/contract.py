@@ -14,6 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from ..ehl.imposed import LinePressure
+from ..ehl.rolling import Rolling
 from ..heat.point import WarmFilm
 from ..line_contact import LineContact
 from ..lubricant import Lubricant
@@ -118,8 +119,10 @@ class FilmLevel:
         contact_fraction: Callable,
         cavitated: str,
         warm: WarmFilm | None = None,
+        rolling: Rolling | None = None,
     ) -> ShearForce:
-        """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`); ``warm``: with its heat."""
+        """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`); ``warm``: with its heat;
+        ``rolling``: of a level whose films know theirs."""
         return shear_force(
             film,
             lubricant,
@@ -128,4 +131,5 @@ class FilmLevel:
             contact_fraction=contact_fraction,
             cavitated=cavitated,
             warm=warm,
+            rolling=rolling,
         )

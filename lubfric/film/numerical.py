@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 from ..ehl import EHLResult
 from ..ehl.imposed import line_pressure
 from ..ehl.solve import Effort, solve_line_contact
 from ..line_contact import LineContact
+from ..lubricant import Lubricant
 from .contract import Film, FilmLevel
+from .shear import ShearForce
 
 
 @dataclass(frozen=True)
@@ -29,3 +32,7 @@ class Elastohydrodynamic(FilmLevel):
             imposed=line_pressure(imposed),
             start=start if isinstance(start, EHLResult) else None,
         )
+
+    def shear(self, film: Film, lubricant: Lubricant, **point) -> ShearForce:
+        """The rolling force as the film itself knows it."""
+        return super().shear(film, lubricant, **{"rolling": cast(EHLResult, film).rolling} | point)

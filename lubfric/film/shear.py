@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..ehl.rolling import Rolling
 from ..lubricant import Lubricant, carried_stress, shear_stress
 
 
@@ -17,9 +18,10 @@ class ShearForce:
     couette: from the difference of the surface speeds; rolling: from the pressure gradient;
     total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sums that they are, from two rules; it is
     large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of
-    what rising and falling pressure contribute to the rolling force, which is their small difference at high pressure:
-    an error of the film reaches it by that much more. excess [N]: part of couette, without sign, from stresses above
-    what oils carry (`lubfric.lubricant.carried_stress`), and stress_ratio [-]: the largest of them over that.
+    what the rolling force, at high pressure their small difference, is made of: of rising and falling pressure, or, of
+    a film that knows it by another way, of the whole film and of what the spots take of it; an error of the film
+    reaches it by that much more. excess [N]: part of couette, without sign, from stresses above what oils carry
+    (`lubfric.lubricant.carried_stress`), and stress_ratio [-]: the largest of them over that.
     """
 
     couette: float
@@ -44,6 +46,7 @@ def shear_force(
     contact_fraction,
     cavitated: str = "none",
     warm=None,
+    rolling: Rolling | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
@@ -53,7 +56,7 @@ def shear_force(
     followed to -infinity in closed form) to the rupture of the film; cavitated="striated" adds the streamers behind it,
     which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
     Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was
-    solved with; None: isothermal.
+    solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: it is summed.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -62,8 +65,7 @@ def shear_force(
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
 
-    rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
-    rolling, parts = np.sum(rolls), max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
+    resistance, parts, off = _rolling(p, h, wet, rolling)
 
     def stress(at, pressure, thickness):
         if warm is not None and warm.stress is not None:
@@ -76,12 +78,12 @@ def shear_force(
     couette = np.sum(face_tau[full])
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
-    quadrature += rolling_error(p, h)
+    quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
     couette += lubricant.viscosity * sliding * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
-    rolling += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
+    resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
         h_rupture = np.interp(film.rupture * direction, x, h)
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
@@ -89,7 +91,7 @@ def shear_force(
     sense = math.copysign(1.0, slide_roll_ratio)
     return ShearForce(
         float(width * sense * couette),
-        float(width * sense * rolling),
+        float(width * sense * resistance),
         float(width * quadrature),
         float(width * parts),
         float(width * excess),
@@ -112,10 +114,26 @@ def spike_error(x, tau) -> float:
     return abs(coarse - fine) / 24
 
 
-def rolling_error(p, h) -> float:
-    """A third of the change of ∫ (h/2) dp when every second node is left out: the error of second order."""
+def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
+    """∫ (h/2) dp [N/m] where the film is ``wet``, what an error of the film is felt by, and the error of the sum."""
+    if known is None:
+        rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
+        parts = max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
+        return float(np.sum(rolls)), float(parts), rolling_error(p, h, 1.0)
+    touched = 1.0 - wet
+    taken = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * touched))
+    return known.force - taken, abs(known.force) + abs(taken), known.error + rolling_error(p, h, touched)
+
+
+def rolling_error(p, h, share) -> float:
+    """A third of the change of ∫ (h/2) share dp when every second node is left out, an error of second order; of
+    ``share`` of the width of each of the n - 1 cells, or of every one."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
-    fine, coarse = (np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n])) for n in (1, 2))
+    share = np.broadcast_to(share, p.size - 1)[: last - 1]
+    shares = share, 0.5 * (share[::2] + share[1::2])
+    fine, coarse = (
+        np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n]) * shares[n - 1]) for n in (1, 2)
+    )
     return float(abs(coarse - fine)) / 3
 
 

@@ -1,4 +1,4 @@
-"""`fit`: bounded least squares of a scene to a measured curve, and how far the data tell its parameters."""
+"""`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
 from __future__ import annotations
 

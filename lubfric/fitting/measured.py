@@ -1,4 +1,4 @@
-"""A measured curve of friction, with its units: from arrays, or from the columns of a text file that are named."""
+"""A measured curve of friction with its units: from arrays, or from named columns of a text file."""
 
 from __future__ import annotations
 

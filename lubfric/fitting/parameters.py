@@ -1,4 +1,4 @@
-"""Unknown numbers of a scene between their bounds, on the unit interval."""
+"""The unknown numbers of a scene, and their positions between their bounds on the unit interval."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Parameters:
 
     @property
     def logarithmic(self) -> np.ndarray:
-        """Which are sought in their logarithm."""
+        """Which parameters are sought in their logarithm."""
         return (self.low > 0) & (self.high >= LOGARITHMIC * np.where(self.low > 0, self.low, 1.0))
 
     def values(self, unit: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""A fit drawn: the curve among the points, and what is left between them."""
+"""A fit drawn: the curve among the measured points, and the residuals."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def plot_residuals(result, ax=None):
 
 
 def x_label(measured: Measured) -> str:
-    """Of the axis of a measured curve."""
+    """The label of the x axis of a measured curve."""
     return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"
 
 

@@ -25,9 +25,11 @@ SHARING = (
 
 @dataclass(frozen=True)
 class Predictor:
-    """f of ``scene`` at the points of ``measured`` for values of ``parameters``, each curve to ``tolerance``.
+    """f of ``scene`` at the points of ``measured``, for any values of ``parameters``. Each curve is solved to
+    ``tolerance``.
 
-    like: a prepared scene whose map and operator or curve serve all values, or None where they depend on these.
+    ``like``: a prepared scene whose map and operator or curve serve for all values. None where these depend on the
+    values.
     """
 
     scene: Scene
@@ -59,7 +61,7 @@ def _traction(prepared: Prepared, slips) -> np.ndarray:
 
 
 def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor) -> Predictor:
-    """Made ready, as tight as the scatter of the measurement asks for."""
+    """A `Predictor` made ready, with a tolerance as tight as the scatter of the measurement asks for."""
     shares = 0.05 if measured.deviation is None else float(np.median(measured.deviation / np.abs(measured.coefficient)))
     tolerance = min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
     by_curve = scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"

@@ -52,7 +52,7 @@ class FitResult:
 
     @property
     def covariance(self) -> np.ndarray:
-        """Of the parameters, (p, p) in their units, to first order."""
+        """Covariance of the parameters, (p, p) in their units, to first order."""
         slopes = self.parameters.slopes(self.unit)
         return self.unit_covariance * slopes[:, None] * slopes
 

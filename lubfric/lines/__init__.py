@@ -1,6 +1,7 @@
-"""Long lines of a rough surface, generated or of a measured map: where `lubfric.sampling` takes its samples from.
+"""Long lines of a rough surface, generated or of a measured map. `lubfric.sampling` takes its samples from them.
 
-`contract`: what a source of lines answers; `generated` and `windows`: the two sources, made for a scene by `make`;
-`cells`: their coarse cells, `pieces`: parts of them on the scene's own; `length`: how long a line has to be, `outlook`:
-foretold.
+- `contract`: what a source of lines must offer.
+- `generated` and `windows`: the two sources; `make` makes one for a scene.
+- `cells`: the coarse cells of a line; `pieces`: parts of a line on the scene's own cells.
+- `length`: how long a line has to be; `outlook`: the same, foretold.
 """

@@ -1,4 +1,4 @@
-"""The cells of a long line: as coarse as its correlation length and the strip allow."""
+"""The cells of a long line. They are as coarse as the correlation length and the strip allow."""
 
 from __future__ import annotations
 
@@ -44,14 +44,17 @@ class Cells:
 
 
 def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
-    """At least four cells in each of the correlation ``lengths`` [m], two in the half-width of the strip: powers of
-    two of ``spacing`` [m]; over ``reach`` [m] of x at least."""
+    """Choose the cells: at least four in each of the correlation ``lengths`` [m] and two in the half-width of the
+    strip.
+
+    Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
+    """
     fx, fy = _factors(spacing, lengths, half_width)
     return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
 
 
 def cells_of_a_box(spacing, lengths, half_width: float, columns: int) -> Cells:
-    """The same over ``columns`` of the scene's own cells, neither more nor less."""
+    """The same cells over ``columns`` of the scene's own cells along x, neither more nor less."""
     fx, fy = _factors(spacing, lengths, half_width)
     while columns % fx:
         fx //= 2
@@ -59,8 +62,11 @@ def cells_of_a_box(spacing, lengths, half_width: float, columns: int) -> Cells:
 
 
 def reach_of(scene, sq: float) -> float:
-    """Length [m] along x that holds the contact: where an undeformed cylinder on the ends of the Hertz strip rises by
-    `SUMMITS` Sq, on either side."""
+    """Length [m] along x that holds the contact.
+
+    On either side it ends where an undeformed cylinder that rests on the ends of the Hertz strip has risen by `SUMMITS`
+    Sq.
+    """
     bodies = scene.bodies
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 

@@ -1,4 +1,4 @@
-"""What a source of long lines answers: `Lines`."""
+"""What a source of long lines must offer: `Lines`."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from .cells import Cells
 
 
 class Lines(Protocol):
-    """Lines of one rough surface, each a `Surface` periodic along y; see `generated` and `windows`.
+    """Lines of one rough surface. Each is a `Surface` that is periodic along y. `generated` and `windows` are the two
+    kinds.
 
-    scene: whose they are; cells: of every line; lengths: correlation lengths [m] at 1/e along x and y; available [m]:
-    the longest line there is (infinite where more can be made); nested: a longer line holds the shorter ones, so that
-    it takes their place, or is another place of the surface, so that it joins them; exact_sq: every line has exactly
-    the Sq of the surface.
+    - ``scene``: the scene whose surface it is; ``cells``: those of every line; ``lengths``: correlation lengths [m] at
+      1/e along x and y.
+    - ``available`` [m]: length of the longest line there is (infinite where more can be made).
+    - ``nested``: True where a longer line holds the shorter ones, and so takes their place. False where it is another
+      place of the surface, and so joins them.
+    - ``exact_sq``: every line has exactly the Sq of the surface.
     """
 
     @property
@@ -35,11 +38,11 @@ class Lines(Protocol):
         """Line number ``index``, about ``length`` [m] long."""
 
     def pair(self, index: int, length: float) -> Surface:
-        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long: a whole number of those of a
-        line."""
+        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long. It is a whole number of the
+        cells of a line long."""
 
     def windows(self, length: float) -> int:
-        """Of how many separate stretches of the surface a line of ``length`` [m] is made."""
+        """How many separate stretches of the surface a line of ``length`` [m] is made of."""
 
     def again(self, scene: Scene) -> Lines | None:
         """The same lines for ``scene``, of another load, motion or tolerance; None where it needs other cells."""

@@ -1,4 +1,4 @@
-"""Lines of a generated surface: as many and as long as asked, each a piece of the same endless one."""
+"""Lines of a generated surface: as many and as long as asked. Each is a piece of the same endless surface."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class GeneratedLines:
 
     @property
     def exact_sq(self) -> bool:
-        """That of one body; two are added as they fall."""
+        """True for the roughness of one body. Those of two bodies are added as they fall."""
         return len(rough_bodies(self.scene)) == 1
 
     def windows(self, length: float) -> int:
@@ -76,8 +76,11 @@ def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surfa
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
-    """Lines of the generated surface of ``scene``, the sum of both bodies', as long in x as its patch or, unless that
-    is the area A, as the contact is, if it is longer."""
+    """Lines of the generated surface of ``scene``, that of both bodies added.
+
+    Along x they are as long as the patch of the scene. Where the contact is longer they are as long as the contact,
+    unless the patch is the area A.
+    """
     patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")

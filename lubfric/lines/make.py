@@ -1,4 +1,4 @@
-"""Whether a scene is solved on a long line, and on which."""
+"""Whether a scene is solved on a long line, and on which one."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .windows import measured_lines
 
 
 def takes_line(scene: Scene) -> bool:
-    """A rough half-space under a cylinder, its sampling not given as one patch and nothing but the tolerances to decide
-    what is modelled."""
+    """Whether ``scene`` is solved on a line: a rough half-space under a cylinder, where sampling is not given as one
+    patch, and the tolerances alone decide what is modelled."""
     numerics, contact = scene.numerics, scene.contact
     levels = numerics.model == "auto" and numerics.contact_level == "auto" and numerics.closure != "one-way"
     modelled = contact.geometry == "cylinder" and contact.model == "half-space"
@@ -35,7 +35,7 @@ def lines_of(scene: Scene) -> Lines:
 
 
 def pilot(scene: Scene, lines: Lines) -> tuple[Surface, HalfSpaceContact]:
-    """The first line, 180 correlation lengths long where memory and map allow, and the contact on it."""
+    """The first line and the contact on it. It is 180 correlation lengths long, where memory and map allow."""
     longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
     surface = lines.line(0, min(PILOT * lines.lengths[1], longest))
     return surface, line_contact(scene, surface)

@@ -1,4 +1,4 @@
-"""How long a line will be and what it will cost, foretold from closed forms: nothing is solved."""
+"""How long a line will be and what it will cost, foretold from closed forms. Nothing is solved."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 
 
 def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float, float]:
-    """Standard error of f after the pilot, relative, and length [m] that ``numerics.sampling_tolerance`` takes:
-    orders of magnitude.
+    """The relative standard error of f after the pilot, and the length [m] that ``numerics.sampling_tolerance`` takes.
+    Both are orders of magnitude.
 
     The mean gap over a strip of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
-    independent
-    heights; f follows by the share of the load that the rigid film of the whole load, as thick as the gap, would carry.
+    independent heights. f follows by the share of the load that the rigid film of the whole load would carry if it were
+    as thick as the gap.
     """
     bodies, (lx, ly) = scene.bodies, lines.lengths
     pilot = min(PILOT * ly, lines.available)

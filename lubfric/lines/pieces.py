@@ -1,4 +1,4 @@
-"""Rough contacts from pieces of a surface: of a line, and of a fine piece on ever coarser cells of its own."""
+"""Rough contacts on pieces of a surface: on a line, and on a fine piece with ever coarser cells of its own."""
 
 from __future__ import annotations
 
@@ -13,16 +13,15 @@ from .cells import Cells
 
 
 def line_contact(scene, surface: Surface, others: Iterable[HalfSpaceContact] = ()) -> HalfSpaceContact:
-    """The contact of ``surface`` under the cylinder of ``scene``, with the operator of one of ``others`` where that has
-    its grid."""
+    """The contact of ``surface`` under the cylinder of ``scene``. It uses the operator of one of ``others`` where
+    the grids are equal."""
     grid = surface.shape, tuple(surface.spacing)
     operator = next((c.operator for c in others if (c.heights.shape, tuple(c.spacing)) == grid), None)
     return half_space_contact(scene, surface.heights - surface.heights.mean(), surface.spacing, operator)
 
 
 def thinned(scene, surface: Surface, cells: Cells, factors: tuple[int, int]) -> HalfSpaceContact:
-    """Every ``factors``-th cell of a fine ``surface``, the coarsest of them being the columns of a line of
-    ``cells``."""
+    """Every ``factors``-th cell of a fine ``surface``. The coarsest choice has the columns of a line of ``cells``."""
     fx, fy = factors
     first = cells.factors[0] // 2 % fx
     x = cells.axis()[0] + (np.arange(surface.shape[0]) - cells.factors[0] // 2) * cells.spacing[0]

@@ -1,4 +1,4 @@
-"""Lines from a measured map: windows of it across the motion, stacked into one."""
+"""Lines from a measured map. Windows of the map, which lie across the motion, are stacked into one line."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ ENOUGH = 8  # windows for an honest standard error
 
 @dataclass(frozen=True)
 class MeasuredLines:
-    """Lines of a measured ``surface``, on its own cells or every so-manieth of them.
+    """Lines of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
 
-    starts: first columns of the windows that the map holds independently, in the order in which they are used: any
-    number of them is spread over the map. A longer line holds the shorter ones. Beyond its ends the map is continued by
-    its mirror image (`measured_lines`).
+    ``starts``: first columns of the windows that the map holds independently, in the order in which they are used, so
+    that any number of them is spread over the map. A longer line holds the shorter ones. Beyond its ends the map is
+    continued by its mirror image (`measured_lines`).
     """
 
     scene: Scene
@@ -50,8 +50,8 @@ class MeasuredLines:
         return len(self.starts) * count // unit * unit * step
 
     def line(self, index: int, length: float) -> Surface:
-        """The shortest line of whole windows that is at least ``length`` [m] long, or of all; ``index`` tells
-        nothing."""
+        """The shortest line of whole windows that is at least ``length`` [m] long, or the line of all windows.
+        ``index`` is not used."""
         count = min(len(self.starts), max(1, math.ceil(length / self.window * (1 - 1e-9))))
         fx, fy = self.cells.factors
         pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
@@ -103,8 +103,11 @@ class MeasuredLines:
 
 
 def stack(pieces, blend: int) -> np.ndarray:
-    """Arrays (nx, ny) one after the other along y, the last joined to the first: the last ``blend`` cells of each are
-    laid over the first of the next with weights cos and sin, whose squares add to 1, about the mean of all."""
+    """Put arrays (nx, ny) one after the other along y, the last joined to the first.
+
+    The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
+    add to 1, about the mean of all.
+    """
     mean = float(np.mean([p.mean() for p in pieces]))
     angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
     out = []
@@ -116,11 +119,12 @@ def stack(pieces, blend: int) -> np.ndarray:
 
 
 def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredLines:
-    """Lines of a measured map (levelled, filled, x along the motion) under the cylinder of ``scene``; its correlation
-    ``lengths`` [m] along x and y, where they are known.
+    """Lines of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the motion.
+    ``lengths``: its correlation lengths [m] along x and y, where they are known.
 
-    A map that holds fewer than eight windows whole gives some that reach over its ends, continued by its mirror image,
-    as far as their Hertz strip lies on the map itself: only single high summits touch beyond the strip.
+    A map that holds fewer than eight windows whole gives more, which reach over its ends. There it is continued by its
+    mirror image. The Hertz strip of every window lies on the map itself: beyond the strip only single high summits
+    touch.
     """
     if scene.contact.spacing is not None:
         surface = surface.resampled(spacing=scene.contact.spacing)
@@ -147,7 +151,8 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
 
 
 def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:
-    """First columns of windows ``step`` apart on a map of ``count`` columns, ``beyond`` of them over either end."""
+    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond`` of them lie over
+    either end."""
     room = count + 2 * beyond - window
     most = room // step
     return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
@@ -162,7 +167,7 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def spread(count: int) -> list[int]:
-    """0 .. count - 1 from the middle, each next as far from those before as can be."""
+    """0 .. count - 1 in an order that begins in the middle. Each next number is as far from those before as can be."""
     left = set(range(count))
     order: list[int] = []
     while left:

@@ -47,8 +47,8 @@ FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dow
 
 
 def estimate_in_words(oil: Oil, temperature: float) -> str:
-    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the latter is
-    known."""
+    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the coefficient
+    is known."""
     text = (
         f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s "
         "(D341, constant 0.7), "

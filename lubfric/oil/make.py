@@ -37,7 +37,7 @@ def from_table(temperatures, viscosities, **properties) -> Oil:
 
 
 def named_oil(name: str, **properties) -> Oil:
-    """One of the oils that `oil_names` lists, its fields replaced by ``properties``."""
+    """One of the oils that `oil_names` lists. ``properties`` replace its fields."""
     if str(name).lower() not in OILS:
         near = validate.nearest(str(name).lower(), OILS)
         raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
@@ -65,7 +65,7 @@ def grade_viscosity(grade: str) -> float:
 
 
 def _viscosity(name: str, value: float) -> float:
-    """A kinematic viscosity [m²/s]; an error tells mm²/s where those were likely meant."""
+    """A checked kinematic viscosity [m²/s]. The error says so where mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         raise InputError(

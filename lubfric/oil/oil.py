@@ -78,10 +78,10 @@ class Oil(Brief):
     @overload
     def density_at(self, temperature: Temperatures) -> np.ndarray: ...
     def density_at(self, temperature: float | Temperatures) -> float | np.ndarray:
-        """rho [kg/m³] at ``temperature`` [K], one or an array of them: that at 15 °C less ``density_slope`` times the
-        distance from there.
+        """Density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
-        A straight line, good to some 0.5 % between 0 and 100 °C.
+        It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
+        some 0.5 % between 0 and 100 °C.
         """
         slope = DENSITY_SLOPE[self.base] if self.density_slope is None else self.density_slope
         return at_each(lambda t: self.density_15 - slope * (checked_temperature(t) - AT_15), temperature)
@@ -115,14 +115,16 @@ class Oil(Brief):
         return log(self.viscosity(low) / self.viscosity(high)) / (high - low)
 
     def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:
-        """alpha at ``temperature`` [K] with the range in which measured oils lie; as given where it is known."""
+        """alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
+        returned as given."""
         if self.alpha is not None:
             return Estimate(self.alpha, self.alpha, self.alpha, "the scene")
         method = self.estimate or ("so-klaus" if self.base == "mineral" else "gold")
         return self._estimated(method, temperature)
 
     def other_estimate(self, temperature: float) -> Estimate | None:
-        """alpha by the estimate that was not chosen, where there is one: their difference is a warning."""
+        """alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is a
+        warning."""
         if self.alpha is not None or self.base != "mineral":
             return None
         return self._estimated("gold" if self.estimate in (None, "so-klaus") else "so-klaus", temperature)

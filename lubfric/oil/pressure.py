@@ -1,9 +1,11 @@
 """Pressure-viscosity coefficient: estimates from the viscosity, each with the range in which measured oils lie.
 
-No estimate knows the oil. The range is that of measured coefficients over the estimate, widened to round numbers: 13
-mineral oils at 30, 60 and 100 °C (Stachowiak and Batchelor, Engineering Tribology, Table 2.3; `tests/oil` holds them),
-glycols and esters of the same table, polyalphaolefins. The coefficient wanted is the slope d ln(eta)/dp at ambient
-pressure; a mean slope up to some 0.2 GPa, which published fits often give, is lower.
+No estimate knows the oil. So a range is given with it: that of measured coefficients over the estimate, widened to
+round numbers. The oils measured are 13 mineral oils at 30, 60 and 100 °C (Stachowiak and Batchelor, Engineering
+Tribology, Table 2.3; `tests/oil` holds them), glycols and esters of the same table, and polyalphaolefins.
+
+The coefficient wanted is the slope d ln(eta)/dp at ambient pressure. Published fits often give a mean slope up to some
+0.2 GPa, which is lower.
 """
 
 from __future__ import annotations
@@ -26,13 +28,14 @@ BASES = tuple(GOLD)
 
 @dataclass(frozen=True)
 class Estimate:
-    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, and its
-    source."""
+    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, its source in
+    words, and the name of the method, "gold" or "so-klaus" ("": given, not estimated)."""
 
     value: float
     low: float
     high: float
     source: str
+    method: str = ""
 
     @property
     def text(self) -> str:
@@ -43,19 +46,19 @@ class Estimate:
 
 
 def gold(nu: float, base: str) -> Estimate:
-    """``s nu^t`` with s and t of the ``base`` oil: "mineral", "pao", "ester" or "polyglycol"; nu [m²/s] at the
-    temperature in question and ambient pressure.
+    """alpha by ``s nu^t``, with s and t of the ``base`` oil: "mineral", "pao", "ester" or "polyglycol". nu [m²/s]: at
+    the temperature in question and ambient pressure.
 
-    P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synthetic Lubrication 18 (2001) 51-79,
-    doi:10.1002/jsl.3000180105. One source of the coefficients was at hand. Measured mineral oils have up to 1.63 times
-    as much, an aromatic ester 1.9, a polypropylene glycol 1.7 times; stated: 0.85 to 1.65 times (ester 2.1, polyglycol
-    1.75).
+    Source: P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synthetic Lubrication 18 (2001) 51-79,
+    doi:10.1002/jsl.3000180105. Only one source of the coefficients was at hand. Measured mineral oils have up to 1.63
+    times as much, an aromatic ester 1.9, a polypropylene glycol 1.7 times. The range stated is 0.85 to 1.65 times
+    (ester 2.1, polyglycol 1.75).
     """
     nu, base = validate.positive("nu", nu, "m²/s", maximum=1.0), validate.choice("base", base, BASES)
     s, t = GOLD[base]
     value = s * (nu * 1e6) ** t * 1e-9
     low, high = GOLD_RANGE[base]
-    return Estimate(value, low * value, high * value, "Gold et al. (2001)")
+    return Estimate(value, low * value, high * value, "Gold et al. (2001)", "gold")
 
 
 def so_klaus(nu: float, slope: float, density: float) -> Estimate:
@@ -73,4 +76,4 @@ def so_klaus(nu: float, slope: float, density: float) -> Estimate:
     l = math.log10(nu * 1e6)
     fitted = 1.216 + 4.143 * l**3.0627 + 2.848e-4 * slope**5.1903 * l**1.5976 - 3.999 * l**3.0975 * rho**0.1162
     value = fitted * 1e-8
-    return Estimate(value, SO_KLAUS_RANGE[0] * value, SO_KLAUS_RANGE[1] * value, "So and Klaus (1980)")
+    return Estimate(value, SO_KLAUS_RANGE[0] * value, SO_KLAUS_RANGE[1] * value, "So and Klaus (1980)", "so-klaus")

@@ -17,7 +17,7 @@ RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
 
 
 def checked_temperature(temperature: float, name: str = "temperature") -> float:
-    """``temperature`` [K] where an oil can have it; an error names °C where those were likely meant."""
+    """``temperature`` [K], checked to be one that an oil can have. The error says so where °C were likely meant."""
     likely = isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]
     hint = f"; °C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K" if likely else ""
     try:
@@ -27,7 +27,7 @@ def checked_temperature(temperature: float, name: str = "temperature") -> float:
 
 
 def at_each(function: Callable[[float], float], temperature) -> float | np.ndarray:
-    """``function`` of one temperature [K], a float; of an array of them, an array of its shape."""
+    """``function`` of one temperature [K], as a float, or of an array of them, as an array of its shape."""
     if np.ndim(temperature) == 0:
         return function(temperature)
     temperatures = validate.array("temperature", temperature, "K", ndim=np.ndim(temperature))
@@ -38,9 +38,9 @@ def at_each(function: Callable[[float], float], temperature) -> float | np.ndarr
 class Walther:
     """ASTM D341: log10 log10 Z = m - n log10 T, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu²), nu in mm²/s, T in K.
 
-    m : intercept [-]; n : slope [-], 2.5 to 4.5 of lubricating oils. The constant is 0.7; the exponential matters below
-    2 mm²/s only (6e-4 of nu there). D341 gives it for 0.21 to 2e7 mm²/s; between the two temperatures of its points it
-    holds to a few percent for oils without wax, outside it is an extrapolation.
+    ``m``: intercept [-]; ``n``: slope [-], 2.5 to 4.5 for lubricating oils. The constant is 0.7. The exponential
+    matters only below 2 mm²/s (6e-4 of nu there). D341 gives the law for 0.21 to 2e7 mm²/s. Between the two
+    temperatures of its points it holds to a few percent for oils without wax. Outside them it is an extrapolation.
     """
 
     m: float

@@ -21,8 +21,9 @@ class Decision:
     clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
     coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
     (None: the map's own grid); own_error: on the map's own grid, the same of the last step to it (infinite: nothing to
-    compare it with); tolerance: asked, on f; deflection: what deflects the film, heat: what of it was modelled, in
-    words ("": not chosen, not known); forced: what was not chosen but given.
+    compare it with); tolerance: asked, on f; deflected_by: the pressure that deflects the film, as in
+    ``numerics.film_deflection`` ("": no film); deflection: why, heat: what of it was modelled, in words ("": not
+    chosen, not known); forced: what was not chosen but given.
     """
 
     film: str
@@ -37,6 +38,7 @@ class Decision:
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
     own_error: float = math.inf
+    deflected_by: str = ""
     deflection: str = ""
     heat: str = ""
     forced: tuple[str, ...] = ()
@@ -138,6 +140,7 @@ def _film(stage: Stage) -> Decision:
         left_out=stage.left_out,
         sensitivity=found.sensitivity,
         film_tolerance=settings.film_tolerance if settings.level.numerical else 0.0,
+        deflected_by=numerics.film_deflection,
         heat=found.heat.text(numerics.tolerance),
         forced=_forced(numerics),
         notes=notes,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -85,6 +86,7 @@ def _boundary(scene: Scene, load: float) -> float:
 
 
 def _shear(scene: Scene, level: FilmLevel, found: Trial, warm: WarmFilm | None = None) -> ShearForce:
+    more: dict[str, Any] = {} if warm is None else {"warm": warm}
     with np.errstate(over="ignore", invalid="ignore"):  # a rigid film far above its range
         return level.shear(
             found.film,
@@ -93,5 +95,5 @@ def _shear(scene: Scene, level: FilmLevel, found: Trial, warm: WarmFilm | None =
             slide_roll_ratio=scene.motion.slide_roll_ratio,
             cavitated=scene.numerics.cavitated_shear,
             contact_fraction=found.contact.touching,
-            **({} if warm is None else {"warm": warm}),
+            **more,
         )

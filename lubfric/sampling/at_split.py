@@ -1,4 +1,4 @@
-"""Film and friction of a balance at another division of the load, its contact left as it is."""
+"""Film and friction of a balance at another division of the load. Its contact stays as it is."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ANY = 0.1  # tolerance of a film whose grid is given
 
 
 def at(prepared: Prepared, speed: float, contact: RoughContact, balance: Lubricated) -> OperatingPoint:
-    """The operating point of ``balance`` on ``contact``, its film to be solved again on the grid that it has."""
+    """The operating point of ``balance`` on ``contact``. Its film is to be solved again, on the grid that it has."""
     return OperatingPoint(prepared, speed, contact, Settings(balance.level, ANY, 0.0, film_cells=balance.film.cells))
 
 
@@ -31,8 +31,8 @@ def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -
 
 
 def quantities(point: OperatingPoint, balance: Lubricated) -> dict[str, float]:
-    """What is reported of a balance, by the names of `FrictionResult`; mean_gap is the mean film over A, which fills
-    it."""
+    """What is reported of a balance, by the names of `FrictionResult`. ``mean_gap`` is the mean film over A, since
+    the film fills the gap."""
     film, found = balance.film, balance.forces
     return {
         "coefficient": found.coefficient,

@@ -1,4 +1,4 @@
-"""From the errors of a gap to those of everything reported: `Uncertainty` and the errors by field."""
+"""From the errors of a gap to the errors of everything reported: `Uncertainty`, and the errors by field."""
 
 from __future__ import annotations
 
@@ -23,9 +23,13 @@ ORDER = 30  # degrees of freedom given to an error that is not counted from bloc
 
 @dataclass(frozen=True)
 class Numerical:
-    """What solvers and grids leave open: film, relative; gap [m], equivalent error of the mean gap at given load (the
-    closing of the volume, the grid of the contact); shear: of the sum of the film's shear stress, relative to f;
-    area: of the contact area, relative (NaN: cannot be told)."""
+    """What solvers and grids leave open.
+
+    - ``film``: of the film, relative.
+    - ``gap``: of the mean gap at given load [m]; it stands for the closing of the volume and the grid of the contact.
+    - ``shear``: of the sum of the film's shear stress, relative to f.
+    - ``area``: of the contact area, relative (NaN: cannot be told).
+    """
 
     film: float
     gap: float
@@ -34,8 +38,11 @@ class Numerical:
 
 
 def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, area: float) -> Numerical:
-    """Of a balance closed to ``volume_residual``: ``grid_gap`` [m] what the contact grid may still change of the mean
-    gap, ``area`` of the contact area, relative."""
+    """The `Numerical` errors of a balance that is closed to ``volume_residual``.
+
+    ``grid_gap`` [m]: what the contact grid may still change of the mean gap; ``area``: relative error of the contact
+    area.
+    """
     balance = point.balance
     volume = 2 * abs(volume_residual) * balance.contact.mean_film if balance.contact_load > 0 else 0.0
     return Numerical(film_error(point), volume + grid_gap, point.balance.forces.quadrature, area)
@@ -51,17 +58,17 @@ def film_error(point: Solved) -> float:
 
 
 def coefficient_error(numerical: Numerical, found: Forces, response: Response | None) -> float:
-    """Estimated relative error of f from solvers and grids: the parts added, as if they all went one way."""
+    """Estimated relative error of f from solvers and grids. The parts are added, as if all had the same sign."""
     gap = response.relative("coefficient", numerical.gap) if response is not None else 0.0
     return found.sensitivity * numerical.film + gap + numerical.shear
 
 
 def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, together: Pooled, response):
-    """Relative errors by the names of `FrictionResult` where there is contact: standard error from the surface and
-    estimated error from solvers and grids, root of the sum of squares.
+    """Relative errors where there is contact, by the names of `FrictionResult`: root of the sum of squares of the
+    standard error from the surface and the estimated error from solvers and grids.
 
-    An error of the gap moves the division of the load and everything with it (`Response.rates`); films have the error
-    of the film solve itself besides, the area what its blocks scatter by at given load and what its grid may change.
+    An error of the gap moves the division of the load, and everything with it (`Response.rates`). Films have the error
+    of the film solve besides. The area has the scatter of its blocks at given load, and what its grid may change.
     """
     gap = math.hypot(gap_error.error, numerical.gap + numerical.film * balance.contact.mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
@@ -89,20 +96,20 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
 
 
 def dry_errors(together: Pooled) -> dict[str, float]:
-    """Without entrainment all is contact: the areas alone scatter."""
+    """Errors without entrainment. The contact carries everything, so only the areas scatter."""
     pairs = ((together.area_fraction, together.area.error), (together.touched_length, together.touched.error))
     areas = {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, pairs)}
     return areas | dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
 
 
 def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
-    """Without contact everything hangs on the film, of relative error ``film``."""
+    """Errors without contact. Everything depends on the film, whose relative error is ``film``."""
     return dict.fromkeys((*FILMS, *HEAT), film) | shear_errors(found, film) | {"film_load": 0.0}
 
 
 def shear_errors(found: Forces, film: float) -> dict[str, float]:
-    """Relative errors of the film's friction and its parts from a film of relative error ``film`` and the sums over its
-    nodes; the rolling part is a small difference of large ones."""
+    """Relative errors of the film's friction and its parts, from a film of relative error ``film`` and from the sums
+    over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
     shear = found.shear
     rolling = film * max(abs(shear.rolling), shear.rolling_parts)
     parts = {
@@ -123,7 +130,7 @@ def uncertainty_of(
     area_needed=1.0,
     notes=(),
 ) -> Uncertainty:
-    """`Uncertainty` of f from its relative errors; ``error`` gives the degrees of freedom; ``notes`` come first in
+    """`Uncertainty` of f from its relative errors. ``error`` gives the degrees of freedom, ``notes`` stand first in
     its text."""
     asked, notes = scene.numerics.sampling_tolerance, [*notes]
     if sampling > asked and area_needed > 1:

@@ -1,5 +1,5 @@
-"""What the coarse cells of a line change: the same piece of surface on its own cells and on every so-manieth of
-them."""
+"""What the coarse cells of a line change. The same piece of surface is solved on its own cells and on every second,
+fourth, ... of them."""
 
 from __future__ import annotations
 
@@ -22,13 +22,14 @@ MOST_CELLS = 300_000  # of a piece, where a coarser one would do
 
 @dataclass(frozen=True)
 class GridStep:
-    """Changes when the cells of a line become finer, at the line's film and ``contact_load`` [N].
+    """What changes when the cells of a line become finer, at the line's film and ``contact_load`` [N].
 
-    gap [m]: of the mean gap; error: its standard error; rest [m]: estimated change still to come on the scene's own
-    cells
-    (0: they were reached). area: factor on the contact area, area_error: its relative standard error and the rest;
-    plastic: to be added to the plastic area fraction. beyond [m]: estimated change on cells half as long as the
-    scene's own (`lubfric.sampling.other_cells`; NaN: own cells not reached).
+    - ``gap`` [m]: change of the mean gap; ``error``: its standard error; ``rest`` [m]: estimated change still to come
+      on the scene's own cells (0: they were reached).
+    - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
+    - ``plastic``: to be added to the plastic area fraction.
+    - ``beyond`` [m]: estimated change on cells half as long as the scene's own (`lubfric.sampling.other_cells`; NaN:
+      own cells not reached).
     """
 
     gap: float
@@ -43,8 +44,8 @@ class GridStep:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Of every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact; plastic
-    share of A."""
+    """Values at every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact,
+    plastic share of A."""
 
     gap: np.ndarray
     touching: np.ndarray
@@ -52,7 +53,7 @@ class _Rows:
 
 
 def _ladder(factors) -> list[tuple[int, int]]:
-    """Factors of the cells from the line's down to the scene's own, each halved."""
+    """Factors of the cells, from those of the line down to the scene's own, each half of the last."""
     steps = [factors]
     while steps[-1] != (1, 1):
         steps.append(tuple(max(1, f // 2) for f in steps[-1]))
@@ -69,11 +70,11 @@ def grid_step(
     gap_slope: float,
     enough: float,
 ) -> GridStep:
-    """Compare one piece of ``lines``, about ``length`` [m], on finer and finer cells down to the scene's own; no
-    further than until the rest is within ``enough`` [m] where that takes more than `MOST_CELLS` cells.
+    """Compare one piece of ``lines``, about ``length`` [m] long, on finer and finer cells down to the scene's own.
 
-    ``point``, ``film`` and ``contact_load`` [N] are the line's; gap_slope dG/dP [m²/N]. The change is averaged over
-    blocks along y, each with its influence on the mean gap (`influence`).
+    Where that takes more than `MOST_CELLS` cells, it ends when the rest is within ``enough`` [m]. ``point``, ``film``
+    and ``contact_load`` [N] are the line's; ``gap_slope`` is dG/dP [m²/N]. The change is averaged over blocks along y,
+    each with its influence on the mean gap (`influence`).
     """
     scene, surface, steps = lines.scene, lines.pair(index, length), _ladder(lines.cells.factors)
     rows, changes, rest = [], [], math.inf
@@ -114,7 +115,7 @@ def _ratio(fine, coarse, step, correlation) -> tuple[float, float]:
 
 
 def mean_error(steps) -> BlockError:
-    """Of the mean change of the gap over several pieces [m]; zero where there are none to compare."""
+    """Error of the mean change of the gap over several pieces [m]. It is zero where there are none to compare."""
     if not steps:
         return BlockError(0.0, 1)
     if not all(math.isfinite(g.error.error) for g in steps):  # too short for blocks: what the pieces differ by
@@ -127,13 +128,13 @@ def mean_error(steps) -> BlockError:
 
 
 def mean_of(steps, name: str, without: float) -> float:
-    """Mean of a field of `GridStep` over pieces; ``without`` any."""
+    """Mean of a field of `GridStep` over pieces, or ``without`` where there are none."""
     return sum(getattr(g, name) for g in steps) / len(steps) if steps else without
 
 
 def remaining(changes) -> float:
-    """What further halving changes: the rest of a geometric series from the last two changes, ratio 1/4 to 3/4 (1/2
-    from one)."""
+    """What further halving of the cells would change. It is the rest of a geometric series, from the ratio of the
+    last two changes (1/4 to 3/4; 1/2 where there is one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
     ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5

@@ -1,9 +1,10 @@
 """The scatter of a long contact from place to place, read off one solution of it.
 
-At a given film and approach each place y along the line has its own strip-mean gap G(y) and its own line load P(y). A
-place that carries more than its share leaves less for the others, who then stand further apart: the mean gap at the
-*given mean load* feels the influence ``I(y) = G(y) - beta (P(y) - mean P)``, ``beta = dG/dP`` at a given film. Means of
-I over blocks longer than its correlation are nearly independent, and their scatter is the standard error of the mean.
+At a given film and approach each place y along the line has its own mean gap G(y) of the strip, and its own line load
+P(y). A place that carries more than its share leaves less load for the others, which then stand further apart. So a
+place changes the mean gap at the *given mean load* by its influence ``I(y) = G(y) - beta (P(y) - mean P)``, with ``beta
+= dG/dP`` at a given film. Means of I over blocks longer than its correlation are nearly independent. Their scatter
+gives the standard error of the mean gap.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class BlockError:
 
 
 def strip_gap(contact, state) -> np.ndarray:
-    """G(y) [m] (ny,): mean over the strip A of the gap at every place along the line, of a `ContactState` with
+    """G(y) [m] (ny,): the gap at every place along the line, mean over the strip A. ``state``: a `ContactState` with
     fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
 
@@ -43,12 +44,14 @@ def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
 
 
 def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
-    """Standard error of the mean of ``values`` (ny,), cells of ``step`` [m], from block means.
+    """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
-    s/sqrt(n) of n = 8 to 32 blocks of nine correlation lengths [m] or more, or of 5 to 8 of five where nine do not give
-    eight; a rest of less than a block is left out. Infinite, with no degree of freedom, where the line is shorter.
-    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly: what the blocks scatter by
-    with it is no error, s is then that of the residuals of a straight line through the blocks.
+    It is s/sqrt(n) of n = 8 to 32 blocks, each nine correlation lengths [m] long or longer. Where the line is too short
+    for eight of these, 5 to 8 blocks of five lengths are taken. A rest shorter than a block is left out. Where the line
+    is shorter still, the error is infinite, with no degree of freedom.
+
+    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. What the blocks scatter by
+    together with it is no error. So s is then that of the residuals of a straight line through the blocks.
     """
     count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
     count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
@@ -77,7 +80,7 @@ def spot_loads(line_load, step: float, correlation_length: float) -> np.ndarray:
 
 
 def participation(loads) -> float:
-    """(sum P)²/sum P²: how many equally loaded blocks would carry as unevenly."""
+    """(sum P)²/sum P²: the number of equally loaded blocks that would carry the load as unevenly."""
     square = float(np.sum(np.square(loads)))
     return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
 
@@ -88,8 +91,8 @@ def add_errors(*parts: BlockError) -> BlockError:
 
 
 def weighted_errors(parts) -> BlockError:
-    """Error of a sum of independent quantities with weights, (weight, `BlockError`) each; degrees of freedom by Welch
-    and Satterthwaite (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    """Error of a weighted sum of independent quantities, given as (weight, `BlockError`). The degrees of freedom are
+    by Welch and Satterthwaite (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
     terms = [((weight * part.error) ** 2, part.freedom) for weight, part in parts]
     variance = sum(v for v, _ in terms)
     if variance == 0 or not math.isfinite(variance):

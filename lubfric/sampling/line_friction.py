@@ -1,4 +1,4 @@
-"""Friction of an endless rough line, as surely as asked: pilot, length, grid."""
+"""Friction of an endless rough line, as surely as asked. First a pilot line, then its length, then its grid."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ LIGHT = 0.1  # of the load on the contact: it touches for sure
 
 @dataclass(frozen=True)
 class Used:
-    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again) and the state it
-    was left in."""
+    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again), and the state
+    that it was left in."""
 
     length: float
     contact: HalfSpaceContact | None
@@ -37,7 +37,7 @@ class Used:
 
 @dataclass(frozen=True)
 class LineStart:
-    """What a neighbouring speed goes on from: the balance of the pilot, the further lines, what the grid changed."""
+    """What a neighbouring speed starts from: the balance of the pilot, the further lines, and what the grid changed."""
 
     first: Balance
     used: tuple[Used, ...] = ()
@@ -50,12 +50,13 @@ class LineStart:
 
 @dataclass(frozen=True)
 class LineFound:
-    """The balance that all lines together and the grid ask for, and what is known of its error.
+    """The balance that follows from all lines together and the grid, and what is known of its error.
 
-    first: the balance of the pilot line as it is; used: the further lines.
-    response: None where there is no contact; gap_error: standard error of the mean gap [m] at given load; missed:
-    what contact
-    that lines without any have missed by chance would add to f, relative; map_ends: no longer line could be had.
+    - ``first``: the balance of the pilot line as it is; ``used``: the further lines.
+    - ``response``: None where there is no contact; ``gap_error``: standard error of the mean gap [m] at given load.
+    - ``missed``: contact that the lines may have missed by chance where none was found, as what it would add to f,
+      relative.
+    - ``map_ends``: the map gave no longer line.
     """
 
     point: Solved
@@ -82,9 +83,12 @@ class LineFound:
 
 
 def line_friction(prepared: Prepared, speed: float, start: LineStart | None = None) -> tuple[Prepared, LineFound]:
-    """``prepared`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
-    ``numerics.sampling_tolerance``; before it the model with what deflects its film chosen. ``start``: what was found
-    of the same model at a neighbouring speed."""
+    """Solve ``prepared`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
+    ``numerics.sampling_tolerance``.
+
+    Returns the model, with the deflection of its film chosen, and a `LineFound`. ``start``: what was found of the same
+    model at a neighbouring speed.
+    """
     before = start.grid if start else ()
     prepared, first = solved_as_deflected(prepared, speed, start.first if start else None, given_grid=True)
     sample = Sample(prepared, speed, first).with_line(prepared.contact, first, before)
@@ -103,8 +107,8 @@ def line_friction(prepared: Prepared, speed: float, start: LineStart | None = No
 
 
 def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
-    """The length [m] asked of the line after those ``used``, the line, and a state to start from: that of the
-    neighbouring speed, if it is long enough, or a new one of ``length``."""
+    """The next line: the length [m] asked of it after those ``used``, the line itself, and a state to start from. It
+    is the line of the neighbouring speed, if that is long enough, or a new one of ``length``."""
     index, before = len(used), start.used if start is not None else ()
     known = [line.contact for line in (*used, *before) if line.contact is not None]
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
@@ -119,10 +123,11 @@ def _line(prepared: Prepared, index: int, length: float, known: list[HalfSpaceCo
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
-    """Balance on one more line from where the lines so far have theirs, with the film's level and grid of the anchor.
+    """Balance on one more line. It starts from where the balance of the lines so far is, and takes level and grid of
+    the film from the anchor.
 
-    The volume is closed to `LINE_VOLUME` only; what is left moves the load by the slope that the anchor's response
-    gives, to first order.
+    The volume is closed to `LINE_VOLUME` only. What is left moves the load, to first order, by the slope that the
+    response of the anchor gives.
     """
     anchor, scene = sample.known, sample.prepared.scene
     there = _lubricated(anchor)
@@ -168,7 +173,7 @@ def _lubricated(anchor: Anchor) -> Lubricated:
 
 
 def _divided(sample: Sample, together: Pooled) -> Solved:
-    """The anchor's point with the load divided as all lines and the grid ask."""
+    """The point of the anchor, with the load divided as all lines and the grid ask."""
     anchor, scene = sample.known, sample.prepared.scene
     balance = _lubricated(anchor)
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)

@@ -1,4 +1,4 @@
-"""What one line gave, and several together."""
+"""What one line gave, and what several lines give together."""
 
 from __future__ import annotations
 
@@ -26,10 +26,15 @@ NOTHING = BlockError(math.inf, 0)
 
 @dataclass(frozen=True)
 class LineRecord:
-    """One line in balance: length [m], contact load [N] of the whole width; standard errors of its mean gap [m], of its
-    contact area fraction of A [-] and of its contact area per length [m], all at given load; loads of its short
-    blocks; its area fractions and its contact area per length. A line whose film clears its summits has no spots and
-    no errors of its own."""
+    """One line in balance.
+
+    - Its length [m], and the contact load [N] of the whole width.
+    - Standard errors at given load: of its mean gap [m], its contact area fraction of A [-] and its contact area per
+      length [m].
+    - The loads of its short blocks, its area fractions and its contact area per length.
+
+    A line whose film clears its summits has no spots, and no errors of its own.
+    """
 
     length: float
     contact_load: float = 0.0
@@ -57,12 +62,14 @@ def record(
     rows: slice = slice(None),
     exact_sq: bool = False,
 ) -> LineRecord:
-    """`LineRecord` of ``contact`` at ``load`` [N]; ``correlation_length`` [m] along y, ``windows`` of a measured map
-    that follow each other along y; ``rows`` along y that count, where others only mirror them; ``exact_sq``: the line
-    was made with the Sq of the surface, so what its places scatter by with their own is no error.
+    """The `LineRecord` of ``contact`` at ``load`` [N].
 
-    The standard error is the larger of those from blocks along y and, of three and more, from windows: a surface that
-    differs from place to place shows it there.
+    ``correlation_length`` [m]: along y; ``windows``: how many windows of a measured map follow each other along y;
+    ``rows``: those along y that count, where others only mirror them; ``exact_sq``: the line was made with the Sq of
+    the surface, so what its places scatter by together with their own Sq is no error.
+
+    The standard error is that from blocks along y. Where there are three windows or more, it is the larger of that and
+    the one from windows, which shows where a surface differs from place to place.
     """
     by_place, step = line_load(contact, state)[rows], contact.spacing[1]
     pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
@@ -113,9 +120,8 @@ class Pooled:
 
 
 def pooled(records) -> Pooled:
-    """The mean over ``records``; their errors add as independent ones do. A line without contact is as uncertain, for
-    its length, as those with it. Under one film the gaps of all lines are averaged, which fall as the logarithm of the
-    load: so the mean of the loads at which each fills its film is geometric, where every line touches."""
+    """The mean over ``records``. Their errors add as independent ones do. A line without contact counts as uncertain
+    as one with contact, for its length."""
     length = sum(r.length for r in records)
 
     def mean(name):

@@ -32,13 +32,13 @@ def missed_share(prepared, film, found, correlation_length: float) -> float:
 
 
 def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
-    """Expected contact load [N] of the whole width that summits beyond the highest one of the line would carry.
+    """Expected contact load [N] of the whole width on summits higher than the highest one of the line. It is an order
+    of magnitude, and no more.
 
-    The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, fitted by its first two
-    moments: of what lies below zero, exp(-...) blocks in number and its scale a in height, each carries as much as a
-    sphere of the highest summit's radius pressed in by an exponential excess of scale a: (4/3) (E'/2) sqrt(r) a^1.5
-    1.33.
-    Fewer than 14 blocks may show too small a scale: twice theirs is taken. An order of magnitude, and no more.
+    The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, which is fitted by its
+    first two moments. It tells how many blocks lie below zero, exp(-...), and the scale a of their heights. Each
+    carries as much as a sphere of the highest summit's radius r that is pressed in by an exponential excess of scale a:
+    (4/3) (E'/2) sqrt(r) a^1.5 1.33. Fewer than 14 blocks may show too small a scale, so twice their scale is taken.
     """
     height, step = heights - film[:, None], spacing[1]
     size = max(1, round(SPOT * correlation_length / step))

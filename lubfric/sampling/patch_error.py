@@ -1,5 +1,4 @@
-"""What is known of the error where one patch stands for the surface: of a scene that asks for it, or of a map that
-was given."""
+"""The error where one patch stands for the surface: because a scene asks for it, or because a map was given."""
 
 from __future__ import annotations
 
@@ -40,10 +39,10 @@ DOUBT = 2.0  # times the estimated error of the grid: of what is no share of f
 def of_patch(
     prepared, speed: float, point: Solved, areas: dict[str, tuple[float, float]]
 ) -> tuple[Uncertainty, FieldErrors]:
-    """Uncertainty and errors by field of a point on one patch; ``areas``: `lubfric.sampling.patch_area`.
+    """Uncertainty and errors by field of a point on one patch. ``areas``: from `lubfric.sampling.patch_area`.
 
-    The standard error is that of blocks along y, as of a line, where the patch is long enough for eight of them; half
-    of a mirrored map counts. Nothing more is made of the surface: it is all there is.
+    The standard error is that of blocks along y, as for a line, where the patch is long enough for eight of them. Half
+    of a mirrored map counts. There is no more of the surface to make.
     """
     balance = point.balance
     length = prepared.surface.size[1] / (2 if mirrored(prepared) else 1)
@@ -105,7 +104,7 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
 
 
 def _numerical(point: Solved, response: Response | None) -> Numerical:
-    """Grid errors of f as errors of the gap, by the same response that carries them back."""
+    """Errors of f by the grid, turned into errors of the gap. The same response carries them back."""
     balance, decision = point.balance, point.decision
     if response is None:
         return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
@@ -119,8 +118,8 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
 
 
 def _from_slope(point: Solved) -> Response:
-    """`Response` from the slope of the balance alone, nothing solved: films follow the load as rigid ones do, more than
-    elastic ones; f by the sensitivity of `Forces`."""
+    """The `Response` from the slope of the balance alone; nothing is solved. Films are taken to follow the load as
+    rigid ones do, which is more than elastic ones do. f follows by the sensitivity of `Forces`."""
     balance = point.balance
     film, total = balance.contact.mean_film, balance.contact_load + balance.film_load
     slope = balance.slope or 0.5 * balance.contact_load * balance.film_load / total**2

@@ -1,4 +1,4 @@
-"""What a balance answers to an error of its gap: the split of the load, and everything that hangs on it."""
+"""How a balance answers to an error of its gap: the division of the load, and everything that depends on it."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
 
 @dataclass(frozen=True)
 class Slopes:
-    """Of a rough contact at a given film, per load P on the width [N/m]: gap [m²/N], the mean gap over A; area [m/N],
-    the contact area fraction of A; touched [m²/N], the contact area per length."""
+    """How a rough contact at a given film follows its load per width P [N/m].
+
+    ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``touched`` [m²/N]: the contact
+    area per length.
+    """
 
     gap: float
     area: float
@@ -26,9 +29,9 @@ class Slopes:
 class Response:
     """Linear answers of a balance.
 
-    slopes: of its contact. split: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at given load;
-    rates:
-    d ln q/ds of the reported quantities q along the balance of load, by name. Without a film the split is what it is.
+    ``slopes``: those of its contact; ``split``: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at
+    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name. Without a film the
+    split does not change.
     """
 
     slopes: Slopes
@@ -44,7 +47,8 @@ class Response:
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
-    """Secants from ``load`` [N], at which the contact is ``state``, to 1.05 of it, which ``close`` solves for."""
+    """The `Slopes` as secants from ``load`` [N], at which the contact is ``state``, to 1.05 times it, which
+    ``close`` solves for."""
     more, step = close(load * (1 + LOAD_STEP)), LOAD_STEP * load / width
     return Slopes(
         (more.mean_gap - state.mean_gap) / step,
@@ -54,10 +58,11 @@ def slopes_of(state: ContactState, load: float, width: float, close: Callable[[f
 
 
 def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[float], dict[str, float]]) -> Response:
-    """`Response` of a balance in contact with a film.
+    """The `Response` of a balance in contact with a film.
 
-    ``at_split(s)`` gives the quantities by name, "mean_gap" the mean film among them, at another division of the load
-    (no contact is solved). The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), dP/ds = -P F_H/F_T.
+    ``at_split(s)`` gives the quantities by name at another division of the load, "mean_gap" (there the mean film) among
+    them. No contact is solved for it. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with dP/ds =
+    -P F_H/F_T.
     """
     low, high = at_split(balance.split - STEP), at_split(balance.split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)

@@ -1,4 +1,4 @@
-"""Lines so far, and whether they are enough."""
+"""The lines solved so far, and whether they are enough."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SAME_LOAD = 0.15  # relative change of the contact load for which the grid's eff
 
 @dataclass(frozen=True)
 class Anchor:
-    """The first line in contact: what is known of it holds for all. grid: what its cells change."""
+    """The first line in contact. What is known of it is taken for all lines. ``grid``: what its cells change."""
 
     contact: HalfSpaceContact
     point: Solved
@@ -41,7 +41,7 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Sample:
-    """Lines of ``prepared`` solved at one speed: ``first`` that of the pilot, ``anchor`` of the first in contact."""
+    """Lines of ``prepared`` solved at one speed. ``first``: that of the pilot; ``anchor``: the first in contact."""
 
     prepared: Prepared
     speed: float
@@ -78,8 +78,8 @@ class Sample:
 
     @property
     def missed(self) -> float:
-        """What contact that lines without any may have missed would add to f, relative, by the pilot's summits and
-        the length of all."""
+        """Contact that lines without any may have missed by chance, as what it would add to f, relative. By the
+        summits of the pilot and the length of all lines."""
         prepared, first = self.prepared, self.first
         found = missed_share(prepared, first.balance.film, first.balance.forces, self.lines.lengths[1])
         found = found if math.isfinite(found) else math.inf  # too short to tell
@@ -87,12 +87,12 @@ class Sample:
 
     @property
     def few(self) -> bool:
-        """Too few spots carry the load for an honest interval, and it matters."""
+        """Whether too few spots carry the load for an honest interval, where that matters."""
         asked = self.prepared.scene.numerics.sampling_tolerance
         return self.anchor is not None and self.together.participation < FEW and self.reached > MATTERS * asked
 
     def wanted(self) -> float:
-        """Length [m] of the next line; 0 where no more is needed or to be had."""
+        """Length [m] of the next line. 0 where no more is needed, or no more can be had."""
         lines, asked, so_far = self.lines, self.prepared.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
         reached = self.reached
@@ -104,8 +104,8 @@ class Sample:
         return so_far + more if lines.nested else more
 
     def with_line(self, contact, point: Solved, before: tuple[GridStep, ...] = ()) -> Sample:
-        """The same with one more line; a longer one of a measured map takes the place of the shorter. ``before``:
-        what was found of the grid at a neighbouring speed."""
+        """The sample with one more line. A longer line of a measured map takes the place of the shorter one.
+        ``before``: what was found of the grid at a neighbouring speed."""
         lines, balance, length = self.lines, point.balance, length_of(contact)
         kept = () if lines.nested else self.records
         if balance.contact_load == 0:
@@ -158,8 +158,8 @@ def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
 
 
 def _grid(prepared, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
-    """Pieces on finer cells, until what they scatter by is a small part of the sampling tolerance; those of a
-    neighbouring speed where the contact carries as much."""
+    """Compare pieces on finer cells, until their scatter is a small part of the sampling tolerance. Those of a
+    neighbouring speed serve where the contact carries as much."""
     lines, numerics, balance = lines_of_model(prepared), prepared.scene.numerics, found.balance.lubricated
     if lines.cells.factors == (1, 1) or balance is None:
         return ()

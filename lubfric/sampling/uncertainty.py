@@ -90,8 +90,8 @@ def curve_of(points) -> UncertaintyCurve:
 
 @dataclass(frozen=True)
 class FieldErrors:
-    """Estimated relative error of every reported quantity, one standard error where the surface is in it; NaN where it
-    cannot be told: ``reasons`` has the name and why."""
+    """Estimated relative error of every reported quantity. It is one standard error where the surface is part of it.
+    NaN where it cannot be told; ``reasons`` then has the name and why."""
 
     coefficient: float = math.nan
     contact_load: float = math.nan
@@ -123,7 +123,8 @@ def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
 
 
 def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:
-    """Where nothing is known of the surface beyond the ``length`` [m] that was solved, and ``why``."""
+    """The `Uncertainty` where nothing is known of the surface beyond the ``length`` [m] that was solved, and
+    ``why``."""
     error = math.nan if numerical is None else numerical
     asked = scene.numerics.sampling_tolerance
     return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))

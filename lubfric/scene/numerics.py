@@ -22,8 +22,8 @@ SAMPLINGS = ("line", "patch")
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Relative: of the EHL film, whose error enters F_H, and so f, about one to one; of the contact solve; of the
-    closing of load and volume."""
+    """Relative tolerances: of the EHL film (its error enters F_H, and so f, about one to one), of the contact solve,
+    and of the closing of load and volume."""
 
     film: float
     contact: float
@@ -36,11 +36,11 @@ class Numerics(Brief):
 
     Attributes
     ----------
-    tolerance : on the friction coefficient. Those of film, contact and balance follow from it where they are left out
-        (`tolerances`)
+    tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it where they are
+        left out (`tolerances`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
-    sampling : what surface it is modelled with: "line", a line of the scene's roughness as long as
-        ``sampling_tolerance`` asks (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
+    sampling : the surface that is solved: "line", a line of the scene's roughness as long as ``sampling_tolerance``
+        asks (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite line may leave
     closure : "load": contact solved at F_T - F_H, volume balanced; "separation": the paper's way, film imposed on the
         contact, loads balanced; "one-way": one film in the dry contact's own gap
@@ -50,8 +50,8 @@ class Numerics(Brief):
     model : "auto": no more than the tolerance needs (docs/levels.md); "full": everything, on the scene's own grid;
         "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md)
     film_level, contact_level, grid : a level given by name instead of "auto"
-    heat : of inlet, film and surfaces: "auto" (where it matters, and the lubricant says how its viscosity falls with
-        the temperature), "on", "off"
+    heat : whether the heat of inlet, film and surfaces is modelled: "auto" (where it matters, and the lubricant says
+        how its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
     workers : threads of the Fourier transforms

@@ -28,7 +28,7 @@ HEAT = ("auto", "off")
 
 
 def resolves_gap(scene: Scene) -> bool:
-    """The gap is resolved: one pressure in it, or one-way load sharing."""
+    """Whether the gap is resolved: one pressure in it, or one-way load sharing."""
     return scene.numerics.model == "deterministic" or scene.numerics.closure == "one-way"
 
 

@@ -71,7 +71,7 @@ class Scene(SceneShown):
 
 
 def _dotted(key: str, value) -> str:
-    """The way to say what a key with its section in front, ``numerics.tolerance``, was meant to say."""
+    """How to write what a key with its section in front, such as ``numerics.tolerance``, was meant to say."""
     section, _, name = key.partition(".")
     return f"; allowed: with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 

@@ -1,7 +1,7 @@
-"""Short forms of a scene: what stands on a drawing or an oil can, turned into the fields of its sections.
+"""Short forms of a scene: what stands on a drawing or an oil can becomes the fields of its sections.
 
-One place for scene files and for `Scene.with_`: `resolve` takes what was given for a section, and the section as it was
-(None for a file), and returns its plain fields.
+Scene files and `Scene.with_` share them. `resolve` takes what was given for a section, and the section as it was (None
+for a file). It returns the plain fields of the section.
 """
 
 from __future__ import annotations

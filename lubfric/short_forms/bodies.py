@@ -15,8 +15,13 @@ PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyra
 
 
 def resolve(given: dict, old) -> dict:
-    """``radii`` [m]; ``material``, or ``young_modulus`` [Pa] with ``poisson_ratio``; ``hardness_hv`` -> hardness
-    10.58 MPa HV (load over the projected area of the indentation); ``hertz_pressure`` [Pa], the peak -> load."""
+    """Plain fields of [bodies].
+
+    - ``radii`` [m] of both bodies become the reduced radius.
+    - ``material``, or ``young_modulus`` [Pa] with ``poisson_ratio``, becomes E'.
+    - ``hardness_hv`` becomes the hardness, 10.58 MPa HV (load over the projected area of the indentation).
+    - ``hertz_pressure`` [Pa], the peak, becomes the load.
+    """
     only_one("bodies", given, "radius", "radii")
     only_one("bodies", given, "e_prime", "material", "young_modulus+poisson_ratio")
     only_one("bodies", given, "hardness", "hardness_hv")

@@ -14,9 +14,12 @@ AT_40 = 40 + CELSIUS
 
 
 def resolve(given: dict, old) -> dict:
-    """From an oil (``grade`` with ``viscosity_index``; ``nu40`` and ``nu100`` [m²/s]; ``viscosity_table``, pairs of K
-    and m²/s; ``oil``, a name of `lubfric.oil.oil_names` or an `Oil`) at ``temperature`` [K] or ``temperature_celsius``:
-    viscosity, pressure-viscosity coefficient (as given, else estimated) and temperature coefficient."""
+    """Plain fields of [lubricant] from an oil at ``temperature`` [K] or ``temperature_celsius``: viscosity,
+    pressure-viscosity coefficient (as given, else estimated) and temperature coefficient.
+
+    The oil is given by ``grade`` with ``viscosity_index``, by ``nu40`` and ``nu100`` [m²/s], by ``viscosity_table``
+    (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
+    """
     only_one("lubricant", given, "temperature", "temperature_celsius")
     if "temperature_celsius" in given:
         given["temperature"] = _kelvin(given.pop("temperature_celsius"))
@@ -71,7 +74,8 @@ def _kelvin(celsius) -> float:
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:
-    """The oil that ``source`` names, with the properties of the one ``before``; some of it may be left as it was."""
+    """The oil that ``source`` names. It keeps the properties of the one ``before``, and what ``source`` does not say
+    is as it was."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
     kept = _kept(before)
     if "oil" in source:

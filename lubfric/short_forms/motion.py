@@ -13,8 +13,12 @@ MOST_SPEEDS = 100_000
 
 
 def resolve(given: dict, old) -> dict:
-    """``surface_speeds = [u1, u2]`` [m/s]; ``slip_percent``, 100 (u2 - u1)/U with U = (u1 + u2)/2, the slide-roll ratio
-    in percent; ``speed_range = [lowest, highest, count]``, geometric."""
+    """Plain fields of [motion].
+
+    - ``surface_speeds = [u1, u2]`` [m/s] become entrainment speed U = (u1 + u2)/2 and slide-roll ratio.
+    - ``slip_percent`` is the slide-roll ratio (u2 - u1)/U in percent.
+    - ``speed_range = [lowest, highest, count]`` becomes ``speeds``, in a geometric series.
+    """
     only_one("motion", given, "surface_speeds", "entrainment_speed")
     only_one("motion", given, "surface_speeds", "slide_roll_ratio", "slip_percent")
     only_one("motion", given, "speeds", "speed_range")

@@ -9,7 +9,7 @@ KEYS = tuple(BEFORE)
 
 
 def resolve(given: dict, old) -> dict:
-    """A key by its name of today."""
+    """Fields of [numerics]; a key under its old name gets its present one."""
     for before, today in BEFORE.items():
         only_one("numerics", given, before, today)
     return {BEFORE.get(key, key): value for key, value in given.items()}

@@ -54,22 +54,31 @@ class PointShown(Shown):
     @property
     def x(self) -> np.ndarray:
         """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
-        return self._grid("x")
+        if self.deterministic is not None:
+            return self.deterministic.result.x
+        return self._kept("x", None if self.balance is None else self.balance.contact.x)
 
     @property
     def y(self) -> np.ndarray:
         """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
-        return self._grid("y")
+        if self.deterministic is not None:
+            whole = self.deterministic.result
+            return np.arange(whole.pressure.shape[1]) * whole.spacing[1]
+        return self._kept("y", None if self.balance is None else self.balance.contact.y)
 
     @property
     def pressure(self) -> np.ndarray:
         """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
-        return self._field("pressure")
+        if self.deterministic is not None:
+            return self.deterministic.result.pressure
+        return self._fields("pressure").pressure
 
     @property
     def gap(self) -> np.ndarray:
         """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
-        return self._field("gap")
+        if self.deterministic is not None:
+            return self.deterministic.result.gap
+        return self._fields("gap").gap
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
@@ -77,20 +86,14 @@ class PointShown(Shown):
 
         return pressure_axes(self, ax)
 
-    def _grid(self, name: str) -> np.ndarray:
-        if self.deterministic is not None:
-            result = self.deterministic.result
-            return result.x if name == "x" else np.arange(result.pressure.shape[1]) * result.spacing[1]
-        found = None if self.balance is None else getattr(self.balance.contact, name)
+    def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
         if found is None:
             raise InputError(
                 f"this point keeps no {name}; allowed: lubfric.friction(..., fields=True) under a cylinder"
             )
         return found
 
-    def _field(self, name: str) -> np.ndarray:
-        if self.deterministic is not None:
-            return getattr(self.deterministic.result, name)
+    def _fields(self, name: str) -> Any:
         if self.balance is None or self.balance.contact.fields is None:
             why = (
                 "it is separated"
@@ -100,7 +103,7 @@ class PointShown(Shown):
             raise InputError(
                 f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True"
             )
-        return getattr(self.balance.contact.fields, name)
+        return self.balance.contact.fields
 
 
 def _interval(interval: tuple[float, float]) -> str:

@@ -1,9 +1,9 @@
-"""Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
+"""Frozen dataclasses as plain data and arrays, and back. There is no pickle, so nothing in a file can run code.
 
 A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": [dtype, shape, order,
-place]}``, a number that is not finite ``{"float": "nan"}``; tuples become lists, lists ``{"list": [...]}``, dicts
-``{"dict": {...}}``. Floats keep every bit. Encoded, that tree stands first, its length in front, then the arrays, each
-once however often the tree names it.
+place]}``, a number that is not finite ``{"float": "nan"}``. Tuples become lists, lists ``{"list": [...]}``, dicts
+``{"dict": {...}}``. Floats keep every bit. In the file the length of this tree stands first, then the tree, then the
+arrays. Each array stands there once, however often the tree names it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LENGTH = 8  # bytes of the length of the tree
 
 
 class Arrays:
-    """The arrays of one value, one behind the other. ``parts``: their bytes, not copied."""
+    """The arrays of one value, one after the other. ``parts``: their bytes, not copied."""
 
     def __init__(self) -> None:
         self.parts: list[bytes | memoryview] = []
@@ -30,7 +30,7 @@ class Arrays:
         self._end = 0
 
     def put(self, array: np.ndarray) -> list:
-        """[dtype, shape, order, place in bytes] of ``array``, which is added where it is not there yet."""
+        """Add ``array`` where it is not there yet. Returns [dtype, shape, order, place in bytes]."""
         if id(array) not in self._places:
             if array.dtype.hasobject:
                 raise TypeError(f"an array of {array.dtype} cannot be stored")
@@ -44,8 +44,8 @@ class Arrays:
 
 
 def encode(value) -> list:
-    """``value``, a tree of dataclasses of this package, numbers, texts and arrays, as bytes in pieces that follow each
-    other."""
+    """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses of this package,
+    numbers, texts and arrays."""
     arrays = Arrays()
     tree = json.dumps(to_plain(value, arrays), allow_nan=False).encode()
     return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays.parts]

@@ -19,9 +19,9 @@ LABELS = {"Scene": ("name",), "Surface": ("source", "notes"), "Motion": ("speeds
 def fingerprint(*parts) -> str:
     """SHA-256, hexadecimal, of ``parts`` and the versions of lubfric and NumPy, whose generator makes the maps.
 
-    Parts are numbers, texts, arrays, dataclasses and collections of these. Of a scene or model everything counts but
-    its name, the provenance of its map and the list of speeds; a height map counts by its heights and spacing, and a
-    file by its bytes, not by its path.
+    Parts are numbers, texts, arrays, dataclasses and collections of these. Of a scene everything counts except its
+    name, the provenance of its map and the list of speeds. A height map counts by its heights and spacing, a file by
+    its bytes and not by its path.
     """
     return digest([__version__, np.__version__, *parts])
 

@@ -21,9 +21,10 @@ _HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child mu
 
 
 class FolderLock:
-    """``with FolderLock(folder):`` - refuses with `InputError` while another process holds it. The folder is made.
+    """``with FolderLock(folder):`` makes the folder and locks it. Refuses with `InputError` while another process holds
+    the lock.
 
-    The lock is held by the open file, so that a killed process leaves none behind; only its file then stays.
+    The lock is held by the open file. So a killed process leaves no lock behind; only its file stays.
     """
 
     def __init__(self, folder):

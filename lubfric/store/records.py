@@ -23,10 +23,11 @@ class Records:
     """Records by key in ``folder``: any number of processes may add, each to its own file, while others read.
 
     A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added. When `add` returns,
-    the line is with the system, which keeps it whatever becomes of this process. Lines are forced to the disk with the
-    first one that is added a second or more after the last forcing, and by `close`: a loss of power can take those
-    since then. A line that was cut or overwritten fails its checksum and counts as absent; ``damaged`` tells how many
-    the last `read` met.
+    the system has the line, and keeps it whatever becomes of this process.
+
+    Lines are forced to the disk by `close`, and by the first line that is added a second or more after the last
+    forcing. A loss of power can take the lines since then. A line that was cut or overwritten fails its checksum and
+    counts as absent. ``damaged`` is how many of these the last `read` met.
     """
 
     def __init__(self, folder):

@@ -16,10 +16,10 @@ PART = ".part-"  # begins the name of a file that is being written
 
 
 def write_whole(path, *content, sync: bool = True) -> None:
-    """Replace ``path`` by ``content``, bytes in one or several pieces: a reader, or whoever finds the folder after a
-    kill, sees the old file or the new.
+    """Replace ``path`` by ``content``, bytes in one or several pieces. Whoever reads the file, even after a kill, sees
+    the old one or the new one, whole.
 
-    ``sync=False`` leaves the forcing to the disk to the system, for what a loss of power may take. Raises as
+    ``sync=False`` leaves it to the system when the disk gets it, for what a loss of power may take. Raises as
     `whole_file`.
     """
     with whole_file(path, sync=sync) as part:
@@ -29,7 +29,7 @@ def write_whole(path, *content, sync: bool = True) -> None:
 
 
 def _write_all(file, piece) -> None:
-    """All of ``piece``, of which the system may take less than it is given at once."""
+    """Write all of ``piece``. The system may take less at once than it is given."""
     rest = memoryview(piece)
     while len(rest):
         rest = rest[file.write(rest) :]
@@ -37,11 +37,11 @@ def _write_all(file, piece) -> None:
 
 @contextmanager
 def whole_file(path, *, sync: bool = True):
-    """The path of a temporary file in the folder of ``path``, forced to the disk and renamed to it when the block ends
-    well.
+    """The path of a temporary file in the folder of ``path``. When the block ends well, it is forced to the disk and
+    renamed to ``path``.
 
-    It has the same suffix. Missing folders are made. Raises `OutputError`, the old file untouched, when the disk is
-    full or the folder is not writable.
+    It has the same suffix. Missing folders are made. When the disk is full or the folder is not writable, `OutputError`
+    is raised and the old file stays as it was.
     """
     path = Path(path)
     with saying(f"{path} was not written"):
@@ -91,7 +91,7 @@ def saying(what: str):
 
 
 def clear_parts(folder) -> None:
-    """Remove what killed writers left half written in ``folder``; only for who holds its lock."""
+    """Remove what killed writers left half written in ``folder``. Only the holder of its lock may do this."""
     for path in Path(folder).glob(f"{PART}*"):
         path.unlink(missing_ok=True)
 

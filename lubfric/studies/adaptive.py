@@ -24,9 +24,12 @@ FEWEST = 3  # solved speeds that an interpolation needs
 
 @dataclass(frozen=True)
 class Search:
-    """What to solve. ``first``: speeds [m/s] to begin with, those of both ends among them; ``tolerance``: relative, on
-    f between the points; ``wanted``: speeds [m/s] that must be among them, with their fields; ``name``: fingerprint of
-    all that they depend on."""
+    """What to solve.
+
+    ``first``: speeds [m/s] to begin with, both ends among them; ``tolerance``: relative, on f between the points;
+    ``wanted``: speeds [m/s] that must be among those solved, with their fields; ``name``: fingerprint of all that the
+    speeds depend on.
+    """
 
     first: tuple[float, ...]
     tolerance: float
@@ -40,10 +43,10 @@ class Search:
 
 
 def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> Search:
-    """The search for the curve of ``prepared``, of that fingerprint ``name``.
+    """The search for the curve of ``prepared``; ``name`` is its fingerprint.
 
-    The tolerance between the points is that on f, and on a line of a rough surface, where neighbouring points may be
-    solved on different lengths of it, its root sum of squares with the sampling tolerance.
+    The tolerance between the points is that on f. On a line of a rough surface neighbouring points may be solved on
+    different lengths of it. There the tolerance is the root sum of squares of that on f and the sampling tolerance.
     """
     numerics = prepared.scene.numerics
     tolerance = numerics.tolerance
@@ -53,7 +56,7 @@ def search_of(prepared: Prepared, name: str, wanted: tuple[float, ...] = ()) -> 
 
 
 def curve_key(name: str) -> str:
-    """Under which a store says that the curve of that fingerprint is complete."""
+    """The key under which a store says that the curve with fingerprint ``name`` is complete."""
     return digest([name, "complete"])
 
 
@@ -62,8 +65,8 @@ def run_adaptive(
 ) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
-    Each point starts from the nearest one before it. Points among the ``known`` records, those of the ``journal`` by
-    key, are taken from there: the choices, and so the rest, come out the same.
+    Each point starts from the nearest one before it. Points among the ``known`` records (those of the ``journal``, by
+    key) are taken from there. So the choices come out the same, and with them all later points.
     """
     trail = Trail(prepared, search, journal, known)
     ahead = search.ahead
@@ -76,7 +79,7 @@ def run_adaptive(
 
 
 class Trail:
-    """The points so far. ``speeds`` [m/s] and ``outcomes``, without fields where these are not wanted."""
+    """The points so far: ``speeds`` [m/s] and ``outcomes``. These have no fields where none are wanted."""
 
     def __init__(self, prepared: Prepared, search: Search, journal: Journal | None, known: dict[str, dict]):
         self.speeds: list[float] = []

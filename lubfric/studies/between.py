@@ -34,7 +34,7 @@ def lift_offs(result) -> np.ndarray:
 
 
 def curve_of(result, index) -> Interpolant | None:
-    """The curve at one position along the axes; None where fewer than three of its points are solved."""
+    """The curve at one position along the axes, or None where fewer than three of its points are solved."""
     columns = {name: values[index] for name, values in result.columns.items()}
     speed = np.abs(columns[SPEED] if result.chosen else result.coords[SPEED][1])
     good = np.flatnonzero(np.isfinite(columns["coefficient"]) & (speed > 0))

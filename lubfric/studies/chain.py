@@ -1,4 +1,5 @@
-"""Speeds solved one after the other, each started from its neighbour: the smallest piece of work that is handed out."""
+"""Speeds that are solved one after the other, each started from its neighbour. This is the smallest piece of work
+that is handed out."""
 
 from __future__ import annotations
 
@@ -18,9 +19,9 @@ from .journal import Journal, without_fields
 class Chain:
     """Entrainment ``speeds`` [m/s] in the order in which they are solved, and the ``key`` of each point.
 
-    A key is a hash of all that its point depends on: the input and, as every start depends on the point before it, the
-    whole chain up to there. ``fields``: whether film and contact of the point are kept. ``after``: the chain of one
-    point from which the first one starts (None: from nothing).
+    A key is a hash of all that its point depends on: the input and the whole chain up to there, since every start
+    depends on the point before it. ``fields``: whether film and contact of each point are kept. ``after``: the chain of
+    one point from which the first one starts (None: it starts from nothing).
     """
 
     speeds: tuple[float, ...]
@@ -48,11 +49,12 @@ def make_chain(fingerprint: str, speeds, fields=None, after: Chain | None = None
 def run_chain(
     prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0, before=None
 ) -> Iterator[tuple[int, object]]:
-    """Yield (index, `FrictionResult` or `LubfricError`) for the points from the ``done``-th on, each kept in
-    ``journal`` first. ``before``: the whole outcome of ``chain.after``; None: read or solved again where it is needed.
+    """Yield (index, `FrictionResult` or `LubfricError`) for the points after the first ``done``. Each is kept in
+    ``journal`` before.
 
-    A point that fails leaves its error and the next one begins cold. Every other exception is a fault of the program
-    and goes through. The results are the same to the last bit wherever an earlier run was cut.
+    A point that fails leaves its error, and the next one begins cold. Every other exception is a fault of the program
+    and is raised. The results are the same to the last bit wherever an earlier run was cut. ``before``: the whole
+    outcome of ``chain.after``. Where it is None, that outcome is read or solved again when it is needed.
     """
     parent = os.getppid()
     if journal is not None and done:
@@ -91,7 +93,7 @@ def _before(prepared: Prepared, chain: Chain, journal: Journal | None):
 
 
 def start_from(outcome) -> FrictionResult | None:
-    """The result, refused or not, from which a neighbour can start."""
+    """The result that a neighbour can start from, refused or not; None where there is none."""
     result = outcome.result if isinstance(outcome, ValidityError) else outcome
     return result if isinstance(result, FrictionResult) and result.starts else None
 
@@ -110,8 +112,8 @@ def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fi
 
 
 def resumed(prepared: Prepared, chain: Chain, journal: Journal, done: int):
-    """(start of the next point, outcome of the point whose record a kill had left out or None), after ``done``
-    points."""
+    """What to go on with after ``done`` points: the start of the next point, and the outcome of the point whose
+    record a kill had left out (or None)."""
     key, outcome = journal.state(chain.name)
     if done < len(chain.keys) and key == chain.keys[done]:
         journal.keep(chain.name, key, outcome, chain.fields[done])

@@ -1,4 +1,4 @@
-"""``lubfric study``: a study file carried out into a folder."""
+"""``lubfric study``: carry out a study file into a folder."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def run_study(arguments) -> int:
 
 
 def write_tables(result: StudyResult, folder: Path, netcdf: bool, parquet: bool) -> list[str]:
-    """study.csv, and what else is asked for; their names."""
+    """Write study.csv, and what else is asked for. Returns the names of the files."""
     result.to_csv(folder / "study.csv")
     written = ["study.csv"]
     if netcdf:

@@ -1,8 +1,8 @@
 """What a point will cost, foretold from closed forms and two clocks of this machine.
 
-The time of a point is that of its films and of the transforms of its contact; their numbers go with Moes' film of the
-whole load over Sq, as counted on the built-in scenes. On a long line the transforms grow with the length that
-`lubfric.lines.outlook` foretells.
+The time of a point is that of its films and of the transforms of its contact. How many there are depends on Moes' film
+of the whole load over Sq; the counts come from the built-in scenes. On a long line the transforms grow with the length
+that `lubfric.lines.outlook` foretells.
 """
 
 from __future__ import annotations
@@ -35,8 +35,11 @@ REPEATS = 3
 
 @dataclass(frozen=True)
 class Ground:
-    """What curves on one map share. sq [m]; shape: of the grid; transform [s]: one there and back on it; lines: where
-    it is a long line; curve: whether contacts are read from one curve."""
+    """What the curves on one map share.
+
+    ``sq`` [m]; ``shape`` of the grid; ``transform`` [s]: one Fourier transform there and back on it; ``lines``: where
+    the map is a long line; ``curve``: whether contacts are read from one curve.
+    """
 
     sq: float
     shape: tuple[int, int]
@@ -56,7 +59,7 @@ def by_curve(scene: Scene) -> bool:
 
 
 def ground_of(scene: Scene, curve: bool) -> Ground:
-    """Of the map of ``scene``, which is made. Raises `InputError` where it cannot be."""
+    """The `Ground` of ``scene``, whose map is made for it. Raises `InputError` where it cannot be made."""
     surface = contact_map(scene)
     if not takes_line(scene):
         return Ground(surface.sq, surface.shape, _transform(surface.shape), curve=curve)

@@ -16,8 +16,10 @@ FIELD = 8 * 4  # bytes a cell of the state of a chain under way
 
 
 def explain(plan) -> str:
-    """Points, what they share, predicted cost and disk of a `StudyPlan`, in words. Its maps are made, and one film is
-    solved as a clock of this machine; no point is."""
+    """The points of a `StudyPlan`, what they share, and their predicted cost and disk, in words.
+
+    The maps are made, and one film is solved as a clock of this machine. No point is solved.
+    """
     curves = [curve for batch in plan.batches for curve in batch.curves]
     chains = sum(len(curve.chains) for curve in curves)
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
@@ -81,7 +83,7 @@ def _costs(plan) -> tuple[int, float, list[str]]:
 
 
 def _points(curves: list[tuple[Scene, Ground]], speeds: tuple[float, ...]) -> float:
-    """Processor seconds of the points of some curves; ``speeds`` [m/s]: none where they are chosen."""
+    """Processor seconds of the points of some curves. ``speeds`` [m/s] is empty where each curve chooses its own."""
     scene, ground = curves[len(curves) // 2]
     known = [abs(u) for u in (speeds or first_speeds(scene, ground.sq)) if u]
     film = film_clock(scene, float(np.exp(np.mean(np.log(known)))) if known else 0.0)

@@ -19,9 +19,13 @@ SAMPLE_KEYS = ("count", "sampler", "seed")
 
 
 def load_study(path) -> StudyPlan:
-    """The plan in a study file: ``scene`` (a file relative to it, or a built-in one), ``speeds`` or ``speed_range`` in
-    m/s, [vary] keys with lists of values, [[together]] keys whose lists go together, [sample] keys with {low, high,
-    scale} and count, sampler, seed.
+    """The plan in a study file.
+
+    - ``scene``: a file relative to this one, or a built-in scene.
+    - ``speeds`` or ``speed_range``: in m/s.
+    - [vary]: keys with lists of values.
+    - [[together]]: keys whose lists go together.
+    - [sample]: keys with {low, high, scale}, and count, sampler, seed.
 
     Raises `InputError` for anything else, naming the nearest valid key.
     """
@@ -55,7 +59,7 @@ def _table(path: Path) -> dict:
 
 
 def _flat(table, where: str, folder: Path) -> dict[str, list]:
-    """{"section.key": list}, from ``"section.key" = [...]`` or ``section.key = [...]``; files relative to
+    """{"section.key": list} from ``"section.key" = [...]`` or ``section.key = [...]``. Files are relative to
     ``folder``."""
     if not isinstance(table, dict):
         raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")

@@ -1,4 +1,5 @@
-"""What is kept of a chain of points while it is solved: each finished point at once, and the start of the next."""
+"""What is kept on disk of a chain of points while it is solved: each finished point at once, and the start of the
+next."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ PLACE = "place"  # in a record
 
 @dataclass(frozen=True)
 class Failure:
-    """A point without an answer, as it is stored. ``error``: the name of its exception; the rest as in that."""
+    """A point without an answer, as it is stored. ``error``: the name of its exception. The other fields are those
+    of it."""
 
     error: str
     message: str
@@ -30,9 +32,9 @@ class Failure:
 class Journal:
     """The folder of a store, as one process writes it.
 
-    A point is first put whole into the state of its chain, and then, by one line, into the records. Whatever moment a
-    kill strikes, the state is that of the last record or one point ahead of it, and then holds the record that is
-    missing.
+    A point is first put whole into the state of its chain, then as one line into the records. So a kill at any moment
+    leaves a state that belongs to the last record, or is one point ahead of it. In the second case the state holds the
+    record that is missing.
     """
 
     def __init__(self, folder):
@@ -42,8 +44,8 @@ class Journal:
     def keep(self, chain: str, key: str, outcome, fields: bool = False, place: dict | None = None) -> None:
         """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too.
 
-        ``place``: of a point whose speed was chosen on the way: its curve, its place on it, its speed [m/s]; put into
-        the record.
+        ``place``: for a point whose speed was chosen on the way, its curve, its place on it and its speed [m/s]. It is
+        put into the record.
         """
         state = encode({"key": key, "outcome": _storable(outcome)})
         if fields:
@@ -53,7 +55,7 @@ class Journal:
         self.records.add(key, record if place is None else record | {PLACE: place})
 
     def state(self, chain: str) -> tuple[str, object]:
-        """(key, outcome) of the last point of a chain; ("", None) where there is none that is whole."""
+        """(key, outcome) of the last point of a chain, or ("", None) where no whole one is kept."""
         return self._read(self._path(STATES, chain))
 
     def fields(self, key: str):
@@ -61,11 +63,11 @@ class Journal:
         return self._read(self._path(FIELDS, key))[1]
 
     def end(self, chain: str) -> None:
-        """The chain is complete: its state is not needed any more."""
+        """Remove the state of a chain that is complete."""
         self._path(STATES, chain).unlink(missing_ok=True)
 
     def begin(self, name: str) -> bool:
-        """Mark a piece of work as begun; whether it was begun before and not finished."""
+        """Mark a piece of work as begun. Returns whether it was begun before and not finished."""
         path = self._mark(name)
         before = path.is_file()
         write_whole(path, b"", sync=False)
@@ -104,7 +106,7 @@ def outcome_of(record: dict):
 
 
 def without_fields(outcome):
-    """A result, or the result of a refusal, without its fields; any other outcome as it is."""
+    """A result without its fields. The same for the result that a refusal carries. Any other outcome stays as it is."""
     if isinstance(outcome, FrictionResult):
         return outcome.without_fields()
     if isinstance(outcome, ValidityError) and outcome.result is not None:
@@ -113,7 +115,8 @@ def without_fields(outcome):
 
 
 def bare(result: FrictionResult) -> FrictionResult:
-    """Without what the start of a neighbour can make again (`lubfric.sampling.line_friction.LineStart`)."""
+    """A result without what a neighbour that starts from it can make again
+    (`lubfric.sampling.line_friction.LineStart`)."""
     return result if result.line is None else replace(result, line=result.line.bare())
 
 

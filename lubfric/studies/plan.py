@@ -23,8 +23,11 @@ BATCH = 50  # points at least, where curves that share a map are solved by one p
 
 @dataclass(frozen=True)
 class Curve:
-    """The speeds of one combination of values. ``index``: its position along each axis; ``whole``: fingerprint of all
-    that it depends on; ``chains``: its points, none where it chooses its speeds itself."""
+    """The speeds of one combination of values.
+
+    ``index``: its position along each axis; ``whole``: fingerprint of all that it depends on; ``chains``: its points,
+    none where the curve chooses its speeds itself.
+    """
 
     index: tuple[int, ...]
     scene: Scene
@@ -39,8 +42,8 @@ class Curve:
 
 @dataclass(frozen=True)
 class Batch:
-    """Curves that one process solves on one height map. ``leader``: the scene that the others are prepared
-    like."""
+    """Curves that one process solves on one height map. ``leader``: the scene that is prepared first; the others
+    reuse its map."""
 
     leader: Scene
     curves: tuple[Curve, ...]
@@ -61,17 +64,17 @@ class StudyPlan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the results: the axes, then the speeds, or the most that a curve may choose."""
+        """Shape of the results: the axes, then the number of speeds, or the largest number that a curve may choose."""
         return (*(len(axis.values) for axis in self.axes), len(self.speeds) or MOST)
 
     @property
     def points(self) -> int:
-        """Number of points; about that where they are chosen."""
+        """Number of points. Where speeds are chosen it is an estimate."""
         return int(np.prod(self.shape[:-1])) * (len(self.speeds) or CHOSEN)
 
     def keys(self) -> np.ndarray:
-        """Key of each point, an array of ``shape``; where speeds are chosen, that of each complete curve, over the
-        axes."""
+        """The key of each point, an array of ``shape``. Where speeds are chosen: the key of each complete curve,
+        over the axes."""
         if not self.speeds:
             ends = np.empty(self.shape[:-1], dtype=object)
             for batch in self.batches:
@@ -125,7 +128,7 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
 
 
 def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
-    """In m/s, those of the scene for None, none for "auto"."""
+    """The speeds in m/s: those of the scene for None, none for "auto"."""
     if isinstance(speeds, str):
         if speeds != AUTO:
             raise InputError(
@@ -141,7 +144,7 @@ def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
 
 
 def _batches(scenes: dict, speeds: tuple[float, ...]):
-    """Curves of the same map together, in pieces that fix who is solved beside whom."""
+    """The curves grouped by their map, in pieces. The pieces fix which curves are solved beside each other."""
     groups: dict = {}
     maps: dict = {}
     for index, scene in scenes.items():
@@ -170,7 +173,7 @@ def _curve(index, scene, leader, speeds, maps) -> Curve:
 
 
 def _shared(scene: Scene) -> str:
-    """Scenes of which this is equal can use each other's map and operator or curve."""
+    """What two scenes must have equal to use each other's map and operator or curve."""
     bodies, numerics = scene.bodies, scene.numerics
     cut = bodies.half_width if scene.contact.shape is None else 0.0
     return repr((scene.surface, scene.counterface, scene.contact, bodies.e_prime, bodies.hardness, numerics, cut))

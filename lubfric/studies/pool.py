@@ -1,4 +1,4 @@
-"""The processes of a command: they end with it, whatever ends it."""
+"""The worker processes of a command. They end with it, whatever ends it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ def processors() -> int:
 
 @contextmanager
 def pool(workers: int):
-    """An executor of ``workers`` processes, which begin at once, or None for one: this process itself."""
+    """An executor of ``workers`` processes, which begin at once. None where one is asked for: then this process does
+    the work itself."""
     if workers == 1:
         yield None
         return
@@ -41,7 +42,7 @@ def pool(workers: int):
 
 
 def _follow(parent: int) -> None:
-    """In a worker: leave Ctrl-C to the command, and end when it is gone."""
+    """Run in a worker: leave Ctrl-C to the command, and end when the command is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 

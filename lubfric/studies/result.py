@@ -191,13 +191,13 @@ def open_study(folder) -> StudyResult:
 
 
 def _on_speeds(plan: dict, rows: dict[str, dict]):
-    """(place in the flat arrays, row) of the known points, and the status of all before these are put in."""
+    """(place in the flat arrays, row) of the known points, and the status of all points before these are put in."""
     status = np.full(len(plan["keys"]), MISSING, dtype=object)
     return [(at, rows[key]) for at, key in enumerate(plan["keys"]) if key in rows], status
 
 
 def _on_curves(plan: dict, rows: dict[str, dict]):
-    """The same of curves that chose their speeds: the first free place of an unfinished one is not computed."""
+    """The same for curves that chose their speeds. The first free place of an unfinished curve is "not computed"."""
     most = plan["shape"][-1]
     first = {key: most * i for i, key in enumerate(plan["keys"])}
     placed = [(first[row[CURVE]] + row[AT], row) for row in rows.values() if AT in row and row[CURVE] in first]

@@ -1,4 +1,4 @@
-"""`study`: a plan carried out on any executor, kept point by point."""
+"""`study`: carry out a plan on any executor, and keep it point by point."""
 
 from __future__ import annotations
 
@@ -23,9 +23,12 @@ from .table_row import named, row_of
 
 @dataclass(frozen=True)
 class Piece:
-    """A batch as it is handed out. ``folder`` of the store, or None; ``done``: finished points by name of the chain, 1
-    by name of a curve that chose its speeds and is complete; ``partly``: the store holds points of such a curve that is
-    not."""
+    """A batch as it is handed out.
+
+    ``folder``: of the store, or None; ``done``: how many points of each chain are finished, by its name, and 1 by the
+    name of a curve that chose its speeds and is complete; ``partly``: whether the store holds points of such a curve
+    that is not complete.
+    """
 
     batch: Batch
     folder: str | None
@@ -140,7 +143,8 @@ def _chains(batch: Batch):
 
 
 def run_piece(piece: Piece) -> dict[str, dict]:
-    """Solve what is left of a piece; its new rows by key, each point already in the store where there is one."""
+    """Solve what is left of a piece. Returns its new rows by key; each point is in the store first, where there is
+    one."""
     journal = None if piece.folder is None else Journal(piece.folder)
     rows: dict[str, dict] = {}
     leader = None
@@ -171,7 +175,8 @@ def run_piece(piece: Piece) -> dict[str, dict]:
 
 
 def _chosen(prepared, search, journal, known) -> dict[str, dict]:
-    """The rows of a curve that chooses its speeds, and the one that says that it is complete; ``known``: records."""
+    """The rows of a curve that chooses its speeds, and the row that says that it is complete. ``known``: its records
+    so far."""
     rows, key = {}, curve_key(search.name)
     for at, (speed, outcome) in enumerate(run_adaptive(prepared, search, journal, known)):
         place = {"curve": key, "place": at, "speed": speed}
@@ -187,7 +192,7 @@ def _ended(key: str, points: int, journal) -> dict:
 
 
 def _all_failed(curve: Curve, error: LubfricError, journal, piece: Piece) -> dict[str, dict]:
-    """The rows of a curve that cannot be begun; one where it would have chosen its speeds."""
+    """The rows of a curve that cannot be begun. There is only one row where the curve would have chosen its speeds."""
     record = record_of(error)
     keys = [key for chain in curve.chains for key in chain.keys[piece.done.get(chain.name, 0) :]]
     if not curve.chains:

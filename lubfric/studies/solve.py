@@ -14,8 +14,11 @@ from .spread import spread
 
 @dataclass(frozen=True)
 class Part:
-    """A chain as it is handed out. ``folder`` of the store, or None; ``done``: its leading points that are solved;
-    ``before``: the outcome that its first point starts from."""
+    """A chain as it is handed out.
+
+    ``folder``: of the store, or None; ``done``: how many of its first points are solved; ``before``: the outcome that
+    its first point starts from.
+    """
 
     chain: Chain
     folder: str | None
@@ -29,7 +32,8 @@ class Part:
 
 
 class Kept:
-    """Which leading points of each chain have been told to ``keep(index, outcome)``; indices by name of chain."""
+    """The points of each chain that ``keep(index, outcome)`` was told of. ``indices``: those of the speeds, by name
+    of chain."""
 
     def __init__(self, indices: dict, folder: str | None, keep: Callable):
         self._indices, self._folder, self._keep = indices, folder, keep
@@ -42,7 +46,7 @@ class Kept:
             self._keep(int(self._indices[name][at]), outcome)
 
     def read(self, chain: Chain, before=None) -> Part:
-        """Tell what the store holds of ``chain``; what is left of it."""
+        """Tell what the store holds of ``chain``. Returns what is left of it."""
         told = self._told[chain.name]
         if self._folder is not None:
             for at, outcome in enumerate(_finished(self._folder, chain, told), told):
@@ -51,11 +55,11 @@ class Kept:
 
 
 def solve_chains(prepared: Prepared, first: Chain, chains: list, executor, store, keep: Callable) -> None:
-    """Solve the chain ``first``, of one point, then those of ``chains`` that start from it; ``keep(index, outcome)``
-    for every point as it ends.
+    """Solve the chain ``first``, which has one point, then the ``chains`` that start from it. Every point that ends is
+    given to ``keep(index, outcome)``.
 
-    ``chains``: pairs of a `Chain` and the indices of its speeds, ``first`` among them. With a ``store`` the points
-    found there come first, and those that a process of the ``executor`` puts there are told while it goes on.
+    ``chains``: pairs of a `Chain` and the indices of its speeds, ``first`` among them. With a ``store``, the points
+    found there come first. Points that a process of the ``executor`` puts there are told while it goes on.
     """
     folder = None if store is None else str(store)
     kept = Kept({chain.name: run for chain, run in chains}, folder, keep)
@@ -89,7 +93,7 @@ def _spread(prepared: Prepared, parts: list[Part], executor, kept: Kept, before)
 
 
 def _finished(folder: str, chain: Chain, told: int) -> list:
-    """Outcomes of the leading points of ``chain`` from number ``told`` on that are in a store, whole."""
+    """Outcomes of the first points of ``chain`` from number ``told`` on, as far as a store holds them whole."""
     journal, outcomes, keys = Journal(folder), [], chain.keys[told:]
     records = {key: record for key, record in journal.records.read() if key in keys}
     for key, fields in zip(keys, chain.fields[told:]):

@@ -1,4 +1,4 @@
-"""Pieces of work on any executor: what a lost worker leaves undone is done again, faults of the program go through."""
+"""Pieces of work on any executor. What a lost worker leaves undone is done again. Faults of the program are raised."""
 
 from __future__ import annotations
 
@@ -17,11 +17,13 @@ def spread(
 ) -> Iterator:
     """Yield ``work(piece)`` for every piece, as they end.
 
-    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable and
-    catch what a piece may rightly raise. An exception out of it is a fault and is raised as it is, the pieces not yet
-    begun cancelled. When a *worker* is lost (killed, or its machine gone), its pieces and those of a pool that broke
-    with it are done here; ``again(piece)`` then gives what is left of a piece (None: all of it). ``look()`` is called
-    every now and then while pieces are under way on an executor.
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
+    must catch what a piece may rightly raise. An exception out of it is a fault: pieces not yet begun are cancelled,
+    and it is raised as it is.
+
+    A *worker* may be lost: killed, or its machine gone. Then its pieces, and those of a pool that broke with it, are
+    done here. ``again(piece)`` gives what is left of a piece (None: all of it). ``look()`` is called every now and then
+    while pieces are under way on an executor.
     """
     if executor is None:
         for piece in pieces:

@@ -13,8 +13,8 @@ CLEARANCE = "clearance"
 
 
 def row_of(record: dict) -> dict:
-    """Numbers by name, those of an uncertainty as ``uncertainty_<name>``, and the status in words; of a point whose
-    speed was chosen, its place on its curve too."""
+    """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and its status in words. A
+    point whose speed was chosen has its place on its curve too."""
     place = _place(record[PLACE]) if PLACE in record else {}
     if "error" in record:
         return {STATUS: f"{record['error']}: {record['message']}", **place}
@@ -28,7 +28,7 @@ def row_of(record: dict) -> dict:
 
 
 def named(rows: dict[str, dict]) -> dict[str, dict]:
-    """``rows`` with those of chosen speeds under their curve and place instead of their key."""
+    """``rows`` by key, where rows of chosen speeds go by their curve and place instead."""
     return {f"{row[CURVE]} {row[AT]}" if AT in row else key: row for key, row in rows.items()}
 
 

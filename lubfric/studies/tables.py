@@ -57,8 +57,8 @@ def to_csv(result, path) -> None:
 
 
 def columns_of(result) -> dict[str, np.ndarray]:
-    """One value a point in every column: the varied keys, the speed, the numbers, the status; no row for places that
-    a curve did not need."""
+    """The columns of a table: the varied keys, the speed, the numbers, the status, one value for each point. Places
+    that a curve did not need have no row."""
     shape, columns = result.status.shape, {}
     for key, (dim, values) in result.coords.items():
         along = [1] * len(shape)

@@ -14,7 +14,8 @@ MOST_POINTS = 2**26  # of any map, 512 MiB of heights
 
 
 def mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
-    """A copy of the mask ``given``, less what a masked array masks; None where every point is measured."""
+    """A copy of the mask ``given``, without the points that a masked array masks. None where every point is
+    measured."""
     found = np.ones(shape, bool) if given is None else np.array(given)
     if found.dtype.kind != "b" or found.shape != shape:
         raise InputError(
@@ -28,7 +29,7 @@ def mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
 
 
 def points(name: str, shape: tuple[int, ...]) -> None:
-    """A grid that memory holds."""
+    """Check that a grid of that many points fits into memory."""
     if math.prod(shape) > MOST_POINTS:
         raise InputError(
             f"{name} = {validate.shown(shape)} has {float(math.prod(shape)):.3g} points; "

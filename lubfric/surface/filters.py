@@ -1,8 +1,8 @@
 """The areal Gaussian filter of ISO 16610-61, as S-filter (keeps what is longer) and L-filter (keeps what is shorter).
 
-Weights exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi): a wave as long as the nesting index L passes by one half.
-Isotropic, hence one axis after the other. At open ends and beside unmeasured points the weights that are left are
-scaled to one (regression of order zero); a periodic axis goes around.
+The weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi). So a wave as long as the nesting index L passes by one
+half. The filter is isotropic, so it works on one axis after the other. At open ends and beside unmeasured points the
+weights that are left are scaled to sum to one (regression of order zero). A periodic axis goes around.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def gaussian_mean(
     periodic: tuple[bool, bool],
     index: float,
 ) -> np.ndarray:
-    """The waviness (nx, ny) [m]: weighted mean around each point, of the measured points (True in ``mask``) only.
+    """The waviness (nx, ny) [m]: the weighted mean around each point, of the measured points (True in ``mask``) only.
 
-    ``index`` [m]: nesting index (cutoff). A point with no measured one in reach keeps its height.
+    ``index`` [m]: nesting index (cutoff). A point that has no measured one in reach keeps its height.
     """
     weight = np.ones(heights.shape) if mask is None else mask.astype(float)
     total = np.where(weight > 0, heights, 0.0)
@@ -52,7 +52,7 @@ def _along(values: np.ndarray, axis: int, cells: float, periodic: bool) -> np.nd
 
 
 def checked_indices(surface, s: float | None, l: float | None) -> tuple[float | None, float | None]:
-    """Both nesting indices [m], the S-filter's below the L-filter's."""
+    """Both nesting indices [m], checked: that of the S-filter is below that of the L-filter."""
     if s is not None:
         s = checked_index("s_filter", s, surface.size, surface.spacing)
     if l is not None:

@@ -121,7 +121,7 @@ class Surface(FrozenArrays, Shown):
         return self._with(filled, f"filled: {np.count_nonzero(~self.mask)} unmeasured points, harmonically")
 
     def without_outliers(self) -> Surface:
-        """Outliers become unmeasured points; see `lubfric.surface.outliers` for the rule (level first, then fill)."""
+        """Make outliers unmeasured points. Level before, fill after; `lubfric.surface.outliers` has the rule."""
         mask = np.ones(self.shape, bool) if self.mask is None else self.mask
         while True:
             found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
@@ -242,12 +242,12 @@ class Surface(FrozenArrays, Shown):
         return self
 
     def combined(self, other: Surface) -> Surface:
-        """This map and that of the body that faces it as one: what both take of the gap; see `lubfric.surface.pair`."""
+        """This map and that of the body that faces it, added into one (`lubfric.surface.pair`)."""
         return pair.combined(self, other)
 
     def continued(self, length: float) -> Surface:
-        """At least ``length`` [m] along x: a shorter map is followed by its mirror image, and so on; periodic along x
-        then."""
+        """The map made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so
+        on, and is periodic along x then."""
         if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
         new = self.periodic("mirror", axes=(True, False))

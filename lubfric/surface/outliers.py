@@ -1,12 +1,13 @@
-"""Outliers of a measured map: points that stand alone, as no neighbour of theirs does.
+"""Outliers of a measured map: points that stand alone, far from all their neighbours.
 
-The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations from the median of
-the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, both on the same side. The robust
-deviation is 1.4826 times the median of |z - median(z)|, which is the standard deviation of a Gaussian map and hardly
-feels the outliers themselves; where it is zero (most of the map is one height) it is Sq. What is found is filled and
-the map searched again, until nothing is. Ridges and grooves at least three points wide stay, however high, and so do
-summits that are wide against the window; dust, noise beside unmeasured points and the flares of optical instruments at
-steep edges go.
+The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations both from the
+median of the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side. The
+robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard deviation, and
+the outliers themselves hardly change it. Where it is zero (most of the map has one height) Sq is taken.
+
+Outliers are filled and the map is searched again, until there are none. Ridges and grooves at least three points wide
+stay, however high. So do summits that are wide against the window. Dust, noise beside unmeasured points and the flares
+of optical instruments at steep edges go.
 """
 
 from __future__ import annotations

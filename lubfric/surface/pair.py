@@ -17,12 +17,11 @@ SAME = 1e-9  # relative difference of lengths that are equal
 
 
 def combined(first, second):
-    """z1(x, y) + z2(x, -y) on the finer of both spacings along each axis, over the length that both have.
+    """z1(x, y) + z2(x, -y), on the finer of both spacings along each axis, over the length that both have.
 
-    Along an axis on which both are periodic with the same length the sum is periodic too. Else the shorter length
-    counts (of the open ones, where a periodic map is repeated to reach it), cut around the middle; the sum is then
-    open. The heights are taken about their means. Raises `InputError` for maps with unmeasured points (level and fill
-    first).
+    Where both are periodic along an axis with the same length, the sum is periodic too. Otherwise the shorter length
+    counts, cut around the middle, and the sum is open. (A periodic map is repeated to reach the length of an open one.)
+    The heights are taken about their means. Raises `InputError` for maps with unmeasured points: level and fill first.
     """
     for name, surface in (("first", first), ("second", second)):
         if not np.isfinite(surface.heights).all():

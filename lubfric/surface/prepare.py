@@ -24,10 +24,11 @@ def pair(name, value) -> tuple[int, int]:
 
 
 def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
-    """Least-squares polynomial (nx, ny) [m] of the measured points, its slopes [-] and curvatures [1/m] along x and y.
+    """Fit a polynomial to the measured points by least squares. Gives it (nx, ny) [m], its slopes [-] and its
+    curvatures [1/m] along x and y.
 
-    "plane": first order; "quadratic": second, with the mixed term. An axis of one point has no slope, one of two no
-    curvature. Slopes are those at the middle of the map. Where nothing is left but rounding (`FLAT` of the largest
+    "plane" is of first order, "quadratic" of second, with the mixed term. An axis of one point has no slope, one of two
+    no curvature. Slopes are those at the middle of the map. Where nothing is left but rounding (`FLAT` of the largest
     height), the form is the map itself. Raises `InputError` when the points do not fix the form.
     """
     order = 1 + FORMS.index(form)
@@ -56,8 +57,11 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
 
 
 def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] | None:
-    """{powers: coefficient} of the weighted least squares, from the normal equations, whose sums take no array but
-    ``z`` itself; solved twice, the second time for what is left. None where they have no one solution."""
+    """{powers: coefficient} of the weighted least squares, or None where they have no one solution.
+
+    The normal equations are used, as their sums need no array but ``z`` itself. They are solved twice, the second time
+    for what the first solution leaves.
+    """
     moments = along[0].T @ weight @ along[1]
     matrix = np.array([[moments[p + r, q + s] for r, s in powers] for p, q in powers])
     values = np.linalg.eigvalsh(matrix)
@@ -144,7 +148,7 @@ def close_axis(heights, axis, edge, count=None) -> np.ndarray:
 
 
 def close_mask(mask, axis, edge, count=None) -> np.ndarray:
-    """Measured points of a closed map: where blended, both heights were measured."""
+    """The measured points of a closed map. A blended point counts where both of its heights were measured."""
     m = np.moveaxis(mask, axis, 0)
     if edge == "mirror":
         closed = np.concatenate([m, m[::-1]])[:count]

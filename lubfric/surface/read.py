@@ -86,7 +86,7 @@ def read_surface(
 
 
 def _existing(path) -> Path:
-    """A file that is there and can be opened."""
+    """The path of a file that is there and can be opened."""
     try:
         path = Path(path)
         found = path.is_file()
@@ -102,7 +102,8 @@ def _existing(path) -> Path:
 
 
 def _binary(path: Path) -> bool:
-    """Zero bytes at the beginning: no text, whatever the suffix says (the .dat of an interferometer)."""
+    """Whether a file begins with zero bytes: then it is no text, whatever its suffix says (the .dat of an
+    interferometer)."""
     with path.open("rb") as file:
         head = file.read(4096)
     return b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))
@@ -144,7 +145,7 @@ def _refuse(suffix, **given) -> None:
 
 
 def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
-    """NaN and ``missing_value`` are unmeasured; infinite heights are refused by `Surface`."""
+    """The heights with their mask: NaN and ``missing_value`` are unmeasured. `Surface` refuses infinite heights."""
     measured = ~np.isnan(heights)
     if missing_value is not None:
         measured &= heights != missing_value
@@ -167,7 +168,7 @@ def _prepared(surface, level, fill, form) -> Surface:
 
 
 def _read_npy(path) -> np.ndarray:
-    """Memory-mapped first, so that a header cannot ask for more than the file holds."""
+    """Read a .npy file. It is memory-mapped first, so that its header cannot ask for more than the file holds."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")

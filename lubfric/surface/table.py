@@ -1,7 +1,7 @@
-"""A table of numbers in text: titles above it, what separates the values, and which mark the decimals have.
+"""A table of numbers in text: the titles above it, what separates its values, and its decimal mark.
 
-A point is always a decimal mark. A comma separates values, or is the decimal mark; it is read where the lines admit
-one of the two only, and is an error where they admit both.
+A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines admit
+only one of the two, and is an error where they admit both.
 """
 
 from __future__ import annotations

@@ -17,7 +17,8 @@ from .result import FAILED_SPEEDS, StribeckResult, collected
 
 
 def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
-    """Arguments of `lubfric.stribeck`; where speeds failed it says so."""
+    """A curve at speeds of its own choice. Arguments as in `lubfric.stribeck`. Where speeds failed, the result says
+    so."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))

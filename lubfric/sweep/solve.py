@@ -1,4 +1,4 @@
-"""Stribeck curves: friction over speed, neighbours warm-started, nothing lost to a failing point."""
+"""Stribeck curves: friction over speed. Each speed starts from its neighbour, and a failing point costs no other."""
 
 from __future__ import annotations
 
@@ -37,10 +37,9 @@ def stribeck(
 ) -> StribeckResult:
     """The Stribeck curve of a scene: friction over the entrainment speed.
 
-    First comes one speed of mixed lubrication, then the slower and the faster ones outwards from there, each started
-    from its neighbour: in one process, or both ways at once on an ``executor``, to the same bits. A point that fails
-    leaves NaN, and its exception in ``errors``. A fault of the program is raised as it is, with the points so far as
-    its ``result``.
+    One speed of mixed lubrication comes first, then the slower and the faster ones, each started from its neighbour.
+    An ``executor`` solves both sides at once, to the same bits. A point that fails leaves NaN, and its exception in
+    ``errors``. A fault of the program is raised as it is, with the points so far as its ``result``.
 
     Parameters
     ----------
@@ -105,8 +104,10 @@ def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
 
 
 def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Chain, np.ndarray]]]:
-    """The chain of the speed that comes first, and all chains, each with the indices of its speeds: that one, and those
-    that go from it to either side, of 25 speeds at most."""
+    """The chain of the speed that comes first, and all chains, each with the indices of its speeds.
+
+    The others go from the first speed to either side, at most 25 speeds each.
+    """
     order = np.argsort(-np.abs(speeds), kind="stable")
     whole, middle = fingerprint(prepared), _middle(prepared.scene, prepared.surface.sq, np.abs(speeds[order]))
 
@@ -120,9 +121,12 @@ def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Ch
 
 
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
-    """Number of the speed, of those from the fastest down, that comes first: where the film that Moes' formula gives
-    the whole load is about twice Sq, the contact carries a third of it, and the points on both sides cost the same. The
-    fastest where nothing but speed keeps the surfaces apart, or that alone makes a point easy to begin with."""
+    """Number of the speed that comes first, counted from the fastest down.
+
+    It is where the film that Moes' formula gives the whole load is about twice Sq. There the contact carries a third of
+    the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
+    the fastest speed comes first: it is the easy one to begin with.
+    """
     numerics, moving = scene.numerics, np.flatnonzero(speeds)
     if sq <= 0 or numerics.model == "deterministic" or numerics.closure == "one-way" or not moving.size:
         return 0

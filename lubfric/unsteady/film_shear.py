@@ -95,7 +95,7 @@ def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
     inside = slice(wet[0], wet[-1] + 1) if wet.size else slice(0, 0)
     off = 2 / 3 * abs(float(np.sum((middle - 0.5 * (tau[1:] + tau[:-1])) * full)))
     if wet.size > 4:
-        off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside])
+        off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
     carried = carried_stress(pressure)
     above = np.maximum(np.abs(tau) - carried, 0.0)
     more, rolling = _tails(sharing, scene, time, sliding, solution)

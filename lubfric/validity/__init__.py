@@ -1,4 +1,4 @@
-"""Is a result an answer? The model's assumptions, checked on the scene before and on the solution after."""
+"""Is a result an answer? The assumptions of the model are checked on the scene before, and on the solution after."""
 
 from .entry import Validity, refused
 from .gather import gathered

@@ -10,7 +10,7 @@ from .entry import Validity
 
 
 def beforehand(scene, surface) -> tuple[Validity, ...]:
-    """Entries of values far from the usual, of bodies and of map."""
+    """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
         Validity(d.name, d.value, d.limit, d.unit, "unusual", d.meant or "check the value and its unit")
         for d in doubts(scene)
@@ -19,8 +19,8 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
 
 
 def _lengths_across(surface) -> float | None:
-    """Width of the map over its correlation length across the motion; None where it has none (a lay along it, a flat
-    map)."""
+    """Width of the map over its correlation length across the motion. None where it has no such length: a lay along
+    the motion, or a flat map."""
     ny = surface.shape[1]
     if ny < 8 or surface.sq == 0:
         return None

@@ -59,8 +59,8 @@ def of_bodies(bodies) -> list[Validity]:
 
 
 def of_map(slope: float, lengths: float | None) -> list[Validity]:
-    """``slope``: rms slope of the map [-]; ``lengths``: its width over its correlation length across (None: not
-    known)."""
+    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across
+    the motion (None: not known)."""
     found = []
     if slope > STEEP:
         found.append(
@@ -89,7 +89,7 @@ def of_map(slope: float, lengths: float | None) -> list[Validity]:
 
 
 def of_motion(scene, speed: float, film: float) -> list[Validity]:
-    """Sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: none)."""
+    """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     found, ratio = [], abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
         found.append(

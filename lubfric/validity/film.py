@@ -13,7 +13,7 @@ ANOTHER = "numerics.film_deflection = 'scaled' or 'total' (or 'auto', which choo
 
 
 def of_pressure(lubricant, peak: float) -> list[Validity]:
-    """``peak``: highest film pressure [Pa]."""
+    """Entries for the highest film pressure ``peak`` [Pa]."""
     if peak > NO_LIQUID:
         return [
             Validity(
@@ -42,7 +42,7 @@ def of_pressure(lubricant, peak: float) -> list[Validity]:
 
 
 def of_thickness(bodies, film: float) -> list[Validity]:
-    """``film``: central film thickness [m]."""
+    """Entries for the central film thickness ``film`` [m]."""
     if not film > THICK * bodies.radius:
         return []
     return [
@@ -58,7 +58,8 @@ def of_thickness(bodies, film: float) -> list[Validity]:
 
 
 def of_deflection(change: float, limit: float, remedy: str = ANOTHER) -> list[Validity]:
-    """``change``: of the film's share by which a film deflected by its own pressure alone may be wrong [-]."""
+    """Entries for a film that is deflected by its own pressure alone. ``change``: what its share of the load may be
+    wrong by [-]."""
     if not change > limit:
         return []
     return [

@@ -1,4 +1,4 @@
-"""What a result will be told or refused for, foretold from closed forms: nothing is solved."""
+"""The cautions and refusals that a result will have, foretold from closed forms. Nothing is solved."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ NODES = 201
 
 
 def foretold(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
-    """Pairs (speed [m/s], entry), the speed None where it is of bodies or map; films are Moes' under the whole load."""
+    """Pairs (speed [m/s], entry). The speed is None where the entry is about bodies or map. Films are Moes' films
+    under the whole load."""
     found = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
         return tuple(found)
@@ -33,7 +34,7 @@ def foretold(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...
 
 
 def _of_film(scene, speed: float, line) -> list[Validity]:
-    """Of a film of even thickness under the Hertz pressure."""
+    """Entries for a film of even thickness under the Hertz pressure."""
     bodies, lubricant, w = scene.bodies, scene.lubricant, scene.bodies.load / scene.bodies.width
     x = np.linspace(-1, 1, NODES) * bodies.half_width
     pressure = hertz.line_pressure(x, w, bodies.radius, bodies.e_prime)

@@ -16,8 +16,8 @@ def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
 
 
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
-    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst of
-    them.
+    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst
+    value.
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """

@@ -1,4 +1,4 @@
-"""Heat: where the inlet factors and the flash temperature are used beyond what they were made for."""
+"""Entries for heat: where the inlet factors and the flash temperature are used beyond what they were made for."""
 
 from __future__ import annotations
 

@@ -1,10 +1,12 @@
-"""How far load sharing itself is off, as far as it is known: an estimate read off a study.
+"""How far load sharing itself is off, as far as it is known. The estimate was read off a study.
 
 ``python -m verification model`` solves the same rough line contact by load sharing and by one gap with one pressure
-(`lubfric.deterministic`): the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90 µm. The
-rms over surfaces of f/f_deterministic - 1 lies below these bounds, or at most a quarter above them (half with an
-exponential autocorrelation; docs/model-error.md). They hold for a patch; much of that error differs from patch to
-patch, so that a long line has less. What both models leave out (heat, unsteady roughness, boundary films) is not in it.
+(`lubfric.deterministic`). It takes the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90
+µm. The rms over surfaces of f/f_deterministic - 1 lies below these bounds, or at most a quarter above them (half with
+an exponential autocorrelation; docs/model-error.md).
+
+The bounds hold for a patch. Much of that error differs from patch to patch, so a long line has less. What both models
+leave out (heat, unsteady roughness, boundary films) is not in it.
 """
 
 from __future__ import annotations
@@ -20,8 +22,11 @@ ONE_WAY_FULL_FILM = 0.05
 
 
 def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> float:
-    """Relative error of f by Eq. (8): ``min(0.3, 0.02 + 0.56 (1 - s))`` in contact, s = F_C/F_T; ``min(0.3, 3.2/λ²)``
-    for a full film, λ = central film/Sq; 0 where the contact carries everything."""
+    """Relative error of f by Eq. (8).
+
+    In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ = central
+    film/Sq. 0 where the contact carries everything.
+    """
     if contact_share >= 1:
         return 0.0
     if contact_share > 0:
@@ -32,8 +37,8 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
 
 
 def one_way_error(contact_share: float) -> float:
-    """The same by ``numerics.closure = "one-way"``: 3 % from a share of the contact of a half on, 10 % below it, 5 %
-    for a full film."""
+    """Relative error of f by ``numerics.closure = "one-way"``: 3 % where the contact carries half of the load or
+    more, 10 % where it carries less, 5 % for a full film."""
     if contact_share <= 0:
         return ONE_WAY_FULL_FILM
     return next(error for share, error in ONE_WAY if contact_share >= share)

@@ -1,4 +1,4 @@
-"""Shear stress: what a film is asked to carry against what oils carry."""
+"""Entries for shear stress: what a film is asked to carry against what oils carry."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ FRICTION = 0.2  # of the film
 
 
 def meaningless(shear) -> bool:
-    """Most of the force of ``shear`` (`ShearForce`) is from stresses that no oil carries."""
+    """Whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
 def of_shear(shear, film_load: float, friction_force: float, tolerance: float, newtonian: bool) -> list[Validity]:
-    """``shear``: `ShearForce` of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N], of which a share
-    above ``tolerance`` that no oil carries is told, above 0.2 refused."""
+    """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N].
+
+    A share of the friction that no oil carries is a caution above ``tolerance``, and refused above 0.2.
+    """
     if not friction_force > 0:
         return []
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 import subprocess
 import sys
 
@@ -226,3 +227,11 @@ def test_nothing_of_an_earlier_run_stays(tmp_path, capsys):
     assert (out / "notes.txt").read_text() == "old" and (out / "contact.png").stat().st_size > 10_000
     assert "notes.txt" not in capsys.readouterr().err
     assert main(["run", str(tmp_path / "small.toml"), "--out", str(out / "notes.txt")]) == 2
+
+
+def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_path, capsys):
+    shutil.copytree(run, tmp_path / "a")
+    rows = (tmp_path / "a" / "stribeck.csv").read_text().splitlines()
+    (tmp_path / "a" / "stribeck.csv").write_text("\n".join([*rows, rows[-1]]) + "\n")
+    assert main(["plot", str(tmp_path / "a")]) == 2
+    assert "of one run" in capsys.readouterr().err

@@ -117,7 +117,7 @@ def _features(prepared, result) -> Iterator[str]:
     yield from (["oil by grade"] if scene.lubricant.oil else [])
     yield from (["heat of the inlet"] if result.inlet_film_factor < 1 else [])
     yield from (["heat of film and surfaces"] if result.film_temperature_rise > 0 else [])
-    yield from (["deflected by the whole load"] if "whole load" in result.decision.deflection else [])
+    yield from (["deflected by the whole load"] if result.decision.deflected_by == "scaled" else [])
     yield from (["pure rolling"] if scene.motion.slide_roll_ratio == 0 else [])
     yield from (["more than one line"] if result.line is not None and result.line.used else [])
     yield from (["finer pieces of the line"] if result.line is not None and result.line.grid else [])

@@ -66,8 +66,8 @@ def _couette(scene, x, p, h, free, contact_load, speed) -> float:
         force = float(np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])))
     if heats(scene):
         some = np.unique(np.linspace(0, x.size - 1, min(x.size, HEATED)).round().astype(int))
-        nodes = [a[some] for a in (x, p, h, log_ratio, free)]
-        return float(np.trapezoid(free[some] * heated_stress(scene, *nodes, contact_load, speed), x[some]))
+        x, p, h, log_ratio, free = (a[some] for a in (x, p, h, log_ratio, free))
+        return float(np.trapezoid(free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed), x))
     return force
 
 

@@ -138,7 +138,7 @@ class Judge:
 
 def judge_of(prepared: Prepared, result) -> Judge:
     """What is needed to close ``result`` of ``prepared`` anew."""
-    scaled = "by the whole load" in (result.decision.deflection or "")
+    scaled = result.decision.deflected_by == "scaled"
     n = prepared.surface.shape[0]
     x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force

@@ -1,0 +1,105 @@
+"""The resistance to rolling from the undeformed gap, against the sum of h dp over fine grids and against itself."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.analytic import rigid
+from lubfric.film.numerical import Elastohydrodynamic
+from lubfric.lubricant import Lubricant
+
+RADIUS, MODULUS, VISCOSITY, SPEED = 0.01, 2.2e11, 0.03, 1.0
+UNIT = np.sqrt(2 * VISCOSITY * SPEED / (MODULUS * RADIUS))
+
+
+def film(M, L, tolerance=3e-3, speed=SPEED, **more):
+    return lubfric.solve_ehl(
+        load_per_width=M * MODULUS * RADIUS * UNIT,
+        radius=RADIUS,
+        e_prime=MODULUS,
+        entrainment_speed=speed,
+        viscosity=VISCOSITY,
+        pressure_viscosity_coefficient=max(L, 1e-3) / (MODULUS * np.sqrt(UNIT)),
+        tolerance=tolerance,
+        **more,
+    )
+
+
+def summed(found):
+    """Half of ∫ h dp over the nodes, along the motion, with what every second node would make it."""
+    sense = np.sign(found.entrainment_speed)
+    fine, coarse = (
+        0.25
+        * sense
+        * np.sum((found.film_thickness[::n][1:] + found.film_thickness[::n][:-1]) * np.diff(found.pressure[::n]))
+        for n in (1, 2)
+    )
+    return fine, abs(coarse - fine) / 3
+
+
+@pytest.mark.parametrize("M, L", [(5, 5), (20, 0), (100, 10), (500, 10)])
+def test_it_is_what_the_sum_tends_to_and_its_error_is_said(M, L):
+    fine, off = summed(film(M, L, 3e-4, least_cells=768))
+    found = film(M, L).rolling
+    assert found.force == pytest.approx(fine, abs=2 * off + found.error) and found.error < 5e-3 * found.force
+    assert abs(found.force - fine) < 3e-3 * fine
+
+
+def test_few_cells_know_it_where_their_sum_does_not():
+    """A heavy film: every second node changes the sum of h dp by ten times what it changes the undeformed gap's."""
+    coarse, fine = film(300, 15, least_cells=96), film(300, 15, 1e-3, least_cells=768)
+    assert abs(coarse.rolling.force / fine.rolling.force - 1) < 2e-3
+    assert summed(coarse)[1] > 4 * coarse.rolling.error
+
+
+def force(found, share=0.0):
+    """[N/m] of spots that have ``share`` of the width everywhere."""
+    level, oil = Elastohydrodynamic(), Lubricant(VISCOSITY, 1e-8)
+    evenly = lambda x: np.full(x.size - 1, share)  # noqa: E731
+    return level.shear(found, oil, slide_roll_ratio=0.0, width=1.0, contact_fraction=evenly, cavitated="none")
+
+
+def test_a_rigid_cylinder_in_closed_form():
+    found = film(0.01, 0, 1e-3)
+    exact = rigid.rolling_friction(found.min_film, radius=RADIUS, entrainment_speed=SPEED, viscosity=VISCOSITY)
+    assert force(found).rolling == pytest.approx(exact, rel=3e-3)
+
+
+@pytest.mark.parametrize("speed", [SPEED, -SPEED])
+def test_an_imposed_pressure_counts_by_its_deflection(speed):
+    """One beside the line of centres, either way of the motion: the film meets another gap on the way in."""
+    plain = film(50, 5, 1e-3)
+    x = np.linspace(-0.5, 1.5, 41) * plain.half_width
+    bump = 0.5 * plain.hertz_pressure * np.maximum(1 - np.linspace(-1, 1, 41) ** 2, 0)
+    found = film(50, 5, 1e-3, speed, imposed_pressure=(x, bump), least_cells=768)
+    fine, off = summed(found)
+    assert found.rolling.force == pytest.approx(fine, abs=2 * off + found.rolling.error)
+    assert off + found.rolling.error < 0.01 * fine < 0.2 * abs(fine - plain.rolling.force)
+
+
+def test_spots_take_their_share_of_it():
+    """Spots everywhere alike leave the rest of the force; all of it where they are all there is but the far inlet."""
+    found = film(50, 5)
+    free, half, full = (force(found, share) for share in (0.0, 0.5, 1.0))
+    assert half.rolling == pytest.approx(0.5 * (free.rolling + full.rolling))
+    assert free.rolling == pytest.approx(found.rolling.force, rel=0.05)  # and the inlet before the first node
+    assert full.rolling - free.rolling == pytest.approx(-summed(found)[0])
+    assert free.rolling_parts < half.rolling_parts < full.rolling_parts
+
+
+def test_pure_rolling_of_a_heavy_film_takes_few_cells():
+    """Separated at 1 GPa: 1536 cells did not resolve it to 1 % by the sum."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.02, "width": 1e-2, "load": 3e3, "e_prime": 231e9, "hardness": None},
+        lubricant={"viscosity": 0.1, "pressure_viscosity_coefficient": 2.2e-8},
+        motion={"entrainment_speed": 2.0, "slide_roll_ratio": 0.0, "speeds": ()},
+        numerics={"accept": True, "sampling": "patch", "heat": "off"},
+    )
+    step = 6 * scene.bodies.half_width / 48
+    scene = scene.with_(
+        surface={"sq": 5e-8, "correlation_length": 4 * step}, contact={"shape": (48, 48), "spacing": step}
+    )
+    model = lubfric.prepare(scene)
+    found, fine = lubfric.friction(model), lubfric.friction(model, tolerance=2e-3)
+    assert found.balance.film.cells <= 384 and found.contact_load == 0
+    assert found.coefficient == pytest.approx(fine.coefficient, rel=2e-3)
