@@ -12,9 +12,9 @@ from .soak_heat import heated_stress, heats
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
-def friction_force(scene, sides, contact_load: float, speed: float) -> float:
-    """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding; the far inlet in closed
-    form."""
+def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float]:
+    """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding, the far inlet in closed form;
+    and the size [N] of the parts of the film's share, of which f may be a small difference."""
     bodies, oil, ratio, film = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -33,9 +33,10 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> float:
         )
     rolling = np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.diff(p)) / 2
     rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
+    parts = couette + np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.abs(np.diff(p))) / 2
     sense = -1.0 if ratio < 0 else 1.0  # along the sliding; the pressure flow pushes along the entrainment
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
-    return float(boundary + bodies.width * (couette + sense * rolling))
+    return float(boundary + bodies.width * (couette + sense * rolling)), float(bodies.width * parts)
 
 
 def _touched(x, sides) -> np.ndarray:
