@@ -86,7 +86,10 @@ def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
         if level != settings.level:  # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.tolerances.film))
     film, volume = film_tolerance(numerics, sensitivity), max(balance_tolerance(numerics, sensitivity), loosest)
-    cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
+    cells = least_cells(numerics, settings, balance)
+    if loosest:  # finer grids of the contact follow: what f feels of the film is seen there
+        film, cells = max(film, budget.COARSE_FILM), settings.film_cells
+    contact = contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
         closed = abs(balance.contact.volume_residual - settings.aim) <= budget.SLACK * volume
