@@ -4,10 +4,8 @@ The public names load on first use, so that ``import lubfric`` stays light.
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from .version import __version__ as __version__
-
+TYPE_CHECKING = False  # as `typing` has it, which takes longer to import than all of this
 if TYPE_CHECKING:
     from . import oil as oil
     from .asperity import AsperityResult as AsperityResult
@@ -58,8 +56,10 @@ if TYPE_CHECKING:
     from .unsteady.result import TransientResult as TransientResult
     from .unsteady.run import transient as transient
     from .validity import Validity as Validity
+    from .version import __version__ as __version__
 
 _HOME = {
+    "__version__": "version",
     "ConvergenceError": "errors",
     "InputError": "errors",
     "LubfricError": "errors",
@@ -111,10 +111,10 @@ _HOME = {
 }
 _PACKAGES = ("oil",)
 _BEFORE = {"Patch": "ContactDomain", "Model": "Prepared"}
-__all__ = sorted([*_HOME, *_PACKAGES])
+__all__ = sorted([*(name for name in _HOME if name != "__version__"), *_PACKAGES])
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name in _PACKAGES:
         return import_module(f"lubfric.{name}")
     if name not in _HOME:

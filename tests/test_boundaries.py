@@ -104,6 +104,12 @@ def test_import_lubfric_is_light(package):
     assert python(f"import sys, lubfric; print({package!r} in sys.modules)").strip() == "False"
 
 
+def test_import_lubfric_loads_nothing_beside_itself():
+    """Not even `typing`, which takes five times as long as all the rest of it."""
+    code = "import sys; before = set(sys.modules); import lubfric; print(*sorted(set(sys.modules) - before))"
+    assert [name for name in python(code).split() if not name.startswith("importlib")] == ["lubfric"]
+
+
 def test_what_a_type_checker_sees_is_what_loads():
     """The names that load lazily and those under TYPE_CHECKING, one for one, from the same modules or packages."""
     import lubfric

@@ -46,11 +46,12 @@ def solved_as_deflected(
         return prepared, solved(prepared, speed, start, given_grid=given_grid)
     limit, error, option = budget.DEFLECTION * prepared.scene.numerics.tolerance, 0.0, "hydrodynamic"
     if speed != 0:
-        error = _loose_error(prepared, speed)
+        error, loose = _loose_error(prepared, speed)
+        start = start or loose
     if error <= CERTAIN * limit:
         chosen = deflected_by(prepared, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
-        error = own_pressure_error(prepared.scene, found.balance)
+        error, start = own_pressure_error(prepared.scene, found.balance), found.balance
     if error > limit:
         chosen, option = deflected_by(prepared, "scaled"), "scaled"
         found = solved(chosen, speed, start, given_grid=given_grid)
@@ -59,12 +60,14 @@ def solved_as_deflected(
     return chosen, replace(found, decision=replace(found.decision, deflection=told))
 
 
-def _loose_error(prepared: Prepared, speed: float) -> float:
-    """`own_pressure_error` of a loose solve; infinite where that fails, which says nothing of the point itself."""
+def _loose_error(prepared: Prepared, speed: float) -> tuple[float, Balance | None]:
+    """`own_pressure_error` of a loose solve, and its balance; infinite and None where that fails, which says nothing of
+    the point itself."""
     try:
-        return own_pressure_error(prepared.scene, solved(_loose(prepared), speed).balance)
+        found = solved(_loose(prepared), speed).balance
     except LubfricError:
-        return math.inf
+        return math.inf, None
+    return own_pressure_error(prepared.scene, found), found
 
 
 def _loose(prepared: Prepared) -> Prepared:

@@ -17,6 +17,13 @@ def felt_share(numerics: Numerics, balance: Balance) -> float:
     return max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
 
 
+def felt_gap(numerics: Numerics, balance: Balance) -> float:
+    """Share of an error of the contact's mean gap that reaches f; as `felt_share`."""
+    if balance.contact_load == 0 or numerics.model == "full":
+        return felt_share(numerics, balance)
+    return max(balance.forces.gap_sensitivity, 1e-12)
+
+
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
     """Of a numerical film, where ``sensitivity`` of its error reaches f."""
     if numerics.film_tolerance is not None:
@@ -38,7 +45,8 @@ def first_film_tolerance(numerics: Numerics) -> float:
 
 
 def balance_tolerance(numerics: Numerics, sensitivity: float) -> float:
-    """Of the volume balance; where the film is imposed on the contact it is an error of the load itself."""
+    """Of the volume balance, of whose error ``sensitivity`` reaches f; where the film is imposed on the contact it is
+    an error of the load itself."""
     if numerics.balance_tolerance is not None or numerics.closure != "load":
         return numerics.tolerances.balance
     share = budget.BALANCE * numerics.tolerance / sensitivity
