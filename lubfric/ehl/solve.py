@@ -1,5 +1,4 @@
-"""`solve_ehl`, and `solve_line_contact` for those who have a `LineContact`: nested grids from a warm or a cold
-start."""
+"""`solve_ehl`: nested grids from a warm or a cold start. `solve_line_contact` is the same for a `LineContact`."""
 
 from __future__ import annotations
 
@@ -31,8 +30,8 @@ EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow
 
 @dataclass(frozen=True)
 class Effort:
-    """What is asked of the grids and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
-    rupture that are reached even where the films need fewer, Newton steps per grid."""
+    """What is asked of the grids, and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells
+    before rupture that are reached even where the films need fewer, and Newton steps per grid."""
 
     tolerance: float = 3e-3
     least_cells: int = 0
@@ -120,7 +119,7 @@ def solve_line_contact(
     start: EHLResult | None = None,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """`solve_ehl` for a contact that is a value already; ``effort``: its tolerance and limits."""
+    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     problem = make_problem(contact, inlet_length, imposed)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")

@@ -1,4 +1,4 @@
-"""What resists the sliding at a balance, and how much of a film's error reaches it."""
+"""What resists the sliding at a balance, and how much of an error of the film reaches it."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from ..film.contract import FilmLevel
 from ..film.shear import ShearForce
 from ..heat.point import Heat, WarmFilm, point_heat
+from ..lubricant import log_viscosity_ratio
 from ..scene import Scene
 from .operating_point import Trial
 
@@ -24,6 +25,9 @@ class Forces:
     the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
     the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
     (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
+    by_load: relative error of f per relative error of the mean gap in the contact, which moves the load alone:
+    a' (f_b F_H + k |F_sh|)/(f F_T), a' not held above 1, and k = 1 + ln(eta_max/eta_0)/2 what the film's friction at
+    most changes with its load.
     heat: of inlet, film and surfaces, and what it changes.
     """
 
@@ -33,6 +37,13 @@ class Forces:
     sensitivity: float
     quadrature: float = 0.0
     heat: Heat = Heat()
+    by_load: float = math.inf
+
+    @property
+    def gap_sensitivity(self) -> float:
+        """Relative error of f per relative error of the mean gap in the contact: no more than of the film, and little
+        where the contact carries little."""
+        return min(self.sensitivity, self.by_load)
 
 
 def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None) -> Forces:
@@ -46,10 +57,12 @@ def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = N
     total = abs(boundary + shear.total)
     viscous = abs(shear.couette) + max(abs(shear.rolling), shear.rolling_parts)
     moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + viscous
-    gain = 1.0
+    gain, by_load, known = 1.0, math.inf, 0 < total < math.inf
     if slope and found.contact_load > 0:
-        gain = max(1.0, 0.5 * found.contact_load / (scene.bodies.load * slope))
-    known = 0 < total < math.inf
+        gain = 0.5 * found.contact_load / (scene.bodies.load * slope)
+        thickening = float(log_viscosity_ratio(scene.lubricant, found.film.pressure.max())[0])
+        moved_by_load = moved + 0.5 * thickening * viscous
+        by_load, gain = gain * moved_by_load / total if known else math.inf, max(1.0, gain)
     return Forces(
         (boundary + shear.total) / scene.bodies.load,
         boundary,
@@ -57,6 +70,7 @@ def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = N
         gain * moved / total if known else 1.0,
         shear.quadrature / total if known else 0.0,
         heat,
+        by_load,
     )
 
 

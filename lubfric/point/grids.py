@@ -1,4 +1,4 @@
-"""The contact on finer and finer grids, and what its grid makes f wrong by."""
+"""The contact on finer and finer grids, and the error of f by its grid."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..rough.contract import ContactState, RoughContact
 from .balance import Balance
 from .one_grid import Stage, on_grid
 from .operating_point import OperatingPoint
-from .tolerances import balance_tolerance, felt_share
+from .tolerances import balance_tolerance, felt_gap
 
 LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
 LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
@@ -33,8 +33,8 @@ class Refined:
 
 
 def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
-    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be
-    halved."""
+    """``contact`` on several grids, from the coarsest that still holds its roughness ``sq`` [m] to its own. There
+    are at least two if it can be halved."""
     contacts = [contact]
     while (coarse := contacts[0].coarsened()) is not None:
         if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
@@ -46,17 +46,17 @@ def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
 def on_enough_cells(
     point: OperatingPoint, grids: Sequence[RoughContact], start: Balance | None
 ) -> tuple[Stage, int, float]:
-    """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid,
-    and that error (infinite: unknown).
+    """The balance on the first of ``grids`` whose estimated error of f is within its share; the index of that grid; and
+    the error (infinite: unknown).
 
-    On the coarsest of several the volume is closed loosely, and short by what finer grids took away at ``start``: the
-    balance goes on from there by the residual left, what the grid changes it by, and its slope.
+    With several grids the volume is closed only loosely on the coarsest, and short by what finer grids took away at
+    ``start``. The balance goes on from there by the residual left, by what the grid changes it by, and by its slope.
     """
     numerics = point.scene.numerics
     limit, movable = budget.CONTACT_GRID * numerics.tolerance, numerics.closure == "load"
-    sensitivity = 1.0 if start is None or start.film is None else felt_share(numerics, start)
+    sensitivity = 1.0 if start is None or start.film is None else felt_gap(numerics, start)
     index, last = 0, len(grids) - 1
-    known = () if start is None else start.states
+    given, known = start, () if start is None else start.states
     if start is not None and known:
         start = replace(start.closed, contact=known[0])
     point = replace(point, contact=grids[0])
@@ -69,7 +69,7 @@ def on_enough_cells(
         aim = 0.0 if start is None or not loosest else start.coarse
         point = replace(point, settings=replace(point.settings, balance_tolerance=tolerance, aim=aim))
         stage = on_grid(point, grids[index], start, loosest, refound)
-        sensitivity = felt_share(numerics, stage.balance)
+        sensitivity = felt_gap(numerics, stage.balance)
         balance = replace(stage.balance, states=(*states, stage.balance.contact), coarse=-sum(changes))
         stage = replace(stage, balance=balance)
         error = grid_error(changes, stage.balance, limit) if changes else math.inf
@@ -78,7 +78,7 @@ def on_enough_cells(
             return stage, index, error
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
             index, changes, refound = index + 1, (), None
-            point, start = replace(stage.point, contact=grids[index]), None
+            point, start = replace(stage.point, contact=grids[index]), given
         else:
             finer = refined(stage, grids, (index, changes, limit), known)
             index, changes, refound = finer.index, finer.changes, finer.known
@@ -147,16 +147,16 @@ def under_the_film(
 
 
 def grid_error(changes: Sequence[float], balance: Balance, limit: float) -> float:
-    """Estimated relative error of f from the contact grid; infinite where nothing can be said.
+    """Estimated relative error of f by the contact grid. Infinite where nothing can be said.
 
-    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
-    last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
-    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if
-    d1 were small by chance; times 2 ``sensitivity``, the effect of a residual on f.
+    It follows from the last two changes d2, d1 of the volume residual between grids. With r = d1/d2, kept between 1/4
+    (second order) and 3/4 (hardly converging), or 1/2 where there is no d2, the rest of the geometric series is d1 r/(1
+    - r). It is no less than d2/12, in case d1 is small by chance. Times 2 ``gap_sensitivity`` it is the effect on f.
+    Whatever the grid does to the film's share of the load, f changes by no more than ``sensitivity`` of that.
     """
     if balance.contact_load == 0:
         return math.inf
-    sensitivity = balance.forces.sensitivity
+    sensitivity = balance.forces.gap_sensitivity
     bound = WORST_GRID * sensitivity
     if bound <= limit:
         return bound

@@ -158,7 +158,7 @@ def test_a_part_that_does_not_hold_gives_way_to_the_whole():
 
 
 def test_the_error_of_a_grid_is_the_rest_of_its_series():
-    found = stage(point(model()), sensitivity=0.5).balance
+    found = stage(point(model()), sensitivity=0.5, by_load=math.inf).balance
     for ratio in (0.25, 0.5, 0.7):
         changes = [-1e-3, -1e-3 * ratio, -1e-3 * ratio**2]
         rest = 1e-3 * ratio**2 * ratio / (1 - ratio)
@@ -169,6 +169,28 @@ def test_the_error_of_a_grid_is_the_rest_of_its_series():
     assert grid_error([], found, 0.0) == math.inf
     assert grid_error([1e-3], found, WORST_GRID * 0.5) == WORST_GRID * 0.5  # so little of the film in f
     assert grid_error([1e-3], replace(found, contact_load=0.0), 1.0) == math.inf
+
+
+def test_a_contact_that_carries_little_is_felt_little():
+    """What its gap is wrong by moves f by its share of the load: the measured change of f, where the gap is moved."""
+
+    @dataclass(frozen=True)
+    class Raised(Spring):
+        higher: float = 1.0
+
+        def state(self, film, gap):
+            return super().state(film, self.higher * gap)
+
+    shares = []
+    for speed in (0.03, 0.3, 2.0):
+        one, other = (
+            balanced(point(model(Raised(300e-9, 250e-9, 4.0, higher=h)), speed, balance_tolerance=1e-10))
+            for h in (1.0, 1.001)
+        )
+        moved = abs(other.forces.coefficient / one.forces.coefficient - 1) / 1e-3
+        assert moved == pytest.approx(one.forces.by_load, rel=0.06) and one.forces.gap_sensitivity <= one.forces.by_load
+        shares.append(one.contact_load / PAPER.bodies.load)
+    assert 0 < shares[-1] < 0.1 and one.forces.by_load < 0.4 * one.forces.sensitivity
 
 
 def test_the_grids_end_at_the_given_one():

@@ -45,7 +45,7 @@ def test_the_paper_keeps_its_own_pressure_and_its_numbers():
     for speed in (0.003, 0.03, 0.3):
         auto = by(paper, "auto", speed)
         if "own pressure, at most" in auto.decision.deflection or auto.contact_load == 0:
-            assert auto.coefficient == lubfric.friction(paper, speed).coefficient
+            assert auto.coefficient == pytest.approx(lubfric.friction(paper, speed).coefficient, rel=2e-3)
         assert auto.coefficient == pytest.approx(lubfric.friction(paper, speed).coefficient, rel=0.01)
 
 
@@ -66,7 +66,7 @@ def test_the_estimate_bounds_the_change(seed):
     assert abs(own.coefficient / scaled.coefficient - 1) <= found + 0.006  # both are solved to 1 %
     auto = by(scene, "auto", speed)
     chosen = own if found <= 0.005 else scaled
-    assert auto.coefficient == pytest.approx(chosen.coefficient, rel=1e-12)
+    assert auto.coefficient == pytest.approx(chosen.coefficient, rel=2e-3)  # from another start
 
 
 def test_a_tighter_tolerance_asks_for_the_whole_load_earlier():
