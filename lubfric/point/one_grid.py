@@ -87,11 +87,11 @@ def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
         level = higher(levels, settings.level, lowest)
         if level != settings.level:  # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.tolerances.film))
-    film, volume = (
-        film_tolerance(numerics, sensitivity),
-        max(balance_tolerance(numerics, felt_gap(numerics, balance)), loosest),
-    )
-    cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
+    film, cells = film_tolerance(numerics, sensitivity), least_cells(numerics, settings, balance)
+    if loosest:  # finer grids of the contact follow: what f feels of the film is seen there
+        film, cells = max(film, budget.COARSE_FILM), settings.film_cells
+    volume = max(balance_tolerance(numerics, felt_gap(numerics, balance)), loosest)
+    contact = contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
         closed = abs(balance.contact.volume_residual - settings.aim) <= budget.SLACK * volume
