@@ -22,6 +22,7 @@ CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f
 LOOSEST_FILM, TIGHTEST_FILM = 0.03, 2e-4
+COARSE_FILM = 5e-4  # on a contact grid that finer ones follow
 LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7
 TIGHTEST_CONTACT = 1e-9  # of Sq
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved

@@ -6,10 +6,10 @@ import numpy as np
 
 from .interpolate import Interpolant, Samples, knee_of
 
-CLOSE = 1.06  # ratio of the slowest film without contact to lift-off that pins the knee down
-ENOUGH = 4  # speeds within a tenth of the knee: more would not tell it better
+CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to look
+TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
+ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
 APART = 1.015  # least ratio of neighbouring speeds
-SHARE = 0.8  # of the tolerance that the estimate of the error may reach
 GRID = 400
 
 
@@ -17,9 +17,11 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     """The speed [m/s] to solve next, or None where the curve is known; and the largest estimated relative error of f
     now.
 
-    First the knee is enclosed: a film that only just clears the summits tells where they touch. After that, the speed
-    with the largest estimated error is next, until the error is below 0.8 ``tolerance`` everywhere. ``tried``: speeds
-    that failed, which are left alone.
+    ``tried``: speeds that failed, which are left alone.
+
+    First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
+    before how it ends. Then the speed at which the error is estimated to be largest, until that is below ``tolerance``
+    everywhere.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)
@@ -27,18 +29,26 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     taken = np.append(speeds, np.asarray(tried, dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
-    if knee is not None and speeds[samples.contacts] > CLOSE * knee and _about(knee, taken) < ENOUGH:
-        above = 0.5 * (1 + CLOSE) * knee
-        if _free(np.array([above]), taken)[0]:
-            return float(above), largest
-    if largest <= SHARE * tolerance:
+    for wanted in _about_the_knee(samples, knee):
+        if _about(wanted, taken) < ENOUGH and _free(np.array([wanted]), taken)[0]:
+            return wanted, largest
+    if largest <= tolerance:
         return None, largest
     return float(at[error.argmax()]), largest
 
 
-def _about(knee: float, taken: np.ndarray) -> int:
-    """Number of speeds within a tenth of the knee."""
-    return int(np.count_nonzero(np.abs(np.log(taken / knee)) < 0.1))
+def _about_the_knee(samples: Samples, knee: float | None) -> list[float]:
+    """Speeds [m/s] without which the knee is not enclosed."""
+    if knee is None:
+        return []
+    fastest, slowest = samples.speed[samples.contacts - 1], samples.speed[samples.contacts]
+    above = [ABOVE * knee] if slowest > CLOSE * knee else []
+    return [*above, BELOW * knee] if fastest < TOUCHING * knee else above
+
+
+def _about(speed: float, taken: np.ndarray) -> int:
+    """Number of speeds within a tenth of one."""
+    return int(np.count_nonzero(np.abs(np.log(taken / speed)) < 0.1))
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:

@@ -1,50 +1,66 @@
-"""Friction between the solved speeds. Each of the two parts of f is interpolated in coordinates in which it is smooth,
-with a knee at lift-off.
+"""Friction between the solved speeds: the share of the load on the contact and the traction coefficient of the film, in
+coordinates in which each is smooth.
 
-The boundary part b = f_b F_C/F_T falls to zero at lift-off as a power of the remaining speed, about 3/2 as for one
-Hertz asperity. So b^(2/3) is interpolated over U^0.6, which grows about as the film does. The film part g = F_sh/F_T is
-close to a power of the speed on either side of the knee. So ln g is interpolated over ln U. Both use cubic splines.
-Shape-preserving cubics beside them tell how sure the result is.
+With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the contact spots, and t = F_sh/F_H the
+traction coefficient of the film. In contact t hardly changes, and beyond lift-off it is close to a power of the speed:
+ln t over the speed, and over ln U. The odds of the film (1 - s)/s grow about as the speed in boundary lubrication; at
+lift-off U_0 the share ends as that of one Hertz asperity, as (1 - U/U_0)^(3/2). What is left when both are taken out,
+ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows about as the film does. All by
+cubic splines; shape-preserving cubics beside them tell how sure that is.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-EXPONENT, POWER = 0.6, 2.0 / 3.0
+EXPONENT = 0.6
+HERTZ, OTHERS = 1.5, (1.0, 2.0)  # powers of the remaining speed with which a contact ends: expected, and in question
+FILM = 0.8  # power of the speed of a film, where one alone is known
 NEAR, BEYOND = 1.003, 1.03  # an estimate of lift-off below NEAR times a speed with contact is put BEYOND it
-CLOSER = 1.0 / 5.0  # error between points over that with every other one left out, of a cubic or better
+UNSURE = 0.05  # of the way by which an estimate of lift-off is extrapolated: its error
+CLOSER = 0.3  # error between points over that with every other one left out
+LITTLE = 0.02  # share of the load on the film below which its traction coefficient is not looked at
+LEAST = 2e-3  # share of the load on the contact below which chance rules: how it ends is not told by such a point
+NOTHING = 1e-9  # the same below which the film carries nothing that could be told
 
 
 @dataclass(frozen=True)
 class Samples:
     """What is known of a curve: arrays (n,) by ascending entrainment speed [m/s].
 
-    boundary, film: parts of f; touching: whether the contact carries load; clearance: film above the summits in units
-    of Sq where it does not (NaN where not known).
+    share: of the load on the contact; boundary, film: parts of f; thickness: central film, clearance: of it above the
+    summits where nothing touches, both in units of Sq (NaN where not known).
     """
 
     speed: np.ndarray
+    share: np.ndarray
     boundary: np.ndarray
     film: np.ndarray
-    touching: np.ndarray
+    thickness: np.ndarray
     clearance: np.ndarray
 
     @property
     def contacts(self) -> int:
         """Number of speeds with contact, the slowest ones."""
-        return int(np.count_nonzero(self.touching))
+        return int(np.count_nonzero(self.share > 0))
+
+    def without(self, index: int) -> Samples:
+        """All but one."""
+        parts = (self.speed, self.share, self.boundary, self.film, self.thickness, self.clearance)
+        return Samples(*(np.delete(part, index) for part in parts))
 
 
 @dataclass(frozen=True)
 class Interpolant:
-    """f between the speeds of ``samples``; ``lift_off`` [m/s]: where the contact ends (None: not in the range)."""
+    """f between the speeds of ``samples``; ``lift_off`` [m/s]: where the contact ends (None: not in the range), as that
+    power ``end`` of the speed that remains."""
 
     samples: Samples
     lift_off: float | None
+    end: float = HERTZ
 
     def at(self, speed, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the shape-preserving cubics."""
@@ -52,12 +68,12 @@ class Interpolant:
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
-        """Estimated relative error at speeds [m/s]. It is the largest of three numbers: how much the two kinds of
-        cubics differ; how much f depends on where the knee may be; and a share of how much the curve misses a
-        neighbouring point that is left out."""
+        """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
+        place of the knee and the way in which the contact ends there are unsure by, and a share of what the curve
+        through the other points misses the neighbouring ones by."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
-        for other in self._other_knees:
+        for other in self._others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), self._missed_beside(speed))
 
@@ -67,58 +83,82 @@ class Interpolant:
         s = self.samples
         missed = np.zeros(s.speed.size)
         for i in range(1, s.speed.size - 1):
-            others = Samples(*(np.delete(part, i) for part in (s.speed, s.boundary, s.film, s.touching, s.clearance)))
+            others = s.without(i)
             knee = self.lift_off if 0 < others.contacts < others.speed.size else None
             found = Interpolant(others, knee).at(s.speed[i : i + 1])[0]
             missed[i] = abs(found / (s.boundary[i] + s.film[i]) - 1.0)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
-        return CLOSER * np.maximum(missed[right - 1], missed[right])
+        low, high, at = (u**EXPONENT for u in (s.speed[right - 1], s.speed[right], speed))
+        between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
+        return CLOSER * between * np.maximum(missed[right - 1], missed[right])
 
     @cached_property
-    def _other_knees(self) -> tuple[Interpolant, ...]:
-        """The same curve with the knee at either end of the range in which it may be."""
+    def _others(self) -> tuple[Interpolant, ...]:
+        """The same with the ends of what is known of the place of the knee, and of how the contact ends there."""
         if self.lift_off is None:
             return ()
-        low, high = knee_range(self.samples)
-        return tuple(Interpolant(self.samples, knee) for knee in (low, high) if abs(knee / self.lift_off - 1) > 1e-12)
+        knees = tuple(replace(self, lift_off=knee) for knee in knee_range(self.samples) if knee != self.lift_off)
+        return (*knees, *(replace(self, end=power) for power in OTHERS))
 
     def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
         """The part of f from the contact spots."""
-        k, s = self.samples.contacts, self.samples
+        s, k = self.samples, self.samples.contacts
         if k == 0:
             return np.zeros(speed.shape)
-        x, w = s.speed[:k] ** EXPONENT, s.boundary[:k] ** POWER
-        if self.lift_off is not None:
-            x, w = np.append(x, self.lift_off**EXPONENT), np.append(w, 0.0)
-        found = np.maximum(_cubic(x, w, speed**EXPONENT, smooth), 0.0) ** (1.0 / POWER)
-        return found if self.lift_off is None else np.where(speed < self.lift_off, found, 0.0)
+        of_share = _cubic(np.log(s.speed[:k]), s.boundary[:k] / s.share[:k], np.log(speed), smooth=False)
+        return of_share * self.share(speed, smooth)
 
     def film(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
         """The part of f from the film."""
-        s, k = self.samples, self.samples.contacts
-        powers = bool(np.all(s.film > 0.0))
-        y, g, at = np.log(s.speed), np.log(s.film) if powers else s.film, np.log(speed)
-        if self.lift_off is None or y.size - k < 2:
-            found = _cubic(y, g, at, smooth)
+        return self.traction(speed, smooth) * (1.0 - self.share(speed, smooth))
+
+    def share(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """Share of the load on the contact."""
+        s = self.samples
+        known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
+        if known.size == 0:
+            return np.full(speed.shape, float(s.contacts > 0))
+        odds, at, end = np.log(1 / s.share[known] - 1), np.zeros(speed.shape), self.lift_off
+        if end is None:
+            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), odds, np.log(speed), smooth)))
+        below = speed < end
+        y, there = s.speed[known] / end, speed[below] / end
+        left = _cubic(y**EXPONENT, odds - np.log(y) + self.end * np.log1p(-y), there**EXPONENT, smooth)
+        at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
+        return at
+
+    def traction(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+        """Traction coefficient of the film."""
+        s, k, knee = self.samples, self.samples.contacts, self.lift_off
+        known = np.flatnonzero(1 - s.share >= LITTLE)
+        known = known if known.size else np.array([s.speed.size - 1])
+        t = s.film[known] / np.maximum(1 - s.share[known], NOTHING)
+        powers = bool(np.all(t > 0.0))
+        y, t, touching = s.speed[known], np.log(t) if powers else t, known < k
+        at = np.maximum(speed, y[0])
+        if knee is None or np.count_nonzero(~touching) < 2:
+            found = _cubic(np.log(y), t, np.log(at), smooth)
         else:
-            knee = np.log(self.lift_off)
-            there = _cubic(y[k:], g[k:], np.array([knee]), smooth)
-            slow = _cubic(np.append(y[:k], knee), np.append(g[:k], there), at, smooth)
-            found = np.where(at < knee, slow, _cubic(y[k:], g[k:], at, smooth))
+            beyond = np.log(y[~touching]), t[~touching]
+            there = _cubic(*beyond, np.array([np.log(knee)]), smooth)
+            slow = _cubic(np.append(y[touching], knee), np.append(t[touching], there), at, smooth=False)
+            found = np.where(at < knee, slow, _cubic(*beyond, np.log(at), smooth))
         return np.exp(found) if powers else found
 
 
 def knee_of(samples: Samples) -> float | None:
-    """Lift-off [m/s]. It is where the clearance of the slowest films without contact, as a straight line over U^0.6,
-    reaches zero."""
+    """Lift-off [m/s]: where the film, a power of the speed through the slowest two without contact, is as thick as the
+    summits are high. Their height is what its clearance leaves of the slower of these."""
     k = samples.contacts
     if k in (0, samples.speed.size):
         return None
     low, high = samples.speed[k - 1], samples.speed[k]
-    clear = samples.clearance[k : k + 2]
-    if clear.size == 2 and np.all(np.isfinite(clear)) and clear[1] > clear[0]:
-        x = samples.speed[k : k + 2] ** EXPONENT
-        found = max(x[0] - clear[0] * (x[1] - x[0]) / (clear[1] - clear[0]), 0.0) ** (1 / EXPONENT)
+    film, clear = samples.thickness[k : k + 2], samples.clearance[k]
+    power = FILM
+    if film.size == 2:
+        power = np.log(film[1] / film[0]) / np.log(samples.speed[k + 1] / high)
+    if clear < film[0] and power > 0:
+        found = high * (1 - clear / film[0]) ** (1 / power)
     else:
         found = float(np.sqrt(low * high))
     if found < NEAR * low:
@@ -127,16 +167,23 @@ def knee_of(samples: Samples) -> float | None:
 
 
 def knee_range(samples: Samples) -> tuple[float, float]:
-    """The lowest and highest lift-off [m/s] that are likely: a quarter of the way from the estimate to the speeds
-    that enclose it."""
+    """Ends of where lift-off [m/s] may be: a share of the way from its estimate to the slowest film without contact, to
+    either side, but not where it is known to touch."""
     k, knee = samples.contacts, knee_of(samples)
     low, high = samples.speed[k - 1], samples.speed[k]
-    return float(knee * (low / knee) ** 0.25), float(knee * (high / knee) ** 0.25)
+    away = (high / knee) ** UNSURE
+    return float(max(knee / away, min(NEAR * low, knee))), float(knee * away)
 
 
 def _cubic(x, values, at, smooth):
+    """Between the points ``x``; beyond them a straight line, or, of the shape-preserving kind, the last secant."""
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
     if x.size == 1:
         return np.full(np.shape(at), values[0])
-    return (CubicSpline if smooth else PchipInterpolator)(x, values, extrapolate=True)(at)
+    inside = np.clip(at, x[0], x[-1])
+    if not smooth:
+        ends = (values[1] - values[0]) / (x[1] - x[0]), (values[-1] - values[-2]) / (x[-1] - x[-2])
+        return PchipInterpolator(x, values)(inside) + np.where(at < x[0], *ends) * (at - inside)
+    spline = CubicSpline(x, values)
+    return spline(inside) + spline(inside, 1) * (at - inside)

@@ -11,7 +11,7 @@ from ..line_contact import LineContact
 from ..scene import Scene
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
-MIXED = (0.4, 1.2, 2.5, 4.5)  # the same where the contact carries about 0.9, 0.6, 0.2 and nothing of the load
+MIXED = (0.5, 1.5, 4.5)  # the same where the contact carries about 0.9, 0.5 and nothing of the load
 FEWEST = 5  # speeds to begin with
 SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are looked for
 
@@ -37,11 +37,8 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """The speeds [m/s] to begin with, fastest first, at least 5.
-
-    They are both ends of `span`, and where Moes' film of the whole load is 0.4, 1.2, 2.5 and 4.5 times Sq. There rough
-    line contacts pass from contact to film.
-    """
+    """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.5,
+    1.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:

@@ -1,9 +1,8 @@
-"""Graded grids that hang on the rupture point.
+"""Graded grids that move with the rupture point.
 
-Node positions xi are relative to the rupture point (xi = 0, the last node), so that the free boundary
-moves the whole grid: the elastic kernel, which depends on differences of positions only, stays as it
-is. The map t -> xi is smooth and t uniform: doubling the cells nests the grids, and errors have a
-clean expansion in 1/n.
+Node positions xi are relative to the rupture point (xi = 0, the last node). So the free boundary moves the whole grid.
+The elastic kernel depends on differences of positions only, and stays as it is. The map t -> xi is smooth and t is
+uniform. So doubling the cells nests the grids, and errors have a clean expansion in 1/n.
 """
 
 from __future__ import annotations

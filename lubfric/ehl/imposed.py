@@ -1,4 +1,4 @@
-"""A line pressure that deflects the film without being carried by it, such as that of asperities in contact."""
+"""A line pressure that deflects the film but is not carried by it, such as that of asperities in contact."""
 
 from __future__ import annotations
 
@@ -33,8 +33,12 @@ class LinePressure:
 
 @dataclass(frozen=True)
 class Seat:
-    """What film and contact of the own load on the gap that an imposed pressure leaves are like: those about ``centre``
-    [m] of a cylinder of ``radius`` R and ``modulus`` E' (ratios). Only grids and starts are made from it."""
+    """An approximation of what the film sits on when another pressure is imposed: a cylinder of ``radius`` R and
+    ``modulus`` E' (ratios to the real ones) about ``centre`` [m].
+
+    An imposed pressure leaves a gap of another shape. In that gap the film and the dry contact of the film's own load
+    are about those of this cylinder. Only grids and starts are made from it.
+    """
 
     centre: float = 0.0
     radius: float = 1.0
@@ -42,13 +46,13 @@ class Seat:
 
 
 def find_seats(problem) -> tuple[Seat, ...]:
-    """Seats of a `Problem`, the likelier one first; just one where no pressure is imposed.
+    """The seats of a `Problem`, the likelier one first. There is one where no pressure is imposed.
 
-    One is flat: Johnson's modulus, E' times the own share of the load. One is curved: over a window |x - x0| <= s the
-    gap G = x²/2R + imposed deflection is as good as a parabola where the Chebyshev mean of G' is zero, and of the
-    curvature k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt: a dry contact of the half-width s then carries what a cylinder
-    of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact and film,
-    s² = b² + 2 h/k.
+    One seat is flat: Johnson's modulus, E' times the film's own share of the load. The other is curved. Over a window
+    |x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is zero.
+    Its curvature is k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt. A dry contact of the half-width s then carries what a
+    cylinder of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact
+    and film, s² = b² + 2 h/k.
     """
     if problem.imposed is None:
         return (Seat(),)
@@ -91,7 +95,8 @@ def _window(problem, ratio: float) -> tuple[float, float]:
 
 
 def line_pressure(value) -> LinePressure | None:
-    """``value`` = (x [m], pressure [Pa]) checked, without the nodes far from any pressure; None where that is zero."""
+    """``value`` = (x [m], pressure [Pa]), checked, without the nodes far from any pressure. None where the pressure
+    is zero."""
     if value is None:
         return None
     if isinstance(value, LinePressure):
@@ -115,11 +120,11 @@ def line_pressure(value) -> LinePressure | None:
 
 
 def line_deflection(points: np.ndarray, nodes: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """-(4/pi) ∫ p(x') ln|x - x'| dx' of a piecewise linear p and its derivative by x, exact, at ``points`` (n,).
+    """-(4/pi) ∫ p(x') ln|x - x'| dx' of a piecewise linear p, and its derivative by x, exact, at ``points`` (n,).
 
-    p'' is a spike at every kink and a double one at each of the two jumps at the ends; with G(s) = s²/2 ln|s| - 3/4 s²,
-    G'' = ln|s|, the integral is the sum of G times the kinks and of G' times the jumps. Beside a jump the derivative
-    is infinite: points on an end node with a pressure there get that of their neighbourhood's finite part.
+    p'' is a spike at every kink, and a double one at each of the two jumps at the ends. Let G(s) = s²/2 ln|s| - 3/4 s²,
+    so that G'' = ln|s|. The integral is the sum of G times the kinks and of G' times the jumps. Beside a jump the
+    derivative is infinite. A point on an end node with a pressure gets the finite part of its neighbourhood.
     """
     slope = np.diff(values) / np.diff(nodes)
     kinks = np.diff(slope, prepend=0.0, append=0.0)

@@ -1,5 +1,4 @@
-"""`solve_ehl`, and `solve_line_contact` for those who have a `LineContact`: nested grids from a warm or a cold
-start."""
+"""`solve_ehl`: nested grids from a warm or a cold start. `solve_line_contact` is the same for a `LineContact`."""
 
 from __future__ import annotations
 
@@ -31,8 +30,8 @@ EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow
 
 @dataclass(frozen=True)
 class Effort:
-    """What is asked of the grids and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
-    rupture that are reached even where the films need fewer, Newton steps per grid."""
+    """What is asked of the grids, and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells
+    before rupture that are reached even where the films need fewer, and Newton steps per grid."""
 
     tolerance: float = 3e-3
     least_cells: int = 0
@@ -120,7 +119,7 @@ def solve_line_contact(
     start: EHLResult | None = None,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """`solve_ehl` for a contact that is a value already; ``effort``: its tolerance and limits."""
+    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     problem = make_problem(contact, inlet_length, imposed)
     if start is not None and not isinstance(start, EHLResult):
         raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
@@ -172,8 +171,11 @@ def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
 def _cold(
     problem: Problem, seats: tuple[Seat, ...], effort: Effort
 ) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
-    """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
-    solutions; the solutions that led there, and notes."""
+    """A solution from a cold start: grids from the coarsest up, and from another start or a finer grid where that
+    fails.
+
+    Returns the problem on its seat with its solutions, the solutions that led there, and notes.
+    """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
     for n, seat, doublings in _attempts(seats, _coarsest(problem)):
@@ -246,7 +248,8 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 
 
 def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
-    """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
+    """Begin with a thick film, which bridges whatever gap an imposed pressure leaves, and halve the speed again and
+    again."""
 
     def stage_of(k: int) -> Problem:
         faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
@@ -275,7 +278,7 @@ def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
 
 
 def _sound(levels: list[Solution]) -> bool:
-    """Converged, and no root with tension in the film or with the inlet on the wrong side."""
+    """Whether a solution has converged, and is no root with tension in the film or with the inlet on the wrong side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
     P, X = levels[-1].terms.P, levels[-1].terms.X

@@ -1,7 +1,7 @@
-"""What every film answers, and what every level of film does: all that an implementer needs to know.
+"""What every film has, and what every level of film does. This is all that an implementer needs to know.
 
-A film is data (`Film`); a level (`FilmLevel`) solves for it and knows what it leaves out. `lubfric.prepare` takes the
-levels to choose from, the simplest first (``film_levels``); a new one is a subclass, here or anywhere, with ``solve``
+A film is data (`Film`). A level (`FilmLevel`) solves for it and knows what it leaves out. `lubfric.prepare` takes the
+levels to choose from, the simplest first (``film_levels``). A new level is a subclass, here or anywhere, with ``solve``
 and, unless it is the last, ``left_out``. `EHLResult` and `RigidFilm` are films.
 """
 
@@ -23,10 +23,11 @@ from .shear import ShearForce, shear_force
 
 
 class Film(Protocol):
-    """A steady film of a smooth line contact, SI units; arrays (n,), x ascending, the line of centres at 0.
+    """A steady film of a smooth line contact, in SI units. Arrays are (n,), x ascending, with the line of centres at 0.
 
-    rupture [m]: where the pressurised film ends, a node; flow_film [m]: mass flux/(rho0 |U|); load [N/m]; e_prime [Pa]:
-    what it was solved with; cells: of its grid (0: closed form); imposed: a pressure that deflects it beside its own.
+    - ``rupture`` [m]: where the pressurised film ends, a node; ``flow_film`` [m]: mass flux/(rho0 |U|); ``load`` [N/m].
+    - ``e_prime`` [Pa]: what it was solved with; ``cells``: of its grid (0: closed form).
+    - ``imposed``: a pressure that deflects the film beside its own.
     """
 
     @property
@@ -67,7 +68,8 @@ class Film(Protocol):
 
 @dataclass(frozen=True)
 class LeftOut:
-    """Relative change of film and film friction (the larger) by what a level leaves out: ``parts`` by name."""
+    """What a level leaves out: ``parts`` by name. Each is the relative change of the film or of its friction,
+    whichever is larger."""
 
     parts: dict[str, float] = field(default_factory=dict)
 
@@ -100,13 +102,16 @@ class FilmLevel:
     def solve(
         self, line: LineContact, *, tolerance: float, cells: int = 0, imposed=None, start: Film | None = None
     ) -> Film:
-        """The film that carries ``line.load_per_width``, to ``tolerance`` (relative) on ``cells`` or more, deflected by
-        the line pressure ``imposed`` (of `lubfric.solve_ehl`) too; ``start``: of a neighbour, of any level."""
+        """The film that carries ``line.load_per_width``, to ``tolerance`` (relative) on ``cells`` or more.
+
+        ``imposed``: a line pressure that deflects it too (as in `lubfric.solve_ehl`); ``start``: the film of a
+        neighbour, of any level.
+        """
         raise NotImplementedError
 
     def left_out(self, film: Film, line: LineContact, allowed: float) -> LeftOut:
-        """What ``film``, found for ``line`` by this level, leaves out; parts beyond ``allowed`` need not be looked
-        for."""
+        """What ``film``, which this level found for ``line``, leaves out. Once a part is beyond ``allowed``, the
+        others need not be found."""
         return LeftOut()
 
     def shear(

@@ -1,4 +1,4 @@
-"""The levels of the film in order, and the lowest of them that a line contact may do with."""
+"""The levels of the film in order, and the lowest one that is enough for a line contact."""
 
 from __future__ import annotations
 
@@ -19,8 +19,11 @@ def higher(levels: Sequence[FilmLevel], level: FilmLevel, other: FilmLevel) -> F
 
 
 def given_level(levels: Sequence[FilmLevel], numerics: Numerics) -> FilmLevel | None:
-    """The level that the scene gives: by name; the last where everything is to be modelled, or where the film is
-    deflected by the total pressure, which rigid films have nothing of; None where it is to be chosen."""
+    """The level that the scene fixes, or None where it is to be chosen.
+
+    It is fixed by name. It is the last one where everything is to be modelled, and where the total pressure deflects
+    the film, since rigid films have no deflection.
+    """
     if numerics.film_level != "auto":
         return next(level for level in levels if level.name == numerics.film_level)
     everything = numerics.model == "full" or numerics.film_deflection == "total"
@@ -28,10 +31,11 @@ def given_level(levels: Sequence[FilmLevel], numerics: Numerics) -> FilmLevel | 
 
 
 def lowest_level(levels: Sequence[FilmLevel], line: LineContact, allowed: float) -> tuple[FilmLevel, LeftOut]:
-    """The simplest level that leaves out no more than ``allowed``, relative, of the film of ``line``, and what it does.
+    """The simplest level that leaves out no more than ``allowed`` (relative) of the film of ``line``, and what it
+    leaves out.
 
-    Each is judged by its own film. One whose share of what the level before was found to leave out is too much already
-    is passed over. What is left out grows with the load.
+    Each level is judged by its own film. A level is passed over where it shares a part that the level before was found
+    to leave out too much of. What is left out grows with the load.
     """
     found = LeftOut()
     for level in levels[:-1]:
@@ -45,8 +49,8 @@ def lowest_level(levels: Sequence[FilmLevel], line: LineContact, allowed: float)
 def level_for(
     levels: Sequence[FilmLevel], numerics: Numerics, line: LineContact, allowed: float
 ) -> tuple[FilmLevel, LeftOut]:
-    """The level given, or the lowest that leaves out no more than ``allowed`` of the film of ``line``, and what that
-    is."""
+    """The level given, or the lowest that leaves out no more than ``allowed`` of the film of ``line``; and what it
+    leaves out."""
     given = given_level(levels, numerics)
     level, left_out = (given, LeftOut()) if given else lowest_level(levels, line, allowed)
     return level, left_out if left_out.total <= allowed else LeftOut()

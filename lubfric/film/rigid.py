@@ -1,8 +1,8 @@
-"""The film between rigid surfaces, as an object that stands in for an `EHLResult`.
+"""The film between rigid surfaces, as an object that can stand in for an `EHLResult`.
 
-``h = h0 + x²/2R`` with Swift-Stieber rupture. In the reduced pressure ``q = ∫ dp eta0/eta(p)`` Reynolds'
-equation is the isoviscous one, whose closed form is `lubfric.analytic.rigid.pressure`; the load fixes h0:
-at once without a viscosity law, by one bracketed root with it. Constant density.
+``h = h0 + x²/2R`` with Swift-Stieber rupture, at constant density. In the reduced pressure ``q = ∫ dp eta0/eta(p)``
+Reynolds' equation is the isoviscous one. Its closed form is `lubfric.analytic.rigid.pressure`. The load fixes h0:
+directly without a viscosity law, by one bracketed root with it.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ def unit_nodes() -> np.ndarray:
 
 
 def isoviscous_film(line: LineContact) -> RigidFilm:
-    """The film of a constant viscosity, h0 = 4.895 eta0 U R/w; the viscosity returned is that at its pressure. E' is
-    kept, not used."""
+    """The film of a constant viscosity, h0 = 4.895 eta0 U R/w. The viscosity returned is the lubricant's at that
+    pressure. E' is kept, but not used."""
     return _film(line, line.rigid_film, np.positive, "rigid isoviscous film")
 
 

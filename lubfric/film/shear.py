@@ -15,13 +15,15 @@ from ..lubricant import Lubricant, carried_stress, shear_stress
 class ShearForce:
     """Forces [N] on the upper surface, in the direction in which it slides over the lower one.
 
-    couette: from the difference of the surface speeds; rolling: from the pressure gradient;
-    total: their sum, F_sh of Eq. (10). quadrature: estimated error of the sums that they are, from two rules; it is
-    large where the nodes do not hold a pressure spike, whatever the error of the film. rolling_parts: the larger of
-    what the rolling force, at high pressure their small difference, is made of: of rising and falling pressure, or, of
-    a film that knows it by another way, of the whole film and of what the spots take of it; an error of the film
-    reaches it by that much more. excess [N]: part of couette, without sign, from stresses above what oils carry
-    (`lubfric.lubricant.carried_stress`), and stress_ratio [-]: the largest of them over that.
+    - ``couette``: from the difference of the surface speeds; ``rolling``: from the pressure gradient; ``total``: their
+      sum, F_sh of Eq. (10).
+    - ``quadrature``: estimated error of these sums, from two rules. It is large where the nodes do not hold a pressure
+      spike, whatever the error of the film.
+    - ``rolling_parts``: at high pressure the rolling force is the small difference of two parts, and this is the larger
+      of them. They are those of rising and of falling pressure. Of a film that knows the force in another way, they are
+      that of the whole film and what the spots take of it. An error of the film reaches the force by that much more.
+    - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
+      (`lubfric.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
 
     couette: float
@@ -50,13 +52,13 @@ def shear_force(
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``, for nodes x (n,) [m], is the
-    share of the width that is in contact and carries no fluid shear, averaged over each of the n - 1 cells between them
-    (`lubfric.rough.contract.ContactState.touching`). The Couette term reaches from far upstream (the parabola is
-    followed to -infinity in closed form) to the rupture of the film; cavitated="striated" adds the streamers behind it,
-    which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
-    Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that it was
-    solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: it is summed.
+    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
+    the width in contact, which carries no fluid shear, averaged over each of the n - 1 cells between them. The Couette
+    term reaches from far upstream (the parabola is followed to -infinity in closed form) to the rupture.
+    cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the width. The lubricant's
+    shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of
+    the heated film and the viscosity that it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes
+    as the film knows it; None: it is summed.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -107,8 +109,11 @@ def _above_carried(pressure, tau, lengths, full) -> tuple[float, float]:
 
 
 def spike_error(x, tau) -> float:
-    """What a sum over nodes may be off by at a spike between them: an eighth of the second-order estimate of the sum
-    over every second node, which a spike makes larger than the error by that or more."""
+    """What a sum over nodes may be off by where a spike stands between them.
+
+    It is an eighth of the second-order error estimate of the sum over every second node. A spike makes that estimate at
+    least eight times as large as the error.
+    """
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
     coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
     return abs(coarse - fine) / 24

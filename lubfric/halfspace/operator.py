@@ -113,8 +113,8 @@ class HalfSpace(FrozenArrays):
         return self._made[key]
 
     def _coarsened(self, factors) -> HalfSpace:
-        """From the low frequencies: exact when periodic, close to it when free. The kernel of one free axis is made
-        anew instead, whose waves end."""
+        """The operator on coarser cells from the low frequencies, which is exact when periodic and close to it when
+        free. With one free axis the kernel is made anew, because its waves end."""
         shape = tuple(n // f for n, f in zip(self.shape, factors))
         padded = tuple(m // f for m, f in zip(self.padded, factors))
         spacing = tuple(d * f for d, f in zip(self.spacing, factors))

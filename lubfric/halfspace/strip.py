@@ -1,7 +1,7 @@
-"""Deflection under a strip of the free axis: every wave along the periodic one only as far as it reaches.
+"""Deflection under a strip of the free axis. Every wave along the periodic axis is followed only as far as it reaches.
 
-A wave k along y decays like exp(-k x): over all but the longest waves a padded length far below twice the patch leaves
-no image. Waves of like reach are transformed together.
+A wave k along y decays like exp(-k x). So for all but the longest waves a padded length far below twice the patch
+leaves no image. Waves of similar reach are transformed together.
 """
 
 from __future__ import annotations

@@ -31,7 +31,8 @@ LIGHTLY = 0.3  # volume residual of a film with the whole load, up to which the 
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, how far it was modelled, and the contact it was found on: the model's own, a coarser one or a part."""
+    """A balance, how far it was modelled, and the contact it was found on: the model's own, a coarser one, or a part
+    of one."""
 
     balance: Balance
     decision: Decision
@@ -39,10 +40,11 @@ class Solved:
 
 
 def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
-    """``prepared`` at ``speed`` [m/s] with no more film, contact and cells than f needs.
+    """Solve ``prepared`` at ``speed`` [m/s] with no more film, contact and cells than f needs.
 
-    First the film of the whole load: where it clears the summits, no contact is solved. Else film and contact on the
-    coarsest grid, then on finer ones until what is left is within its share. ``given_grid``: on the scene's own.
+    The film of the whole load comes first. Where it clears the summits, no contact is solved. Otherwise film and
+    contact are solved on the coarsest grid, then on finer ones until what is left is within its share. ``given_grid``:
+    on the scene's own grid.
     """
     numerics = prepared.scene.numerics
     if speed == 0 or numerics.film_level == "none":
@@ -65,7 +67,7 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
 
 
 def _dry(prepared: Prepared) -> Solved:
-    """No film: the contact carries the whole load under the undeformed cylinder."""
+    """The point without film: the contact carries the whole load under the undeformed cylinder."""
     scene, contact = prepared.scene, prepared.contact
     state = contact.close(contact.x**2 / (2 * scene.bodies.radius), scene.bodies.load)
     contact.check(state)
@@ -83,7 +85,8 @@ def _dry(prepared: Prepared) -> Solved:
 
 
 def _certainly_touching(prepared: Prepared, speed: float) -> bool:
-    """Twice Moes' film over an undeformed cylinder, thicker than any film everywhere, would not clear the summits."""
+    """Whether the summits touch for sure: twice Moes' film over an undeformed cylinder, which is thicker than any
+    film everywhere, would not clear them."""
     bodies, x = prepared.scene.bodies, prepared.contact.x
     line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
     film = SAFE_FILM * line.moes_film
@@ -91,8 +94,8 @@ def _certainly_touching(prepared: Prepared, speed: float) -> bool:
 
 
 def _first_touch(alone: Balance) -> Balance | None:
-    """``alone``, the film of the whole load, as a start where it nearly clears the summits: what it needs, the film of
-    nearly the whole load does."""
+    """A start from ``alone``, the film of the whole load, where it nearly clears the summits. The film of nearly the
+    whole load needs the same settings."""
     return alone if alone.contact.volume_residual < LIGHTLY else None
 
 
@@ -114,8 +117,8 @@ def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solv
 
 
 def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_grid: bool) -> Solved:
-    """Film and contact: first with the level and the tolerances that a neighbour needs, or the simplest, which costs
-    next to nothing and tells what is needed."""
+    """Film and contact. The first solve has the level and tolerances of a neighbour, or else the simplest ones.
+    These cost next to nothing, and tell what is needed."""
     numerics = prepared.scene.numerics
     level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
     settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)

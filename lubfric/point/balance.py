@@ -23,11 +23,11 @@ FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a nei
 
 @dataclass(frozen=True)
 class Balance:
-    """One operating point in balance, loads in N; film and its level are None without entrainment.
+    """One operating point in balance, loads in N. ``film`` and its ``level`` are None without entrainment.
 
-    slope: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
-    ``states``: the contact as found on the grids on the way here, the coarsest first, from which those of a neighbour
-    start. coarse: volume residual on the first of them less that on the last, under one film.
+    - ``slope``: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
+    - ``states``: the contact on each grid on the way here, the coarsest first. A neighbour starts from them.
+    - ``coarse``: volume residual on the first of these grids less that on the last, under one film.
     """
 
     film_load: float
@@ -96,14 +96,16 @@ class Lubricated(Balance):
 
 
 def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial | None = None) -> Lubricated:
-    """The division of the load at which film and contact agree, the way ``numerics.closure`` asks for.
+    """The division of the load at which film and contact agree, by the closure that ``numerics.closure`` names.
 
-    "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share, so ln(F_H/F_C) has one
-    root; the load balance holds by construction. "separation", the paper's way: the film of a film load, imposed on the
-    contact, gives its load; ln((F_C + F_H)/F_T), which increases with F_H, is brought to zero and the volume holds by
-    construction. Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; where this
-    one's balance should be from there, see `lubfric.point.split`. ``known``: film and contact of this point at the
-    split of ``start``, of the closure by load. That the summits touch is known, or shown by a root.
+    - "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share. So there is one root
+      in ln(F_H/F_C). The load balance holds by construction.
+    - "separation", the paper's way: the film of a film load is imposed on the contact, which gives the contact load.
+      ln((F_C + F_H)/F_T) increases with F_H and is brought to zero. The volume balance holds by construction.
+
+    Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; `lubfric.point.split` says
+    where this balance should be from there. ``known``: film and contact of this point at the split of ``start``, for
+    the closure by load. That the summits touch is known before, or is shown by the root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
@@ -126,7 +128,8 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
 
 
 def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
-    """All the load on the film: in balance, with no contact, where the volume residual of its contact is <= 0."""
+    """The balance with all the load on the film. It holds, with no contact, where the volume residual of its contact
+    is <= 0."""
     found = point.trial(point.scene.bodies.load, 0.0, Start(start))
     notes = ("separated: the film clears the summits",)
     return _balance(point, found, {"volume": 0.0, "load": 0.0}, (0.0,), CONVERGED, notes)

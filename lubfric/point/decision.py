@@ -1,4 +1,4 @@
-"""What was left out of a result, and the numbers it was judged by."""
+"""What was left out of a result, and by which numbers that was judged."""
 
 from __future__ import annotations
 
@@ -16,14 +16,19 @@ from .one_grid import Stage
 class Decision:
     """Levels of film and contact and the grid of one operating point.
 
-    film, contact: names of the levels, film_words: of the film in words; left_out: by the film level, of film and film
-    friction, of which the share ``sensitivity`` reaches f; film_tolerance: of a numerical film (0: closed form).
-    clearance [sigma] between the film and the highest summits (negative: contact). shape: of the contact grid;
-    coarsening: its cells in those of the scene's map, each way; grid_error: estimated relative error of f from it
-    (None: the map's own grid); own_error: on the map's own grid, the same of the last step to it (infinite: nothing to
-    compare it with); tolerance: asked, on f; deflected_by: the pressure that deflects the film, as in
-    ``numerics.film_deflection`` ("": no film); deflection: why, heat: what of it was modelled, in words ("": not
-    chosen, not known); forced: what was not chosen but given.
+    - ``film``, ``contact``: names of the levels; ``film_words``: the film in words.
+    - ``left_out``: what the film level leaves out, of film and film friction. The share ``sensitivity`` of it reaches
+      f.
+    - ``film_tolerance``: of a numerical film (0: closed form).
+    - ``clearance`` [sigma]: between the film and the highest summits (negative: contact).
+    - ``shape``: of the contact grid; ``coarsening``: its cells in cells of the scene's map, each way.
+    - ``grid_error``: estimated relative error of f by the grid (None: it is the map's own grid); ``own_error``: on the
+      map's own grid, that of the last step to it (infinite: nothing to compare it with).
+    - ``tolerance``: asked, on f.
+    - ``deflected_by``: the pressure that deflects the film, as in ``numerics.film_deflection`` ("": no film);
+      ``deflection``: why, in words.
+    - ``heat``: what of the heat was modelled, in words ("": not chosen, not known).
+    - ``forced``: what was given instead of chosen.
     """
 
     film: str
@@ -95,7 +100,7 @@ def _percent(value: float) -> str:
 
 
 def dry(prepared: Prepared) -> Decision:
-    """Of a contact without film, on its own grid."""
+    """The decision for a contact without film, on its own grid."""
     grid, numerics = prepared.contact.grid, prepared.scene.numerics
     return Decision(
         film="none",
@@ -107,13 +112,14 @@ def dry(prepared: Prepared) -> Decision:
 
 
 def alone(stage: Stage) -> Decision:
-    """Of a film with the whole load."""
+    """The decision for a film that carries the whole load."""
     state, sq = stage.balance.contact, stage.point.prepared.surface.sq
     return replace(_film(stage), contact="none", clearance=(state.mean_film - state.mean_gap) / max(sq, 1e-12))
 
 
 def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
-    """Of film and contact, on a grid of estimated ``error`` of f; ``finest``: the map's own."""
+    """The decision for film and contact, on a grid with the estimated ``error`` of f. ``finest``: True on the map's
+    own grid."""
     prepared, grid, own = stage.point.prepared, stage.point.contact.grid, stage.point.prepared.contact.grid
     decision = replace(_film(stage), contact=prepared.contact.name, grid_error=None if finest else error)
     if finest:

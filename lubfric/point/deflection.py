@@ -1,10 +1,11 @@
-"""Which pressure deflects the film, as a level: its own where that is within the tolerance, else the whole load's.
+"""Which pressure deflects the film, as a level. It is the film's own where that is within the tolerance, else the whole
+load's.
 
-A film deflected by its own pressure alone is too thick by about what the undeformed cylinder rises over the Hertz
-strip, b²/(6R) on average, times its share of the load. Against Johnson's modulus, which has the limit f -> f_b, f
-changes by at most about ``rise/gap min(2.2 s, 1.2)``, s the sensitivity of f to the film: over 1,233 random scenes of
-60 MPa to 1.2 GPa, Sq 10 nm to 1 µm, the change was at most 0.97 times that where it is 0.2 to 5 %, and 0.44 % where it
-is below 0.5 %.
+A film deflected by its own pressure alone is too thick. It is so by about what the undeformed cylinder rises over the
+Hertz strip, b²/(6R) on average, times its share of the load. Johnson's modulus has the right limit f -> f_b. Against it
+f changes by at most about ``rise/gap min(2.2 s, 1.2)``, with s the sensitivity of f to the film. This was seen on 1,233
+random scenes of 60 MPa to 1.2 GPa, Sq 10 nm to 1 µm. The change was at most 0.97 times the estimate where that is 0.2
+to 5 %, and 0.44 % where it is below 0.5 %.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ def strip_rise(scene, balance: Balance) -> float:
 
 
 def own_pressure_error(scene, balance: Balance) -> float:
-    """Upper estimate of the relative change of f where the whole load deflects the film instead of its own pressure."""
+    """Upper estimate of how much f changes, relative, when the whole load deflects the film instead of its own
+    pressure."""
     return strip_rise(scene, balance) * min(PER_SENSITIVITY * balance.forces.sensitivity, AT_MOST)
 
 

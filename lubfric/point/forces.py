@@ -1,4 +1,4 @@
-"""What resists the sliding at a balance, and how much of a film's error reaches it."""
+"""What resists the sliding at a balance, and how much of an error of the film reaches it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The contact on finer and finer grids, and what its grid makes f wrong by."""
+"""The contact on finer and finer grids, and the error of f by its grid."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class Refined:
 
 
 def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
-    """``contact`` from the coarsest grid that still holds its roughness ``sq`` [m] to its own; two, if it can be
-    halved."""
+    """``contact`` on several grids, from the coarsest that still holds its roughness ``sq`` [m] to its own. There
+    are at least two if it can be halved."""
     contacts = [contact]
     while (coarse := contacts[0].coarsened()) is not None:
         if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
@@ -46,11 +46,11 @@ def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
 def on_enough_cells(
     point: OperatingPoint, grids: Sequence[RoughContact], start: Balance | None
 ) -> tuple[Stage, int, float]:
-    """The balance on the first of ``grids`` whose estimated error of f is within its share: with the index of the grid,
-    and that error (infinite: unknown).
+    """The balance on the first of ``grids`` whose estimated error of f is within its share; the index of that grid; and
+    the error (infinite: unknown).
 
-    On the coarsest of several the volume is closed loosely, and short by what finer grids took away at ``start``: the
-    balance goes on from there by the residual left, what the grid changes it by, and its slope.
+    With several grids the volume is closed only loosely on the coarsest, and short by what finer grids took away at
+    ``start``. The balance goes on from there by the residual left, by what the grid changes it by, and by its slope.
     """
     numerics = point.scene.numerics
     limit, movable = budget.CONTACT_GRID * numerics.tolerance, numerics.closure == "load"
@@ -147,12 +147,12 @@ def under_the_film(
 
 
 def grid_error(changes: Sequence[float], balance: Balance, limit: float) -> float:
-    """Estimated relative error of f from the contact grid; infinite where nothing can be said.
+    """Estimated relative error of f by the contact grid. Infinite where nothing can be said.
 
-    Whatever the grid does to the film's share of the load, f feels no more than ``sensitivity`` of it. Else from the
-    last two changes d2, d1 of the volume residual between grids, r = d1/d2 within 1/4 (second order) and 3/4 (hardly
-    converging), 1/2 where there is no d2: the rest of the geometric series d1 r/(1 - r), and no less than d2/12, as if
-    d1 were small by chance; times 2 ``gap_sensitivity``, the effect of a residual on f.
+    It follows from the last two changes d2, d1 of the volume residual between grids. With r = d1/d2, kept between 1/4
+    (second order) and 3/4 (hardly converging), or 1/2 where there is no d2, the rest of the geometric series is d1 r/(1
+    - r). It is no less than d2/12, in case d1 is small by chance. Times 2 ``gap_sensitivity`` it is the effect on f.
+    Whatever the grid does to the film's share of the load, f changes by no more than ``sensitivity`` of that.
     """
     if balance.contact_load == 0:
         return math.inf

@@ -15,7 +15,8 @@ from .deflection import strip_rise
 
 
 def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:
-    """Entries for all that does not hold at ``balance``; those of bodies and map (`Prepared.known`) first."""
+    """Entries for everything that does not hold at ``balance``. Those of bodies and map (`Prepared.known`) come
+    first."""
     scene, film = prepared.scene, balance.film
     thickness = film.central_film if film is not None else math.nan
     entries = [*prepared.known, *of_motion(scene, speed, thickness)]

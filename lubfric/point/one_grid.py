@@ -1,4 +1,4 @@
-"""The balance on one contact grid, at the film level and tolerances that its own sensitivity asks for."""
+"""The balance on one contact grid, at the film level and the tolerances that its own sensitivity asks for."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ def on_grid(
     loosest: float = 0.0,
     known: Stage | None = None,
 ) -> Stage:
-    """The balance on the point's contact, a part of ``whole``; on all of it where the part is not enough.
+    """The balance on the point's contact, which may be a part of ``whole``. Where the part is not enough, on all of it.
 
-    It is found again, from the last, until its settings are those that it shows to be needed. ``loosest``: volume
-    residual that is good enough whatever f needs, where finer grids follow. ``known``: film and contact at the split of
-    ``start``, on a part that is enough, and what that film leaves out.
+    It is found again, each time from the last, until its settings are those that it shows to be needed. ``loosest``: a
+    volume residual that is good enough whatever f needs, where finer grids follow. ``known``: film and contact at the
+    split of ``start``, on a part that is enough, and what that film leaves out.
     """
     for _ in range(ROUNDS):
         balance = balanced(point, start, None if known is None else known.balance.trial)
@@ -75,8 +75,9 @@ def _as_good(stage: Stage, settings: Settings) -> bool:
 
 
 def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
-    """Settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None where its
-    own will do. Beside a level given, the levels are those that leave out no more than is allowed."""
+    """The settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances. None
+    where its own are enough. Beside a level that is given, only the levels that leave out no more than allowed are
+    taken."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
     numerics, levels = point.scene.numerics, point.prepared.film_levels
     sensitivity = felt_share(numerics, balance)
@@ -86,11 +87,11 @@ def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
         level = higher(levels, settings.level, lowest)
         if level != settings.level:  # the sensitivity found without it is no guide to tolerances
             return replace(settings, level=level, film_tolerance=min(settings.film_tolerance, numerics.tolerances.film))
-    film, volume = (
-        film_tolerance(numerics, sensitivity),
-        max(balance_tolerance(numerics, felt_gap(numerics, balance)), loosest),
-    )
-    cells, contact = least_cells(numerics, settings, balance), contact_tolerance(point, balance.contact, volume)
+    film, cells = film_tolerance(numerics, sensitivity), least_cells(numerics, settings, balance)
+    if loosest:  # finer grids of the contact follow: what f feels of the film is seen there
+        film, cells = max(film, budget.COARSE_FILM), settings.film_cells
+    volume = max(balance_tolerance(numerics, felt_gap(numerics, balance)), loosest)
+    contact = contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells
         closed = abs(balance.contact.volume_residual - settings.aim) <= budget.SLACK * volume

@@ -1,4 +1,5 @@
-"""Film and rough contact at one speed, on one grid, to given tolerances: each of them at a load, and both together."""
+"""Film and rough contact at one speed, on one grid, to given tolerances: each at a load of its own, and both
+together."""
 
 from __future__ import annotations
 
@@ -19,8 +20,9 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level, relative tolerances of the film and of the volume balance; how many cells a numerical film has at
-    least; tolerance of the contact (None: its own); volume residual aimed at: what finer grids should take away."""
+    """Film level; relative tolerances of the film and of the volume balance; the least number of cells of a
+    numerical film; tolerance of the contact (None: its own); the volume residual aimed at, which is what finer grids
+    should take away."""
 
     level: FilmLevel
     film_tolerance: float
@@ -32,10 +34,10 @@ class Settings:
 
 @dataclass(frozen=True)
 class Start:
-    """What a trial starts from: a film, and the last contact that touched (None: nothing), of a neighbour.
+    """What a trial starts from: the film of a neighbour, and the last contact that touched (None: none).
 
-    solved: cells of the films of this balance so far, the latest last. From the second on they keep to one grid, or the
-    root of the balance has a jump.
+    ``solved``: cells of the films of this balance so far, the latest last. From the second film on all keep to one
+    grid, because the root of the balance would have a jump otherwise.
     """
 
     film: Film | None = None
@@ -82,16 +84,16 @@ class OperatingPoint:
         )
 
     def trial(self, film_load: float, contact_load: float, start: Start, imposed=None) -> Trial:
-        """The film that carries ``film_load`` [N], deflected by ``imposed`` too, and the contact of ``contact_load``
-        [N] under it."""
+        """The film that carries ``film_load`` [N], and under it the contact that carries ``contact_load`` [N].
+        ``imposed``: a pressure that deflects the film too."""
         found = self.film(film_load, start, imposed)
         film, shape = self.film_on(self.contact, found)
         contact = self._contact.close(film, contact_load, start.touched, shape)
         return self._trial(film_load, contact_load, found, contact, start)
 
     def trial_with_imposed_film(self, film_load: float, start: Start) -> Trial:
-        """The film that carries ``film_load`` [N], and the contact on which it is imposed, with the load it then
-        has."""
+        """The film that carries ``film_load`` [N], and the contact on which it is imposed. The load of the contact
+        follows."""
         found = self.film(film_load, start)
         film, shape = self.film_on(self.contact, found)
         contact_load, contact = self._contact.carry(film, start.touched, shape)
@@ -113,7 +115,8 @@ class OperatingPoint:
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
 
     def suffices(self, whole: RoughContact, film: Film, state: ContactState) -> bool:
-        """Nothing of ``whole`` outside the point's own contact, a part of it in ``state`` under ``film``, touches."""
+        """Whether the point's own contact, a part of ``whole``, is enough: nothing outside it touches, in ``state``
+        under ``film``."""
         return self.contact is whole or whole.holds(self.contact, self.film_on(whole, film)[1], state)
 
     def guessed_split(self) -> float:

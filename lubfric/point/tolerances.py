@@ -1,4 +1,5 @@
-"""What is asked of film, volume balance and contact where a share of their error reaches f; within `lubfric.budget`."""
+"""What is asked of film, volume balance and contact, given how much of their errors reaches f. It stays within
+`lubfric.budget`."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from .operating_point import OperatingPoint, Settings
 
 
 def felt_share(numerics: Numerics, balance: Balance) -> float:
-    """Share of a film's error that reaches f; all of it where nothing is to be left out, or contact just begins."""
+    """Share of a film's error that reaches f. It is all of it where nothing is to be left out, or where contact just
+    begins."""
     if balance.contact_load == 0:
         return 1.0
     return max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
@@ -25,7 +27,7 @@ def felt_gap(numerics: Numerics, balance: Balance) -> float:
 
 
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
-    """Of a numerical film, where ``sensitivity`` of its error reaches f."""
+    """Tolerance of a numerical film, of whose error the share ``sensitivity`` reaches f."""
     if numerics.film_tolerance is not None:
         return numerics.tolerances.film
     share = budget.FILM_GRID * numerics.tolerance / sensitivity
@@ -33,20 +35,20 @@ def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
 
 
 def film_alone_tolerance(numerics: Numerics) -> float:
-    """Of a numerical film without contact."""
+    """Tolerance of a numerical film without contact."""
     if numerics.model == "full":
         return numerics.tolerances.film
     return numerics.film_tolerance or min(budget.FILM_GRID_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
 
 
 def first_film_tolerance(numerics: Numerics) -> float:
-    """Of the film that tells what is needed."""
+    """Tolerance of the first film, which tells what is needed."""
     return budget.LOOSEST_FILM if numerics.film_tolerance is None else numerics.film_tolerance
 
 
 def balance_tolerance(numerics: Numerics, sensitivity: float) -> float:
-    """Of the volume balance, of whose error ``sensitivity`` reaches f; where the film is imposed on the contact it is
-    an error of the load itself."""
+    """Tolerance of the volume balance, of whose error the share ``sensitivity`` reaches f. Where the film is imposed
+    on the contact, its error is one of the load itself."""
     if numerics.balance_tolerance is not None or numerics.closure != "load":
         return numerics.tolerances.balance
     share = budget.BALANCE * numerics.tolerance / sensitivity
@@ -54,13 +56,13 @@ def balance_tolerance(numerics: Numerics, sensitivity: float) -> float:
 
 
 def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
-    """By the film level, relative to the film."""
+    """What the film level may leave out, relative to the film."""
     return min(budget.FILM_LEVEL * numerics.tolerance / max(sensitivity, 1e-12), budget.LARGEST_LEFT_OUT)
 
 
 def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> int:
-    """Of the film: twice as many as it has where the sum of its shear stress is not good enough, unless that sum is one
-    of stresses that no oil carries."""
+    """Least number of cells of the film. It is twice what the film has where the sum of its shear stress is not good
+    enough. It is not raised where that sum is of stresses that no oil carries."""
     found = balance.forces
     resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if not settings.level.numerical or numerics.film_tolerance is not None or resolved:
@@ -69,8 +71,8 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> 
 
 
 def contact_tolerance(point: OperatingPoint, state: ContactState, volume: float) -> float | None:
-    """Of the contact, in Sq, such that what the mean gap is off by stays within the ``volume`` balance: where the gap
-    is a small part of Sq the contact's own is too loose."""
+    """Tolerance of the contact, in Sq, such that the error of the mean gap stays within the ``volume`` balance.
+    Where the gap is a small part of Sq, the contact's own tolerance is too loose."""
     own, given, sq = (
         point.prepared.contact.adjustable_tolerance,
         point.settings.contact_tolerance,

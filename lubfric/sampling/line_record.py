@@ -120,8 +120,12 @@ class Pooled:
 
 
 def pooled(records) -> Pooled:
-    """The mean over ``records``. Their errors add as independent ones do. A line without contact counts as uncertain
-    as one with contact, for its length."""
+    """The mean over ``records``. Their errors add as independent ones do. A line without contact counts as uncertain as
+    one with contact, for its length.
+
+    Under one film the gaps of all lines are averaged, and a gap falls as the logarithm of the load. So where every line
+    touches, the loads at which each line fills its film are averaged geometrically.
+    """
     length = sum(r.length for r in records)
 
     def mean(name):

@@ -138,13 +138,14 @@ def _next(trail: Trail, tolerance: float) -> float | None:
 def samples_of(points: list[FrictionResult]) -> Samples:
     """What an interpolation needs of solved points, by ascending speed."""
     points = sorted(points, key=lambda point: abs(point.speed))
+    clearance = [np.nan if p.decision is None or p.decision.clearance is None else p.decision.clearance for p in points]
     total = np.array([p.contact_load + p.film_load for p in points])
     boundary = np.array([p.boundary_force for p in points]) / total
-    clearance = [np.nan if p.decision is None or p.decision.clearance is None else p.decision.clearance for p in points]
     return Samples(
         speed=np.array([abs(p.speed) for p in points]),
-        boundary=np.maximum(boundary, 0.0),
+        share=np.array([p.contact_load for p in points]) / total,
+        boundary=boundary,
         film=np.array([p.coefficient for p in points]) - boundary,
-        touching=np.array([p.contact_load > 0 for p in points]),
+        thickness=np.array([p.film_to_roughness_ratio for p in points]),
         clearance=np.array(clearance, dtype=float),
     )

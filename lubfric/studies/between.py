@@ -42,12 +42,14 @@ def curve_of(result, index) -> Interpolant | None:
     if good.size < FEWEST or np.unique(speed[good]).size < good.size:
         return None
     part = {name: values[good] for name, values in columns.items()}
-    boundary = part["boundary_force"] / (part["contact_load"] + part["film_load"])
-    samples = Samples(
+    total = part["contact_load"] + part["film_load"]
+    boundary = part["boundary_force"] / total
+    found = Samples(
         speed=speed[good],
-        boundary=np.maximum(boundary, 0.0),
+        share=part["contact_load"] / total,
+        boundary=boundary,
         film=part["coefficient"] - boundary,
-        touching=part["contact_load"] > 0,
+        thickness=part["film_to_roughness_ratio"],
         clearance=part[CLEARANCE],
     )
-    return Interpolant(samples, knee_of(samples))
+    return Interpolant(found, knee_of(found))

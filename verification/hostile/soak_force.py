@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from ..stability.film_check import viscosity_ratio
-from .soak_heat import heated_stress, heats
+from .soak_heat import heated_stress, heats, inlet_viscosity
 
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
-def friction_force(scene, sides, contact_load: float, speed: float) -> float:
-    """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding; the far inlet in closed
-    form."""
+def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float]:
+    """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding, the far inlet in closed form;
+    and the size [N] of the parts of the film's share, of which f may be a small difference."""
     bodies, oil, ratio, film = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -32,10 +32,20 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> float:
             x[0]
         )
     rolling = np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.diff(p)) / 2
-    rolling += 1.5 * p[0] * h[0]  # ½∫h dp before the first node, where h ~ x² and p ~ |x|^-3
+    rolling += _rolling_upstream(film, x[0], h[0], bodies.radius, inlet_viscosity(scene, speed) * abs(speed))
+    parts = couette + np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.abs(np.diff(p))) / 2
     sense = -1.0 if ratio < 0 else 1.0  # along the sliding; the pressure flow pushes along the entrainment
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
-    return float(boundary + bodies.width * (couette + sense * rolling))
+    return float(boundary + bodies.width * (couette + sense * rolling)), float(bodies.width * parts)
+
+
+def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
+    """½∫h dp before the first node [N/m], where Reynolds' equation has dp = 12 eta U (h - h*)/h³ dx and h is a
+    parabola."""
+    share = np.linspace(0, 1, 4001)[1:]  # x0/x
+    gap = h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)
+    rate = (1 - film.flow_film / gap) / gap * abs(x0) / share**2
+    return 6 * viscosity_speed * float(np.trapezoid(rate, share))
 
 
 def _touched(x, sides) -> np.ndarray:

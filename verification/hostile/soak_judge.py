@@ -129,11 +129,12 @@ class Judge:
         inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
         return np.clip(inside / dx, 0, 1)
 
-    def coefficient(self, split: float, sides: Sides) -> float:
-        """f at a division of the load."""
+    def coefficient(self, split: float, sides: Sides) -> tuple[float, float]:
+        """f at a division of the load, and what the tolerance of the film leaves open of it."""
         scene = self.prepared.scene
         contact_load = scene.bodies.load / (1 + math.exp(split))
-        return friction_force(scene, sides, contact_load, self.speed) / scene.bodies.load
+        force, parts = friction_force(scene, sides, contact_load, self.speed)
+        return force / scene.bodies.load, self.film_tolerance * parts / scene.bodies.load
 
 
 def judge_of(prepared: Prepared, result) -> Judge:
@@ -177,17 +178,18 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
     if scene.contact.model == "half-space" and scene.surface.sq:
-        coefficient, split = closed_again(judge_of(prepared, result), share)
+        (coefficient, open_), split = closed_again(judge_of(prepared, result), share)
         stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
         if result.line is not None and len(result.line.used):
             stated += SECOND_ORDER * result.uncertainty.sampling**2
-        found["friction"] = abs(result.coefficient / coefficient - 1) / stated
+        allowed = stated * abs(coefficient) + open_ / ALLOWED["friction"]
+        found["friction"] = abs(result.coefficient - coefficient) / allowed
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
     return {name: value / ALLOWED[name] for name, value in found.items()}
 
 
-def closed_again(judge: Judge, share: float) -> tuple[float, float]:
-    """(f, F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load."""
+def closed_again(judge: Judge, share: float) -> tuple[tuple[float, float], float]:
+    """((f, its error), F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load."""
     if share == 0:
         sides = judge.sides(40.0)
         if sides.gap <= sides.mean_film:
@@ -198,16 +200,16 @@ def closed_again(judge: Judge, share: float) -> tuple[float, float]:
     beside = here + BESIDE
     first, second = judge.sides(here), judge.sides(beside)
     off, off_beside = (math.log(s.gap / s.mean_film) for s in (first, second))
-    f, f_beside = judge.coefficient(here, first), judge.coefficient(beside, second)
+    (f, open_), (f_beside, _) = judge.coefficient(here, first), judge.coefficient(beside, second)
     slope = (off_beside - off) / BESIDE
     moved = -off / slope if slope > 0 else math.inf
     if abs(moved) > NEAR:
         return _bracketed(judge, here)
     split = here + moved
-    return f + (f_beside - f) * moved / BESIDE, 1 / (1 + math.exp(split))
+    return (f + (f_beside - f) * moved / BESIDE, open_), 1 / (1 + math.exp(split))
 
 
-def _bracketed(judge: Judge, here: float) -> tuple[float, float]:
+def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
     from scipy.optimize import brentq
 
     def surplus(split):
