@@ -9,6 +9,7 @@ from .interpolate import Interpolant, Samples, knee_of
 CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to look
 TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
 ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
+SHARE, MANY = 0.85, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
 APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
@@ -21,7 +22,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
 
     First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
     before how it ends. Then the speed at which the error is estimated to be largest, until that is below ``tolerance``
-    everywhere.
+    everywhere; with few speeds, below 0.85 of it.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)
@@ -32,7 +33,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     for wanted in _about_the_knee(samples, knee):
         if _about(wanted, taken) < ENOUGH and _free(np.array([wanted]), taken)[0]:
             return wanted, largest
-    if largest <= tolerance:
+    if largest <= (tolerance if speeds.size >= MANY else SHARE * tolerance):
         return None, largest
     return float(at[error.argmax()]), largest
 
