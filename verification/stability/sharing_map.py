@@ -40,7 +40,7 @@ def cells(level: str) -> Iterator[Check]:
 
 
 def model_of(name: str, sq: float, shape: int, **sections) -> Prepared:
-    """A built-in scene with another roughness on a small grid. The solver is what is tried, so any slope is accepted."""
+    """A built-in scene with another roughness on a small grid. The solver is what is tried: any slope is accepted."""
     scene = load_scene(name)
     if name == "flat":
         roughness = {"sq": sq, "correlation_length": 0.08e-6 * shape}
