@@ -10,13 +10,10 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from .measured import Measured
 from .parameters import Parameters, parameters_of
-from .predict import Predictor, jacobian, predictor
+from .predict import Curve, Predictor, jacobian, predictor
 from .result import FitResult
 
-STEP, LAST_STEP = (
-    0.04,
-    0.03,
-)  # of the bounds, of the differences on the way and at the end: above the scatter of the solves
+STEP = 0.04  # of the bounds, of the differences: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 MOST = 30  # curves on the way, beside those of the differences
 
@@ -27,7 +24,8 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
     stay above the tolerance on f. It stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
-    sum by <= 1e-4 of it. `FitResult` says how sure the values are.
+    sum by <= 1e-4 of it. Each point starts from the same point of an earlier curve. `FitResult` says how sure the
+    values are.
 
     Parameters
     ----------
@@ -35,7 +33,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     measured : from `lubfric.read_measured`, or `lubfric.Measured(speeds, coefficients)`
     parameters : {"section.key": (lowest, highest)}, numbers of the scene to be found between bounds, in SI units
     start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
-    executor : for the speeds of a curve, as in `lubfric.stribeck`
+    executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
 
     Returns a `FitResult`.
 
@@ -60,25 +58,18 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     begin = _begin(scene, found, {} if start is None else start)
     predict = predictor(scene, measured, found, executor)
     scale = measured.coefficient if measured.deviation is None else measured.deviation
-    curves = {}  # f by position: the differences begin where the residuals were taken
-
-    def at(unit):
-        key = unit.tobytes()
-        if key not in curves:
-            curves[key] = predict.at(unit)
-        return curves[key]
-
+    walk = Walk(predict)
     search = least_squares(
-        lambda unit: (at(unit) - measured.coefficient) / scale,
+        lambda unit: (walk.at(unit).coefficient - measured.coefficient) / scale,
         begin,
-        lambda unit: jacobian(predict, unit, at(unit), STEP) / scale[:, None],
+        lambda unit: jacobian(predict, walk.here(unit), STEP) / scale[:, None],
         bounds=(0.0, 1.0),
         xtol=CLOSE,
         ftol=1e-4,
         gtol=1e-12,
         max_nfev=MOST,
     )
-    result = _result(predict, scale, np.clip(search.x, 0.0, 1.0), search)
+    result = _result(predict, scale, search)
     result.report.raise_if_failed(result)
     return result
 
@@ -97,10 +88,31 @@ def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
     return np.clip(found.unit(np.where(np.isnan(values), middle, values)), 0.02, 0.98)
 
 
-def _result(predict: Predictor, scale, unit, search) -> FitResult:
-    f = predict.at(unit)
-    slopes = jacobian(predict, unit, f, LAST_STEP)
-    residuals = (f - predict.measured.coefficient) / scale
+class Walk:
+    """The curves of a search, of which only two are kept whole: that which the last differences were taken at, from
+    which the others start, and the last."""
+
+    def __init__(self, predict: Predictor):
+        self._predict = predict
+        self._base: Curve | None = None
+        self._last: Curve | None = None
+
+    def at(self, unit: np.ndarray) -> Curve:
+        """The curve at positions between the bounds."""
+        if self._last is None or not np.array_equal(self._last.unit, unit):
+            self._last = self._predict.at(unit, self._base)
+        return self._last
+
+    def here(self, unit: np.ndarray) -> Curve:
+        """The same, to take differences at."""
+        self._base = self.at(unit)
+        return self._base
+
+
+def _result(predict: Predictor, scale, search) -> FitResult:
+    """Of a ``search`` whose differences were taken where it ended."""
+    residuals, slopes = search.fun, search.jac * scale[:, None]
+    f, unit = residuals * scale + predict.measured.coefficient, np.clip(search.x, 0.0, 1.0)
     n, p = slopes.shape
     squares = float(residuals @ residuals)
     variance = squares / (n - p) if predict.measured.deviation is None else 1.0

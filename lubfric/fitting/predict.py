@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..errors import ConvergenceError
 from ..prepared import Prepared, prepare
+from ..result import FrictionResult
 from ..scene import Scene
 from ..steady import friction
-from ..sweep import stribeck
+from ..studies.spread import spread
 from .measured import SPEED, Measured
 from .parameters import Parameters
 
+PIECES = 8  # of a curve on an executor
 SHARING = (
     "surface.",
     "counterface.",
@@ -24,12 +26,22 @@ SHARING = (
 
 
 @dataclass(frozen=True)
+class Curve:
+    """The computed curve at a position ``unit`` of the parameters: f (n,), and all that the same points start from for
+    other values."""
+
+    unit: np.ndarray
+    coefficient: np.ndarray
+    points: tuple[FrictionResult, ...] = field(repr=False)
+
+
+@dataclass(frozen=True)
 class Predictor:
     """f of ``scene`` at the points of ``measured``, for any values of ``parameters``. Each curve is solved to
     ``tolerance``.
 
     ``like``: a prepared scene whose map and operator or curve serve for all values. None where these depend on the
-    values.
+    values. ``warm``: whether a point can start from that of other values.
     """
 
     scene: Scene
@@ -38,26 +50,53 @@ class Predictor:
     tolerance: float
     executor: object = None
     like: Prepared | None = field(default=None, repr=False)
+    warm: bool = True
 
-    def at(self, unit: np.ndarray) -> np.ndarray:
-        """f (n,) at positions of the parameters between their bounds. Raises `ConvergenceError` when a point fails."""
+    def at(self, unit: np.ndarray, near: Curve | None = None) -> Curve:
+        """The curve at positions of the parameters between their bounds, each point started from that of the curve
+        ``near``; without one, from its neighbour. Raises `ConvergenceError` when a point fails."""
         scene = self.parameters.into(self.scene, self.parameters.values(np.clip(unit, 0.0, 1.0)))
         scene = scene.with_(numerics={"tolerance": self.tolerance})
         prepared = prepare(scene) if self.like is None else prepare(scene, like=self.like)
-        if self.measured.over == SPEED:
-            return stribeck(prepared, self.measured.x, self.executor).coefficient
-        return _traction(prepared, self.measured.x)
+        speeds = self.measured.over == SPEED
+        order = np.argsort(-np.abs(self.measured.x) if speeds else self.measured.x)
+        base = near if self.warm else None
+        executor = None if base is None else self.executor  # the first curve goes from neighbour to neighbour
+        pieces = [Piece(prepared, run, self.measured.x[run], speeds) for run in _split(order, executor)]
+        if base is not None:
+            pieces = [replace(piece, starts=tuple(base.points[i] for i in piece.indices)) for piece in pieces]
+        found = {i: point for points in spread(executor, solved, pieces) for i, point in points}
+        points = tuple(found[i] for i in range(order.size))
+        return Curve(unit.copy(), np.array([point.coefficient for point in points]), points)
 
 
-def _traction(prepared: Prepared, slips) -> np.ndarray:
-    """f at slide-roll ratios, each started from its neighbour."""
-    found, start = [], None
-    for slip in slips:
-        start = friction(
-            prepare(prepared.scene.with_(motion={"slide_roll_ratio": float(slip)}), like=prepared), start=start
-        )
-        found.append(start.coefficient)
-    return np.array(found)
+@dataclass(frozen=True)
+class Piece:
+    """Some points of a curve: their ``indices``, and ``x``, speeds [m/s] or slide-roll ratios; ``starts``: of each."""
+
+    prepared: Prepared
+    indices: np.ndarray
+    x: np.ndarray
+    speeds: bool
+    starts: tuple[FrictionResult, ...] = ()
+
+
+def solved(piece: Piece) -> list[tuple[int, FrictionResult]]:
+    """The points of a piece, each from its start or, without one, from the point before it."""
+    found: list[tuple[int, FrictionResult]] = []
+    for at, (index, x) in enumerate(zip(piece.indices, piece.x)):
+        start = piece.starts[at] if piece.starts else found[-1][1] if found else None
+        start = start if start is not None and start.starts else None
+        prepared, speed = piece.prepared, float(x)
+        if not piece.speeds:
+            moved = prepared.scene.with_(motion={"slide_roll_ratio": float(x)})
+            prepared, speed = prepare(moved, like=prepared), moved.motion.entrainment_speed
+        found.append((int(index), friction(prepared, speed, start=start)))
+    return found
+
+
+def _split(order: np.ndarray, executor) -> list[np.ndarray]:
+    return [order] if executor is None else np.array_split(order, min(order.size, PIECES))
 
 
 def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor) -> Predictor:
@@ -70,17 +109,19 @@ def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor
         making = (*making, "bodies.")
     shared = not any(key.startswith(making) for key in parameters.keys)
     like = prepare(scene.with_(numerics={"tolerance": tolerance})) if shared else None
-    return Predictor(scene, measured, parameters, tolerance, executor, like)
+    warm = shared and "bodies.width" not in parameters.keys  # of which the contacts of a long line are made
+    return Predictor(scene, measured, parameters, tolerance, executor, like, warm)
 
 
-def jacobian(predict: Predictor, unit: np.ndarray, here: np.ndarray, step: float) -> np.ndarray:
-    """df/d(unit), (n, p), by differences of ``step`` that stay within the bounds."""
+def jacobian(predict: Predictor, here: Curve, step: float) -> np.ndarray:
+    """df/d(unit), (n, p), at the curve ``here``, by differences of ``step`` that stay within the bounds."""
+    unit = here.unit
     columns = []
     for i in range(unit.size):
         moved = unit.copy()
         moved[i] += step if unit[i] + step <= 1.0 else -step
         try:
-            columns.append((predict.at(moved) - here) / (moved[i] - unit[i]))
+            columns.append((predict.at(moved, here).coefficient - here.coefficient) / (moved[i] - unit[i]))
         except ConvergenceError as error:
             key = predict.parameters.keys[i]
             raise ConvergenceError(

@@ -1,5 +1,5 @@
-"""Heat of one operating point, as a level: modelled where leaving it out would move f by more than its share of the
-tolerance."""
+"""Heat of one operating point, as a level. It is modelled where leaving it out would move f by more than its share
+of the tolerance."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Heat:
 
     @property
     def slow(self) -> bool:
-        """The surfaces move too slowly for the flash temperature used, which is then too high."""
+        """Whether the surfaces move too slowly for the flash temperature used. It is too high then."""
         return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:

@@ -52,8 +52,8 @@ class FlatContact(RoughContact):
         )
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """A film thinner than the gap at the heaviest load of the curve gives that load: a lower bound, which the
-        volume residual of the state shows."""
+        """A film thinner than the gap at the heaviest load of the curve gives that load. It is a lower bound, and
+        the volume residual of the state shows that."""
         load = self.curve.pressure_at(float(np.mean(film))) * self.area
         return load, self.close(film, load)
 

@@ -110,12 +110,14 @@ class HalfSpaceContact(HalfSpaceGrid):
             )
 
     def _given_way(self, bodies: Bodies) -> bool:
-        """Whether the patch, all of it at its hardness, carries less than the whole load: no dry contact to look at."""
+        """Whether the patch, with all of it at its hardness, carries less than the whole load. Then there is no dry
+        contact to look at."""
         length = self.x.size * self.spacing[0]
         return self.hardness is not None and self.hardness * length * self.width <= bodies.load
 
     def _on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns; one of coarser cells counts by the part of it that is one of these."""
+        """Share of the load on the edge columns. A coarser cell counts by the part of it that is one of these
+        columns."""
         if state.pressure is None or self.x.size <= 2:
             return 0.0
         cell, step = state.x[1] - state.x[0], self.spacing[0]

@@ -1,10 +1,13 @@
 """Fits: made-up data come back within their regions, what data cannot tell is said, files are read by name and unit."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
 import lubfric
 from lubfric.fitting.parameters import parameters_of
+from lubfric.fitting.predict import predictor
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -91,6 +94,33 @@ def test_what_the_data_cannot_tell_is_said():
     )
     assert "lubricant.eyring_stress" in found.undetermined and "the data cannot tell it" in found.explain()
     assert "bodies.boundary_friction_coefficient" not in found.undetermined
+
+
+def test_curves_that_start_from_others_are_those_that_start_alone():
+    """Within the tolerance."""
+    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, BOUNDS), None)
+    base = predict.at(np.array([0.4, 0.5]))
+    for unit in ([0.44, 0.5], [0.4, 0.54], [0.6, 0.3]):
+        warm, alone = predict.at(np.array(unit), base), predict.at(np.array(unit))
+        np.testing.assert_allclose(warm.coefficient, alone.coefficient, rtol=predict.tolerance)
+
+
+def test_an_executor_gives_the_same_fit(fitted):
+    with ThreadPoolExecutor(2) as executor:
+        again = lubfric.fit(SCENE, fitted.measured, BOUNDS, executor=executor)
+    assert again.values == fitted.values
+    np.testing.assert_array_equal(again.covariance, fitted.covariance)
+
+
+@pytest.mark.parametrize("key", ["bodies.width", "bodies.hardness", "surface.sq"])
+def test_contacts_of_other_values_are_not_taken_over(key):
+    """Where the contact is made of a parameter, each curve starts alone."""
+    low, high = {"bodies.width": (4e-3, 8e-3), "bodies.hardness": (4e9, 8e9), "surface.sq": (5e-8, 2e-7)}[key]
+    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, {key: (low, high)}), None)
+    near = predict.at(np.array([0.2]))
+    np.testing.assert_array_equal(
+        predict.at(np.array([0.9]), near).coefficient, predict.at(np.array([0.9])).coefficient
+    )
 
 
 @pytest.mark.slow
