@@ -1,4 +1,4 @@
-"""Is this checkout slower than an earlier commit? Eleven jobs timed in pairs; exit code 1 where one takes above 1.3 times.
+"""Is this checkout slower than an earlier commit? Eleven jobs timed in pairs; exit code 1 where one takes 1.3 times.
 
     python benchmarks/speed_guard.py COMMIT [--pairs 5] [--limit 1.3] [--only NAME ...]
 
