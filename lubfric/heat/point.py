@@ -49,7 +49,7 @@ class Heat:
 
     @property
     def film_factor(self) -> float:
-        """On the film, by the inlet: 1 where it is left out."""
+        """Factor on the film by the heat of the inlet; 1 where that is left out."""
         return self.inlet.factor if self.used and self.inlet is not None else 1.0
 
     @property
@@ -68,7 +68,7 @@ class Heat:
         return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:
-        """In words, the number beside its budget."""
+        """The heat in words, each number beside its budget."""
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} % budget"

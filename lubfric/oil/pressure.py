@@ -39,7 +39,7 @@ class Estimate:
 
     @property
     def text(self) -> str:
-        """In words, in 1/GPa."""
+        """The coefficient in words, in 1/GPa."""
         return (
             f"{self.value * 1e9:.3g} /GPa by {self.source}, measured oils {self.low * 1e9:.3g} to {self.high * 1e9:.3g}"
         )

@@ -70,7 +70,7 @@ class Trial:
 
     @property
     def ruptured(self) -> np.ndarray:
-        """Where the film has (bool)."""
+        """Where the film has ruptured (bool)."""
         return self.film.ruptured
 
 

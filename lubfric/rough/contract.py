@@ -88,7 +88,7 @@ class RoughContact:
 
     @property
     def name(self) -> str:
-        """In words."""
+        """The contact in words."""
         raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
@@ -118,7 +118,7 @@ class RoughContact:
         return None
 
     def tightened(self, tolerance: float) -> RoughContact:
-        """The same, solved to ``tolerance``."""
+        """The same contact, solved to ``tolerance``."""
         return self
 
     def coarsened(self) -> RoughContact | None:

@@ -72,7 +72,7 @@ class HalfSpaceContact(HalfSpaceGrid):
 
     @property
     def name(self) -> str:
-        """As in ``numerics.contact_level``."""
+        """Its name, as in ``numerics.contact_level``."""
         return "semi-periodic"
 
     @property
@@ -81,7 +81,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return self.tolerance
 
     def tightened(self, tolerance: float) -> HalfSpaceContact:
-        """The same, solved to ``tolerance``."""
+        """The same contact, solved to ``tolerance``."""
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:
@@ -125,7 +125,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return step / cell * float(sum(state.pressure[i].sum() for i in ends) / state.pressure.sum())
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
-        """With the same operator."""
+        """The contact for another scene, with the same operator."""
         check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return half_space_contact(scene, self.heights, self.spacing, self.operator)
 

@@ -85,11 +85,11 @@ class WarmInlet(History):
         return _warm(self.source.at(time))
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """Of all histories."""
+        """Those of all histories."""
         return tuple(sorted({t for h in self.source.histories for t in h.stops(duration)}))
 
     def jumps(self, duration: float) -> tuple[float, ...]:
-        """Of all histories."""
+        """Those of all histories."""
         return tuple(sorted({t for h in self.source.histories for t in h.jumps(duration)}))
 
     def range(self, duration: float) -> tuple[float, float]:

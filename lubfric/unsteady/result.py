@@ -76,7 +76,7 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """Of f over the run, and what its scatter is, fixed and moving."""
+        """The average of f over the run, and its scatter, fixed and moving."""
         weight = np.gradient(self.time) if self.time.size > 1 else np.ones(1)
         mean = float(np.average(self.coefficient, weights=weight))
         sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
