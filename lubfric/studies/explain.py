@@ -38,8 +38,8 @@ def explain(plan) -> str:
         started = "each point started from the nearest of its curve"
     cells, seconds, failed = _costs(plan)
     lines += [
-        f"  shared         {_count(maps, 'height map')} ({cells} cells the largest grid), {_count(plan.batches, 'batch')}, "
-        f"each of one map and operator, {started}",
+        f"  shared         {_count(maps, 'height map')} ({cells} cells the largest grid), "
+        f"{_count(plan.batches, 'batch')}, each of one map and operator, {started}",
         f"  time           {_foretold(plan, seconds)}",
         f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process "
         "while it runs",
