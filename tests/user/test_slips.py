@@ -77,7 +77,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "Sq in micrometres": ({"surface": {"sq": "0.1"}}, "0.1 um = 1e-07 m"),
     "correlation length in µm": ({"surface": {"correlation_length": "12"}}, "12 um = 1.2e-05 m"),
     "spacing in micrometres": ({"contact": {"spacing": "3.2"}}, "3.2 um = 3.2e-06 m"),
-    "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "did you mean 'map.npy'"),
+    "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "did you mean.*'map.npy'"),
     "load in kN": ({"bodies": {"load": "0.2"}}, "0.2 kN = 200 N"),
     "alpha in 1/MPa": (
         {"lubricant": dict.fromkeys(OIL) | NUMBERS | {"pressure_viscosity_coefficient": "0.02"}},
