@@ -397,6 +397,20 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
     assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
 
 
+def test_zarr_round_trip(serial, tmp_path):
+    """Numbers, names of the axes, status and units, read by xarray alone."""
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("zarr", "3")
+    data = serial.to_xarray()
+    data.to_zarr(tmp_path / "study.zarr", zarr_format=2)
+    with xarray.open_zarr(tmp_path / "study.zarr") as again:
+        assert again.sizes == data.sizes and set(again.variables) == set(data.variables)
+        for name in data.variables:
+            np.testing.assert_array_equal(again[name].values, data[name].values, err_msg=name)
+            assert again[name].attrs == data[name].attrs
+        assert again.attrs == data.attrs
+
+
 def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(lubfric.InputError, match=r"needs xarray; allowed after: pip install 'lubfric\[study\]'"):
