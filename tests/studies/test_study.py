@@ -364,7 +364,10 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     text = plan.explain()
     for words in ("1200 points", "2 x bodies.load from 3 to 5.5", "60 speeds", "2 height maps", "60 warm-started"):
         assert words in text, text
-    assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
+    assert "divided by the number of processes up to" in text and " batches, each of one map" in text
+    one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
+    assert "cannot be solved: correlation_length" in one and "1 height map (" in one
+    assert "in one process: it is one batch" in one and "up to 1" not in one
 
 
 # tables
