@@ -129,6 +129,8 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
     """``scene`` made ready, with another tolerance on f and another model ("auto", "full", "deterministic") where
     they are given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
+    if not changed and isinstance(scene, Prepared):
+        return scene
     asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Prepared) else None
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 

@@ -1,9 +1,9 @@
 """The order in which a sparse LU eliminates the cells of a grid, so that little fills in: nested dissection.
 
-The grid is cut in two by a line of cells, which comes last, each half again, and so on (A. George, SIAM J. Numer. Anal.
-10 (1973) 345-363, doi:10.1137/0710032). Cells depend on two others upstream, hence a cut across x is two cells wide;
-y is periodic and is cut twice first. Taken from the grid it costs nothing and beats a minimum degree found anew for
-every matrix.
+A line of cells cuts the grid in two and comes last. Each half is cut again, and so on (A. George, SIAM J. Numer. Anal.
+10 (1973) 345-363, doi:10.1137/0710032). Cells depend on two others upstream, so a cut across x is two cells wide. y is
+periodic and is cut twice first. Taken from the grid, this order costs nothing. It beats a minimum degree order that is
+found anew for every matrix.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ def nested_dissection(nx: int, ny: int) -> np.ndarray:
 
 
 def _ring(cells: np.ndarray) -> list[np.ndarray]:
-    """Periodic along y: cut across x while it is longer than wide, then twice along x."""
+    """The order for a part that is periodic along y. It is cut across x while it is longer than wide, then twice
+    along x."""
     nx, ny = cells.shape
     if nx > ny and nx > 3:
         middle = nx // 2

@@ -1,4 +1,4 @@
-"""The grid under a cylinder that a rough patch is laid on: far enough up and down stream."""
+"""The grid under a cylinder that a rough patch is laid on. It reaches far enough up and down stream."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ LARGEST = 2**20  # cells
 def reach(contact: LineContact, sq: float) -> tuple[float, float]:
     """Lengths [m] of the grid upstream and downstream of the line of contact.
 
-    To where the roughness is small against the gap (its effect on the flow, 6 (Sq/h)², below some 3 %) and the
-    pressure has gone; upstream the film goes on in closed form.
+    The grid ends where the roughness is small against the gap (its effect on the flow, 6 (Sq/h)², is below some 3 %)
+    and the pressure has gone. Upstream of it the film goes on in closed form.
     """
     radius, b = contact.radius, contact.half_width
     film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film

@@ -1,9 +1,8 @@
 """Mass flow through the faces between cells, and its derivatives by p and h of the cells on both sides.
 
-The pressure flow has 1/h³ averaged between the two cells, h linear, and the mean fluidity between their pressures
-(`rheology`), so that the narrowest place holds it back; the
-Couette flow U rho h is taken from upstream, to second order: half of the upstream difference, limited to half of the
-cell's own film, is added.
+The pressure flow takes the mean of 1/h³ between the two cells, with h linear, and the mean fluidity between their
+pressures (`rheology`). So the narrowest place holds it back. The Couette flow U rho h is taken from upstream, to second
+order: half of the upstream difference is added, limited to half of the cell's own film.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The way to a steady state through time: implicit Euler steps, for starts from which Newton's method does not get
-there."""
+"""Implicit Euler steps in time towards the steady state, for starts from which Newton's method does not get there."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class Refined:
 
     @property
     def result(self) -> DeterministicResult:
-        """On the finest grid."""
+        """The result on the finest grid."""
         return self.results[-1]
 
 

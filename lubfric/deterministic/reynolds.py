@@ -99,7 +99,7 @@ class _Stencil:
         self.data[name][here] += values
 
     def matrix(self, columns=None) -> csr_matrix:
-        """With the entries in closed ``columns`` (nx, ny) left out."""
+        """The sparse matrix, without the entries in closed ``columns`` (nx, ny)."""
         (nx, ny), n = self.shape, self.shape[0] * self.shape[1]
         own = np.arange(n).reshape(nx, ny)
         where = {

@@ -72,10 +72,11 @@ def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
 
 
 def _resorted(problem: Problem, at: Look) -> State:
-    """Every cell given the equation that its pressure, gap and residual ask for.
+    """Give every cell the equation that its pressure, gap and residual ask for.
 
-    Fluid that would pull ruptures, a ruptured cell that is full carries pressure again, a fluid cell closer than the
-    floor touches, a touching cell that is pulled opens; a pressure above P_u yields, a dent that would vanish does not.
+    - Fluid that would pull ruptures. A ruptured cell that is full carries pressure again.
+    - A fluid cell closer than the floor touches. A touching cell that is pulled opens.
+    - A pressure above P_u yields. A dent that would vanish does not.
     """
     state, r = at.state, at.residual
     p, kind = state.pressure, state.kind.copy()

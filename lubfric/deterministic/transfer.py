@@ -1,7 +1,7 @@
-"""A solved state as a start on another grid: another length, or cells of another size.
+"""A solved state as a start on another grid, of another length or with cells of another size.
 
-Where asperities carry much of the load their spots are too sharp to be interpolated to smaller cells. Then it is the
-difference to the dry contact that is interpolated, and added to the dry contact of the finer grid.
+Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
+difference to the dry contact is interpolated instead, and added to the dry contact of the finer grid.
 """
 
 from __future__ import annotations

@@ -23,11 +23,11 @@ class LinePressure:
 
     @property
     def load(self) -> float:
-        """Of it all [N/m]."""
+        """Load of the whole pressure [N/m]."""
         return float(np.sum(0.5 * (self.pressure[1:] + self.pressure[:-1]) * np.diff(self.x)))
 
     def mirrored(self) -> LinePressure:
-        """The same seen from the other side."""
+        """The same pressure, seen from the other side."""
         return LinePressure(-self.x[::-1], self.pressure[::-1])
 
 

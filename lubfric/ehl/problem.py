@@ -69,7 +69,7 @@ class Problem:
 
     @property
     def imposed_load(self) -> float:
-        """Of the imposed pressure, in the units of M."""
+        """Load of the imposed pressure, in the units of M."""
         return 0.0 if self.imposed is None else self.M * self.imposed.load / self.contact.load_per_width
 
     @property
@@ -79,7 +79,7 @@ class Problem:
 
     @property
     def seat_centre(self) -> float:
-        """In units of x."""
+        """Centre of the seat, in units of x."""
         return self.seat.centre / self.length_unit
 
     @property

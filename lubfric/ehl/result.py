@@ -73,7 +73,7 @@ class EHLResult(Shown):
 
     @property
     def load(self) -> float:
-        """Of the film [N/m]."""
+        """Load that the film carries [N/m]."""
         return self.contact.load_per_width
 
     @property
@@ -103,7 +103,7 @@ class EHLResult(Shown):
 
     @property
     def cells(self) -> int:
-        """Of the finest grid, before rupture."""
+        """Number of cells of the finest grid, before rupture."""
         return self.state.pressure.size
 
     def _facts(self) -> dict[str, str]:

@@ -171,8 +171,11 @@ def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
 def _cold(
     problem: Problem, seats: tuple[Seat, ...], effort: Effort
 ) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
-    """Grids from the coarsest up, from another start or a finer grid if that fails: the problem on its seat and its
-    solutions; the solutions that led there, and notes."""
+    """A solution from a cold start: grids from the coarsest up, and from another start or a finer grid where that
+    fails.
+
+    Returns the problem on its seat with its solutions, the solutions that led there, and notes.
+    """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
     for n, seat, doublings in _attempts(seats, _coarsest(problem)):
@@ -245,7 +248,8 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 
 
 def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
-    """From a thick film, which bridges whatever gap an imposed pressure leaves, halving the speed."""
+    """Begin with a thick film, which bridges whatever gap an imposed pressure leaves, and halve the speed again and
+    again."""
 
     def stage_of(k: int) -> Problem:
         faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
@@ -274,7 +278,7 @@ def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
 
 
 def _sound(levels: list[Solution]) -> bool:
-    """Converged, and no root with tension in the film or with the inlet on the wrong side."""
+    """Whether a solution has converged, and is no root with tension in the film or with the inlet on the wrong side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
     P, X = levels[-1].terms.P, levels[-1].terms.X

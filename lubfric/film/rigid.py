@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -56,9 +56,17 @@ class RigidFilm:
         return np.zeros(np.shape(x))
 
 
+@cache
 def unit_nodes() -> np.ndarray:
     """x/sqrt(2 R h0) of the nodes before rupture, the last at the rupture point."""
     return np.sinh(np.linspace(-math.asinh(INLET), math.asinh(rigid.rigid_constants().rupture), CELLS + 1))
+
+
+@cache
+def _all_nodes() -> np.ndarray:
+    """x/sqrt(2 R h0) of all nodes, those of the cavitated film too."""
+    nodes = unit_nodes()
+    return np.concatenate([nodes, np.geomspace(1.0, OUTLET / nodes[-1], 17)[1:] * nodes[-1]])
 
 
 def isoviscous_film(line: LineContact) -> RigidFilm:
@@ -119,9 +127,7 @@ def true_pressure(lubricant: Lubricant):
 
 def _film(line: LineContact, h0: float, law, solver: str) -> RigidFilm:
     constants, scale = rigid.rigid_constants(), math.sqrt(2 * line.radius * h0)
-    nodes = unit_nodes()
-    behind = np.geomspace(1.0, OUTLET / nodes[-1], 17)[1:] * nodes[-1]
-    x = scale * np.concatenate([nodes, behind])
+    x = scale * _all_nodes()
     p = law(_isoviscous_pressure(line, x, h0))
     p[CELLS:] = 0.0
     sign = math.copysign(1.0, line.entrainment_speed)

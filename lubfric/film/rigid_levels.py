@@ -22,7 +22,7 @@ class Isoviscous(FilmLevel):
     def solve(
         self, line: LineContact, *, tolerance: float, cells: int = 0, imposed=None, start: Film | None = None
     ) -> RigidFilm:
-        """In closed form: only ``line`` counts."""
+        """The film in closed form; only ``line`` is used."""
         return isoviscous_film(line)
 
     def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
@@ -48,9 +48,9 @@ class Piezoviscous(FilmLevel):
     def solve(
         self, line: LineContact, *, tolerance: float, cells: int = 0, imposed=None, start: Film | None = None
     ) -> RigidFilm:
-        """To 1e-9 always: only ``line`` counts."""
+        """The film to 1e-9 always; only ``line`` is used."""
         return piezoviscous_film(line)
 
     def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
-        """To first order."""
+        """What it leaves out, to first order."""
         return LeftOut({"elastic": elastic_error(film, line.lubricant), "density": compression(film, line.lubricant)})

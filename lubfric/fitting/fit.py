@@ -104,7 +104,7 @@ class Walk:
         return self._last
 
     def here(self, unit: np.ndarray) -> Curve:
-        """The same, to take differences at."""
+        """The same predictor, to take differences with."""
         self._base = self.at(unit)
         return self._base
 

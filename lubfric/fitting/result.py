@@ -63,7 +63,7 @@ class FitResult:
 
     @property
     def correlation(self) -> np.ndarray:
-        """Between the parameters, (p, p)."""
+        """Correlation between the parameters, (p, p)."""
         spread = np.sqrt(np.diag(self.unit_covariance))
         return self.unit_covariance / np.outer(spread, spread)
 

@@ -58,9 +58,11 @@ class FilmHeat:
 
 
 def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surroundings) -> FilmHeat:
-    """One pass: the surfaces as hot as the stress of the unheated film makes them, and the stress that is left then.
+    """One pass: the surfaces as hot as the stress of the unheated film makes them, and the stress of the film between
+    such surfaces.
 
-    Hotter than the solution, so that its stress and the isothermal one hold the heated film's between them.
+    They are hotter than in the solution. So the stress of the heated film lies between this stress and the isothermal
+    one.
     """
     nodes = _nodes(x.size)
     stress = shear_stress(lubricant, pressure, around.sliding / film)
@@ -72,13 +74,13 @@ def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surrounding
 
 
 def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *, raise_on_failure=True) -> FilmHeat:
-    """Stress and temperatures of a film: ``x`` (n,) [m] rising downstream, ``pressure`` [Pa], ``film`` [m] at its
+    """Stress and temperatures of a film. ``x`` (n,) [m] rises downstream; ``pressure`` [Pa] and ``film`` [m] are at its
     nodes.
 
-    The surfaces are as hot as the heat of film and contact spots makes them (`flash_matrix`, on at most 257 of the
-    nodes), the stress is that of the film between such walls (`heated_stress`). Newton's method on the wall
-    temperatures; stops when none misses its equation by more than 1e-6 of the largest rise. Raises `ConvergenceError`
-    with the report after 40 steps.
+    The heat of film and contact spots makes the surfaces hot (`flash_matrix`, on at most 257 of the nodes). The stress
+    is that of the film between such walls (`heated_stress`). Newton's method finds the wall temperatures. It stops when
+    none misses its equation by more than 1e-6 of the largest rise. After 40 steps it raises `ConvergenceError` with the
+    report.
     """
     nodes = _nodes(x.size)
     at, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))

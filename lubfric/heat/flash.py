@@ -1,10 +1,10 @@
 """Flash temperature of the surfaces: moving heat sources on half-spaces.
 
-Heat q(x) [W/m²] is carried off by two bodies of effusivity e = sqrt(k rho c) that move the same way at u1 and u2
-through it. Where the film is too thin to hold a difference of temperature and the sources move fast (u b rho c/(2 k)
-above about 5), both surfaces follow the same law and share the heat as e sqrt(u):
-``T(x) = 1/(√π (e1 √u1 + e2 √u2)) ∫_{-∞}^{x} q(x')/√(x - x') dx'`` (J. C. Jaeger, Proc. R. Soc. N.S.W. 76 (1942) 203; H.
-Blok 1937). A slow source is cooler than that.
+Two bodies of effusivity e = sqrt(k rho c), which move the same way at u1 and u2, carry off the heat q(x) [W/m²]. Assume
+that the film is too thin to hold a difference of temperature, and that the sources move fast (u b rho c/(2 k) above
+about 5). Then both surfaces follow the same law, and share the heat as e sqrt(u): ``T(x) = 1/(√π (e1 √u1 + e2 √u2))
+∫_{-∞}^{x} q(x')/√(x - x') dx'`` (J. C. Jaeger, Proc. R. Soc. N.S.W. 76 (1942) 203; H. Blok 1937). A slow source is
+cooler than that.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ class InletHeat:
 
     @property
     def text(self) -> str:
-        """In words."""
+        """The factors in words."""
         return (
             f"inlet shear heating: film x {self.factor:.3g} (Gupta et al. 1992; {self.other:.3g} by Wilson and "
             "Sheu 1983), "

@@ -1,5 +1,5 @@
-"""Heat of one operating point, as a level: modelled where leaving it out would move f by more than its share of the
-tolerance."""
+"""Heat of one operating point, as a level. It is modelled where leaving it out would move f by more than its share
+of the tolerance."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Heat:
 
     @property
     def film_factor(self) -> float:
-        """On the film, by the inlet: 1 where it is left out."""
+        """Factor on the film by the heat of the inlet; 1 where that is left out."""
         return self.inlet.factor if self.used and self.inlet is not None else 1.0
 
     @property
@@ -64,11 +64,11 @@ class Heat:
 
     @property
     def slow(self) -> bool:
-        """The surfaces move too slowly for the flash temperature used, which is then too high."""
+        """Whether the surfaces move too slowly for the flash temperature used. It is too high then."""
         return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:
-        """In words, the number beside its budget."""
+        """The heat in words, each number beside its budget."""
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} % budget"

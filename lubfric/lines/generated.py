@@ -48,12 +48,12 @@ class GeneratedLines:
         return self._piece((PAIR, index), Cells((1, 1), self.cells.spacing, self.cells.count * fx), length, columns)
 
     def again(self, scene: Scene) -> GeneratedLines | None:
-        """The same for another scene with the same cells."""
+        """The same lines for another scene with the same cells."""
         other = generated_lines(scene)
         return other if other.cells == self.cells else None
 
     def halved(self) -> GeneratedLines:
-        """The same on cells half as long."""
+        """The same lines on cells half as long."""
         return GeneratedLines(self.scene, self.cells.halved(), self.lengths)
 
     def _piece(self, stream, cells: Cells, length: float, columns: int | None = None) -> Surface:

@@ -75,12 +75,12 @@ class MeasuredLines:
         return self._made(stack([piece], blend)[:, :rows], self.surface.spacing, "a piece on the map's own cells")
 
     def again(self, scene: Scene) -> MeasuredLines | None:
-        """The same for another scene with the same windows."""
+        """The same lines for another scene with the same windows."""
         other = measured_lines(scene, self.surface, self.lengths)
         return other if (other.cells, other.starts) == (self.cells, self.starts) else None
 
     def halved(self) -> MeasuredLines:
-        """The same on cells half as long."""
+        """The same lines on cells half as long."""
         return replace(self, cells=self.cells.halved())
 
     def _blend(self) -> int:

@@ -92,8 +92,8 @@ class Advance:
 
 
 def advance(march: March, until: float, solver: Solver, tolerance: float, shortest: float) -> Advance | None:
-    """One step towards ``until`` [s], the step halved so that none is left tiny; tried again shorter where its solve
-    fails or its error is above ``tolerance``. None: even the shortest [s] failed."""
+    """One step towards ``until`` [s]. It is halved where it would leave a tiny last step. Where its solve fails, or
+    its error is above ``tolerance``, it is tried again shorter. None: even the shortest step [s] failed."""
     rejected, step = 0, march.step
     while step >= shortest:
         left = until - march.time

@@ -78,8 +78,8 @@ def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, 
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
-    """The progress after every step from ``now`` on, until the end or until the shortest step fails (then the last time
-    is before ``plan.end``). What the caller keeps of it is all there is: a run goes on from any progress."""
+    """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
+    time is before ``plan.end``.) A run can go on from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
             step = advance(now.march, stop, solver, plan.tolerance, SHORTEST * plan.end)

@@ -43,7 +43,7 @@ def _millimetres(nu40: float, nu100: float) -> str:
 
 
 def _index(at_40: float, at_100: float) -> float:
-    """In mm²/s."""
+    """The viscosity index, from viscosities in mm²/s."""
     low, high = _low_high(at_100)
     if at_40 >= high:
         return 100 * (low - at_40) / (low - high)

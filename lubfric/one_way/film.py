@@ -1,8 +1,8 @@
 """The film in a given rough gap: Reynolds' equation in the reduced pressure, linear, with rupture.
 
-With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q whatever the viscosity law, so that one sparse matrix
-a gap holds it all. Cells in contact are walls. Q >= 0, outflow >= 0 where Q = 0, one of them zero (Swift-Stieber), by
-active sets. Constant density and no shear thinning: a gap that is given rests on neither.
+With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q, whatever the viscosity law. So one sparse matrix a gap
+is enough. Cells in contact are walls. Either Q > 0, or Q = 0 and outflow >= 0 (Swift-Stieber), by active sets. The
+density is constant and there is no shear thinning, because the gap is given and rests on neither.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """The pressure beyond which a film in a given gap is not believed.
 
-A rigid gap lets the pressure of a thin film rise without bound (Q reaches its largest value); in truth the bodies give
-way. What is believed ends where the lubricant as a Newtonian fluid would be sheared above the boundary friction,
-``eta(p) Δu/h = f_b p``: from there on a film rubs like a contact, and is one here. That limit follows from the fluid,
-the speed and the gap; docs/model-error.md tells how far f moves with it.
+A rigid gap lets the pressure of a thin film rise without bound (Q reaches its largest value). In truth the bodies give
+way. The limit is where the lubricant, as a Newtonian fluid, would be sheared above the boundary friction, ``eta(p) Δu/h
+= f_b p``. From there on a film rubs like a contact, and counts as one here. The limit follows from the fluid, the speed
+and the gap. docs/model-error.md tells how far f moves with it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Load sharing with the contact's own gap: dry contact, one film in its gap, one root F_C + F_H = F_T.
+"""Load sharing with the contact's own gap: a dry contact, one film in its gap, one root F_C + F_H = F_T.
 
-No area A and no volume balance: the contact shapes the gap, the film carries what it carries there and does not deform
-it (hence one-way). Where the gap of just touching surfaces carries more than the load, the bodies are lifted,
-undeformed.
+There is no area A and no volume balance. The contact shapes the gap. The film carries what it carries there, and does
+not deform it (hence one-way). Where the gap of just touching surfaces would carry more than the load, the bodies are
+lifted, undeformed.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Trial:
 
     @property
     def ruptured(self) -> np.ndarray:
-        """Where the film has (bool)."""
+        """Where the film has ruptured (bool)."""
         return self.film.ruptured
 
 

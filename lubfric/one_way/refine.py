@@ -13,8 +13,11 @@ from .point import OneWay, solve_one_way
 
 
 def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[OneWay, ...] = ()) -> tuple[OneWay, ...]:
-    """One-way load sharing at ``speed`` [m/s], not 0: on two grids, and on finer ones up to the map's own while the
-    estimate of `lubfric.deterministic.refine.estimate` is above ``numerics.tolerance``. ``start``: of a neighbour."""
+    """One-way load sharing at ``speed`` [m/s], which is not 0.
+
+    It is solved on two grids, and then on finer ones up to the map's own, while the estimate of
+    `lubfric.deterministic.refine.estimate` is above ``numerics.tolerance``. ``start``: the result of a neighbour.
+    """
     check_resolved_gap(scene)
     lay = layer(scene, surface, speed)
     found: list[OneWay] = []
@@ -29,7 +32,8 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
 
 
 def _near(start: tuple[OneWay, ...], found: list[OneWay], level: int) -> OneWay | None:
-    """What grid ``level`` begins from: the next coarser one, corrected by what the two differed in at the neighbour."""
+    """What grid ``level`` begins from: the next coarser one, corrected by what these two grids differed by at the
+    neighbour."""
     if level >= len(start) or not found:
         return found[-1] if found else start[0] if start else None
     coarse, here, coarser = found[-1], start[level], start[level - 1]

@@ -55,7 +55,7 @@ class Balance:
 
     @property
     def lubricated(self) -> Lubricated | None:
-        """Itself, where it has a film."""
+        """This balance, where it has a film; None where it has not."""
         return None
 
     @property
@@ -78,7 +78,7 @@ class Lubricated(Balance):
 
     @property
     def lubricated(self) -> Lubricated:
-        """Itself."""
+        """This balance."""
         return self
 
     @property

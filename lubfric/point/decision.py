@@ -51,7 +51,7 @@ class Decision:
 
     @property
     def text(self) -> str:
-        """In words, the number beside its budget."""
+        """The decision in words, each number beside its budget."""
         parts = (self.film_text, self._contact(), self._grid(), self.deflection, self.heat, *self.notes)
         return "; ".join(part for part in parts if part)
 

@@ -62,7 +62,7 @@ def on_grid(
 
 
 def _left_out(point: OperatingPoint, balance: Lubricated) -> LeftOut:
-    """By the film of ``balance``."""
+    """What the film of ``balance`` leaves out."""
     return point.settings.level.left_out(balance.film, point.line(balance.film_load), math.inf)
 
 

@@ -46,7 +46,7 @@ class Start:
 
     @property
     def least_cells(self) -> int:
-        """Of the next film."""
+        """Least number of cells of the next film."""
         return max(self.solved[1:], default=0)
 
 
@@ -71,7 +71,7 @@ class OperatingPoint:
 
     @property
     def scene(self) -> Scene:
-        """Of the model."""
+        """The scene of the model."""
         return self.prepared.scene
 
     def line(self, film_load: float) -> LineContact:
@@ -148,7 +148,7 @@ class OperatingPoint:
 
     @cached_property
     def _film_lubricant(self) -> Lubricant:
-        """As viscous as it is in the inlet."""
+        """The lubricant, as viscous as it is in the inlet."""
         return film_lubricant(self.scene, self.speed)
 
     @property

@@ -109,7 +109,7 @@ class AsperityContact(RoughContact):
         return Grid(self.heights.shape, self.spacing)
 
     def again(self, scene: Scene, old: Scene) -> AsperityContact:
-        """On the same heights."""
+        """The contact for another scene, on the same heights."""
         check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return asperities_under_cylinder(scene, self.heights, self.spacing)
 

@@ -13,11 +13,11 @@ APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 
 def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
     """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
-    ``reading``: "volume" or "mean-plane" (`lubfric.rough.asperities`) of heights [m] about their mean. The flat
-    comes down until ``heaviest`` [Pa] is carried, or, where the model cannot carry it, to the deepest valley
-    (to the mean plane itself for "mean-plane"): the curve then ends at the most it carries. Patches that grow
-    together carry less than before; such nodes are left out, so the pressure rises along the curve. The search
-    ends below half of the most that was carried.
+    ``reading``: "volume" or "mean-plane" (`lubfric.rough.asperities`) of heights [m] about their mean. The flat comes
+    down until ``heaviest`` [Pa] is carried. Where the model cannot carry it, the flat comes down to the deepest valley
+    (to the mean plane for "mean-plane"), and the curve ends at the most it carries. Patches that grow together carry
+    less than before. Such nodes are left out, so that the pressure rises along the curve. The search ends below half of
+    the most that was carried.
     """
     asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))

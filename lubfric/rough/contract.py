@@ -1,8 +1,8 @@
-"""What every rough contact under a film answers: all that an implementer needs to know.
+"""What every rough contact under a film must offer. This is all that an implementer needs to know.
 
-`RoughContact` is the contract: `close` and `carry` have to be written, the rest has defaults that suit a contact which
-is always solved as it stands. `lubfric.prepare` takes one from outside (``contact``); the balance asks nothing else of
-it.
+`RoughContact` is the contract. `close` and `carry` have to be written. The rest has defaults that suit a contact which
+is always solved as it stands. `lubfric.prepare` takes one from outside (``contact``), and the balance asks nothing else
+of it.
 """
 
 from __future__ import annotations
@@ -21,11 +21,13 @@ from ..scene import Bodies, Scene
 class ContactState:
     """A rough contact at one division of the load: both sides of the volume balance, Eq. (8), and where it touches.
 
-    mean_gap [m]: lubricant volume per area of A between the rough surfaces; mean_film [m]: the same between the smooth
-    ones; contact_fraction (nx,): share of the width in contact at each ``x`` [m]; real_contact_area_fraction,
-    plastic_area_fraction: of the area A. fields: pressure and gap on the contact grid, (nx, ny) (None: separated, or a
-    contact that has none); pressure [Pa] (nx, ny): what a neighbour may start from; y [m] (ny,): of their
-    cells; gap_error [m]: estimated error of mean_gap where it is read off a curve.
+    - ``mean_gap`` [m]: lubricant volume per area of A between the rough surfaces; ``mean_film`` [m]: the same between
+      the smooth ones.
+    - ``contact_fraction`` (nx,): share of the width in contact at each ``x`` [m]; ``real_contact_area_fraction``,
+      ``plastic_area_fraction``: of the area A.
+    - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
+      (ny,): of their cells.
+    - ``pressure`` [Pa] (nx, ny): what a neighbour may start from.
     """
 
     mean_gap: float
@@ -75,10 +77,10 @@ class Grid(NamedTuple):
 
 
 class RoughContact:
-    """A rough contact under a film, immutable; loads in N on the whole width of the line.
+    """A rough contact under a film, immutable. Loads are in N on the whole width of the line.
 
-    name: a property, in `Decision.text`; x [m] (nx,), around the line of contact: where the film is asked for; weight
-    (nx,): part of each of them inside the area A of Eq. (8).
+    ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the film is asked for, around the line of contact;
+    ``weight`` (nx,): the part of each of them inside the area A of Eq. (8).
     """
 
     x: np.ndarray
@@ -86,7 +88,7 @@ class RoughContact:
 
     @property
     def name(self) -> str:
-        """In words."""
+        """The contact in words."""
         raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
@@ -116,7 +118,7 @@ class RoughContact:
         return None
 
     def tightened(self, tolerance: float) -> RoughContact:
-        """The same, solved to ``tolerance``."""
+        """The same contact, solved to ``tolerance``."""
         return self
 
     def coarsened(self) -> RoughContact | None:
@@ -137,16 +139,17 @@ class RoughContact:
         return self
 
     def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
-        """Nothing outside of ``part``, cut from this one, touches; ``shape`` (nx,) [m], on this one's x."""
+        """Whether nothing outside of ``part``, which was cut from this contact, touches. ``shape`` (nx,) [m] is
+        given on the x of this contact."""
         return True
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` where ``state``, of this contact, a part of it or coarser cells, is cut short by its
-        ends."""
+        """Raise `InputError` where ``state`` is cut short by the ends of the patch. The state is of this contact, of
+        a part of it, or of coarser cells."""
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """Raise `InputError` where it is clear, before any film is solved, that `check` will: ``film`` [m] is about
-        what the smooth film of the whole load is."""
+        """Raise `InputError`, before any film is solved, where it is clear that `check` will. ``film`` [m]: about
+        the smooth film of the whole load."""
 
     def again(self, scene: Scene, old: Scene) -> RoughContact:
         """The same map for ``scene``, of another load, motion or tolerance than ``old``, for which it was made; raises

@@ -52,19 +52,19 @@ class FlatContact(RoughContact):
         )
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """A film thinner than the gap at the heaviest load of the curve gives that load: a lower bound, which the
-        volume residual of the state shows."""
+        """A film thinner than the gap at the heaviest load of the curve gives that load. It is a lower bound, and
+        the volume residual of the state shows that."""
         load = self.curve.pressure_at(float(np.mean(film))) * self.area
         return load, self.close(film, load)
 
     @property
     def name(self) -> str:
-        """What it is read from."""
+        """The curve that it is read from, in words."""
         return "flat periodic curve"
 
     @property
     def nominally_flat(self) -> bool:
-        """Yes."""
+        """True: its load is spread evenly over the Hertz strip."""
         return True
 
     def again(self, scene: Scene, old: Scene) -> FlatContact:

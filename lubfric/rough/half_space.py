@@ -72,7 +72,7 @@ class HalfSpaceContact(HalfSpaceGrid):
 
     @property
     def name(self) -> str:
-        """As in ``numerics.contact_level``."""
+        """Its name, as in ``numerics.contact_level``."""
         return "semi-periodic"
 
     @property
@@ -81,7 +81,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return self.tolerance
 
     def tightened(self, tolerance: float) -> HalfSpaceContact:
-        """The same, solved to ``tolerance``."""
+        """The same contact, solved to ``tolerance``."""
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:
@@ -110,12 +110,14 @@ class HalfSpaceContact(HalfSpaceGrid):
             )
 
     def _given_way(self, bodies: Bodies) -> bool:
-        """Whether the patch, all of it at its hardness, carries less than the whole load: no dry contact to look at."""
+        """Whether the patch, with all of it at its hardness, carries less than the whole load. Then there is no dry
+        contact to look at."""
         length = self.x.size * self.spacing[0]
         return self.hardness is not None and self.hardness * length * self.width <= bodies.load
 
     def _on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns; one of coarser cells counts by the part of it that is one of these."""
+        """Share of the load on the edge columns. A coarser cell counts by the part of it that is one of these
+        columns."""
         if state.pressure is None or self.x.size <= 2:
             return 0.0
         cell, step = state.x[1] - state.x[0], self.spacing[0]
@@ -123,7 +125,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return step / cell * float(sum(state.pressure[i].sum() for i in ends) / state.pressure.sum())
 
     def again(self, scene: Scene, old: Scene) -> HalfSpaceContact:
-        """With the same operator."""
+        """The contact for another scene, with the same operator."""
         check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
         return half_space_contact(scene, self.heights, self.spacing, self.operator)
 

@@ -1,5 +1,4 @@
-"""The grid of a half-space contact under a cylinder: on coarser cells, on fewer columns, from another grid's
-pressure."""
+"""The grid of a half-space contact under a cylinder: coarser cells, fewer columns, and the pressure of another grid."""
 
 from __future__ import annotations
 

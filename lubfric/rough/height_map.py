@@ -1,4 +1,4 @@
-"""The height map a scene asks for, on its contact grid, periodic where the contact is."""
+"""The height map that a scene asks for, on its contact grid, periodic where the contact is."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
 
 
 def check_grid(scene: Scene, surface: Surface) -> None:
-    """Raise `InputError` for slopes no surface has, a strip that the cells do not resolve, a patch that does not hold
-    it."""
+    """Raise `InputError` for slopes that no surface has, for cells that do not resolve the strip, and for a patch
+    that does not hold it."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
         raise InputError(
@@ -106,7 +106,8 @@ def other_seed(seed: int) -> int:
 
 
 def measured_map(rough: Roughness) -> Surface:
-    """A map from a file: form off, outliers dealt with, filtered, filled, turned and scaled as ``rough`` says."""
+    """A map from a file, prepared as ``rough`` says: form taken off, outliers dealt with, filtered, filled, turned
+    and scaled."""
     surface = read_surface(
         rough.file,
         spacing=rough.spacing,
@@ -127,8 +128,8 @@ def measured_map(rough: Roughness) -> Surface:
 
 
 def refuse_outliers(surface: Surface) -> None:
-    """Raise `InputError` for points that stand alone above their neighbours: they, and no roughness, would carry the
-    load."""
+    """Raise `InputError` for points that stand alone above their neighbours. They would carry the load, and they are
+    no roughness."""
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:

@@ -48,7 +48,7 @@ class LineRecord:
 
 
 def length_of(contact) -> float:
-    """Of a line [m]."""
+    """Length of a line [m]."""
     return contact.heights.shape[1] * contact.spacing[1]
 
 

@@ -119,14 +119,14 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
 
 def _from_slope(point: Solved) -> Response:
     """The `Response` from the slope of the balance alone; nothing is solved. Films are taken to follow the load as
-    rigid ones do, which is more than elastic ones do. f follows by the sensitivity of `Forces`."""
+    rigid ones do, which is more than elastic ones do. f follows by its sensitivity to the gap (`Forces`)."""
     balance = point.balance
     film, total = balance.contact.mean_film, balance.contact_load + balance.film_load
     slope = balance.slope or 0.5 * balance.contact_load * balance.film_load / total**2
     split = -0.5 / (slope * film)
     share = balance.contact_load / total
     rates = {
-        "coefficient": point.balance.forces.sensitivity / abs(split * film),
+        "coefficient": point.balance.forces.gap_sensitivity / abs(split * film),
         "contact_load": share - 1,
         "boundary_force": share - 1,
         "film_load": share,

@@ -51,7 +51,7 @@ class Sample:
 
     @property
     def lines(self) -> Lines:
-        """Of the model."""
+        """The lines of the model."""
         return lines_of_model(self.prepared)
 
     @property

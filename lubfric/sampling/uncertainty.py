@@ -44,7 +44,7 @@ class Uncertainty:
 
     @property
     def text(self) -> str:
-        """In words."""
+        """How sure f is, in words."""
         first = f"f within {self.interval[0]:.4g} .. {self.interval[1]:.4g} (95 %): numerical {percent(self.numerical)}"
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
@@ -82,7 +82,7 @@ class UncertaintyCurve:
 
 
 def curve_of(points) -> UncertaintyCurve:
-    """Of ``points``, each an `Uncertainty` or None."""
+    """The `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
     columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
     return UncertaintyCurve(**columns, interval=both, text=tuple("" if p is None else p.text for p in points))

@@ -104,7 +104,7 @@ class Numerics(Brief):
 
     @property
     def tolerances(self) -> Tolerances:
-        """As given, or as they follow from ``tolerance``."""
+        """The tolerances of the parts, as given or as they follow from ``tolerance``."""
         asked = self.tolerance
         return Tolerances(
             film=self.film_tolerance or min(budget.FILM_GRID * asked, budget.FIRST_FILM),

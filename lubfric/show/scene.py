@@ -14,7 +14,7 @@ MANY = 8  # values of a list that are shown
 
 
 class SceneShown(Shown):
-    """What `lubfric.Scene`, whose fields these are, shows."""
+    """How a `lubfric.Scene` prints. The fields are those of it."""
 
     name: str
     bodies: Any

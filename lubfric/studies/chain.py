@@ -31,7 +31,7 @@ class Chain:
 
     @property
     def name(self) -> str:
-        """Of its state in a journal."""
+        """Name of its state in a journal."""
         return self.keys[0]
 
 

@@ -36,7 +36,7 @@ class Curve:
 
     @property
     def name(self) -> str:
-        """Of its state in a journal."""
+        """Name of its state in a journal."""
         return self.chains[0].name if self.chains else self.whole
 
 

@@ -37,7 +37,7 @@ class Piece:
 
     @property
     def name(self) -> str:
-        """Of its mark in a journal."""
+        """Name of its mark in a journal."""
         return self.batch.curves[0].name
 
     def left(self, chain: Chain) -> bool:

@@ -1,4 +1,5 @@
-"""The scene of one moment: a history's values where the scene has its constants; and the inlet that warms itself."""
+"""The scene of one moment: the values of the histories take the place of its constants. And the inlet that heats
+itself."""
 
 from __future__ import annotations
 
@@ -70,8 +71,8 @@ class SceneInTime:
 
 @dataclass(frozen=True)
 class WarmInlet(History):
-    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around: the inlet
-    is passed in less than b/U, so that its heat is that of steady motion."""
+    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The
+    inlet is passed in less than b/U, so its heat is that of steady motion."""
 
     source: SceneInTime
 
@@ -84,11 +85,11 @@ class WarmInlet(History):
         return _warm(self.source.at(time))
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """Of all histories."""
+        """Those of all histories."""
         return tuple(sorted({t for h in self.source.histories for t in h.stops(duration)}))
 
     def jumps(self, duration: float) -> tuple[float, ...]:
-        """Of all histories."""
+        """Those of all histories."""
         return tuple(sorted({t for h in self.source.histories for t in h.jumps(duration)}))
 
     def range(self, duration: float) -> tuple[float, float]:
@@ -103,8 +104,8 @@ class WarmInlet(History):
 
 
 def inlet_viscosity(source: SceneInTime) -> History:
-    """The viscosity [Pa s] that the film is solved with: the scene's or its history, or that of a warm inlet where its
-    heat would thin the film by more than its share of the tolerance at some time."""
+    """The viscosity [Pa s] that the film is solved with: that of the scene, or its history. Where the heat of the
+    inlet would thin the film by more than its share of the tolerance at some time, that of a warm inlet."""
     scene, plan = source.scene, source.plan
     cold = plan.viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:

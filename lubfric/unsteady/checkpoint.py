@@ -1,8 +1,8 @@
-"""A run's state on disk: written whole after every step, so that a kill loses nothing that was computed.
+"""The state of a run on disk. It is written whole after every step, so that a kill loses nothing that was computed.
 
-One file of plain arrays (no pickle) with a checksum, replaced atomically, with a fingerprint of the problem; rows and
-fields of the outputs so far are appended to two binary files beside it. The state knows how long these were and what
-their bytes hashed to; a resume cuts off what a kill left behind that, and refuses what was damaged.
+The state is one file of plain arrays (no pickle) with a checksum and a fingerprint of the problem. It is replaced
+atomically. Rows and fields of the outputs so far are appended to two binary files beside it. The state knows how long
+these were and the hash of their bytes. A resume cuts off what a kill left behind that, and refuses what was damaged.
 """
 
 from __future__ import annotations

@@ -40,10 +40,12 @@ class BalanceNow:
 def film_shear(
     sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution
 ) -> tuple[ShearForce, Heat]:
-    """Forces [N] on the upper surface along +x: B ∫ tau dx over the pressurised film, tau of eta (u2 - u1)/h, and B ∫
-    (h/2) dp/dx dx, both without the share of the width in contact, with the inlet tails; and the heat that is in
-    them. ``scene``: of the moment. Film and surfaces are taken to be as hot as in steady motion at the speeds of the
-    moment."""
+    """Forces [N] on the upper surface along +x, and the heat that is in them.
+
+    They are B ∫ tau dx over the pressurised film, with tau = eta (u2 - u1)/h, and B ∫ (h/2) dp/dx dx. Both leave out
+    the share of the width in contact, and have the inlet tails. ``scene``: that of the moment. Film and surfaces are
+    taken to be as hot as in steady motion at the speeds of the moment.
+    """
     balance = _balance(sharing, scene, solution)
     isothermal = _shear(sharing, scene, time, sliding, solution)
     if balance.film is None:

@@ -1,4 +1,4 @@
-"""The line of a run in time: as long as the steady balance asks at the speeds that the run goes through."""
+"""The line of a run in time. It is as long as the steady balance asks at the speeds that the run goes through."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 
 def long_enough(prepared: Prepared, plan: Transient) -> Prepared:
     """``prepared`` on a line as long as `lubfric.friction` takes for ``numerics.sampling_tolerance`` at the worst of
-    four speeds of ``plan``, or as memory and map hold; itself where it stands on one patch or its line will do."""
+    four speeds of ``plan``, or as memory and map hold.
+
+    ``prepared`` itself where it stands on one patch, or where its line is long enough.
+    """
     lines = prepared.lines
     if lines is None:
         return prepared

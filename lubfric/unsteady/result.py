@@ -27,10 +27,12 @@ MANY = 30  # blocks less one: of a line
 class TimeAverage:
     """The mean of f over a run in time, and relative standard deviations.
 
-    sampling: of ``coefficient``, because one finite line of rough surface stands for all of it: at all times the same,
-    so no time makes it smaller. fixed_scatter: how the averages of real lines of the contact's width differ from place
-    to place where the same spots stay in contact; moving_scatter: the same where the rough surface moves through the
-    contact with the entrainment speed and other spots carry the load every `TransientResult.renewal`.
+    - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. It is the same
+      line at all times, so a longer run does not make it smaller.
+    - ``fixed_scatter``: how averages of real lines of the contact's width differ from place to place, where the same
+      spots stay in contact.
+    - ``moving_scatter``: the same where the rough surface moves through the contact with the entrainment speed. Then
+      other spots carry the load every `TransientResult.renewal`.
     """
 
     coefficient: float
@@ -74,7 +76,7 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """Of f over the run, and what its scatter is, fixed and moving."""
+        """The average of f over the run, and its scatter, fixed and moving."""
         weight = np.gradient(self.time) if self.time.size > 1 else np.ones(1)
         mean = float(np.average(self.coefficient, weights=weight))
         sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)

@@ -45,7 +45,7 @@ class Run:
         return plan_of(times, histories, setting.first_step, tolerance)
 
     def begun(self) -> Progress:
-        """At t = 0."""
+        """The progress at t = 0."""
         setting = self.sharing.setting
         return Progress(March((setting.level(0.0, self.start),), setting.first_step, self.start.payload))
 
@@ -59,7 +59,7 @@ class Run:
         return share_step(self.sharing, time, memory, z, past)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """Of the film."""
+        """Error of the film."""
         return self.sharing.setting.error_of(solution, difference)
 
 

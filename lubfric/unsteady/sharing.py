@@ -1,4 +1,4 @@
-"""Load sharing in time: a film that remembers its past and the rough contact carry the load of the moment."""
+"""Load sharing in time: a film that remembers its past shares the load of the moment with the rough contact."""
 
 from __future__ import annotations
 
