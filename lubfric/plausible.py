@@ -33,7 +33,7 @@ USUAL = {
     "bodies.radius": Usual(2e-4, 1.0, "m", (("mm", 1e-3), ("um", MICRO))),
     "bodies.radii": Usual(2e-4, 3.0, "m", (("mm", 1e-3),)),
     "bodies.width": Usual(1e-4, 1.0, "m", (("mm", 1e-3),)),
-    "bodies.load": Usual(1e-2, 1e6, "N", (("kN", 1e3), ("MN", 1e6))),
+    "bodies.load": Usual(0.3, 1e6, "N", (("kN", 1e3), ("MN", 1e6))),
     "bodies.e_prime": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
     "bodies.young_modulus": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
     "bodies.hertz_pressure": Usual(1e6, 5e9, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
@@ -42,23 +42,28 @@ USUAL = {
     "lubricant.viscosity": Usual(3e-4, 5.0, "Pa s", (("mPa s|for mm²/s give grade, or nu40 and nu100", 1e-3),)),
     "lubricant.nu40": Usual(1e-6, 5e-3, "m²/s", (("mm²/s", MICRO),)),
     "lubricant.nu100": Usual(5e-7, 1e-3, "m²/s", (("mm²/s", MICRO),)),
-    "lubricant.pressure_viscosity_coefficient": Usual(1e-9, 8e-8, "1/Pa", (("1/GPa", NANO),)),
+    "lubricant.pressure_viscosity_coefficient": Usual(1e-9, 8e-8, "1/Pa", (("1/GPa", NANO), ("1/MPa", MICRO))),
+    "lubricant.viscosity_index": Usual(10.0, 600.0, "-"),
     "lubricant.eyring_stress": Usual(3e5, 5e7, "Pa", (("MPa", 1e6),)),
     "lubricant.limiting_stress_coefficient": Usual(0.01, 0.25, "-", (("%", 1e-2),)),
     "lubricant.limiting_stress_offset": Usual(0.0, 5e7, "Pa", ()),
     "lubricant.temperature": Usual(220, 500, "K", ()),
     "lubricant.density": Usual(700, 1300, "kg/m³", (("g/cm³", 1e3),)),
     "motion.entrainment_speed": Usual(0.0, 100.0, "m/s", (("mm/s", 1e-3),)),
+    "motion.speeds": Usual(0.0, 100.0, "m/s", (("mm/s", 1e-3),)),
     "motion.slide_roll_ratio": Usual(0.0, 2.0, "-", (("%|give slip_percent", 1e-2),)),
-    "surface.sq": Usual(5e-10, 2e-5, "m", (("um", MICRO), ("nm", NANO))),
+    "surface.sq": Usual(5e-10, 2e-5, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
     "surface.correlation_length": Usual(1e-8, 2e-3, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
     "surface.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
+    "numerics.tolerance": Usual(1e-4, 0.2, "-", (("%", 1e-2),)),
+    "numerics.sampling_tolerance": Usual(1e-3, 0.5, "-", (("%", 1e-2),)),
     "contact.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
 }
 NOUGHT = (
     "lubricant.pressure_viscosity_coefficient",
     "bodies.boundary_friction_coefficient",
     "motion.entrainment_speed",
+    "motion.speeds",
     "motion.slide_roll_ratio",
     "surface.sq",
 )
@@ -103,13 +108,21 @@ def doubts(scene) -> tuple[Doubt, ...]:
     found = []
     for name, usual in USUAL.items():
         section, key = name.split(".")
-        value = getattr(getattr(scene, section), key, None)
+        value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section), key, None)
         for one in value if isinstance(value, (list, tuple)) else (value,):
             meant = None if one is None else slip(name, one)
             if meant is not None:
                 limit = usual.high if abs(one) > usual.high else usual.low
                 found.append(Doubt(name, float(one), limit, usual.unit, meant))
     return tuple(found)
+
+
+def _index(scene) -> float | None:
+    """Viscosity index of the oil; None without one, or of an oil so thin that it has none."""
+    try:
+        return None if scene.lubricant.oil is None else round(scene.lubricant.oil.index, 6)
+    except InputError:
+        return None
 
 
 @contextmanager

@@ -6,6 +6,7 @@ import os
 import tomllib
 from copy import deepcopy
 from dataclasses import fields
+from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 
@@ -101,7 +102,10 @@ def _map_path(name: str, given, folder: Path) -> Path:
             return path
     except (TypeError, ValueError, OSError):
         pass
-    raise InputError(f"{name} = {validate.shown(str(given))}: no such file{f' in {folder}' if folder.name else ''}")
+    near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
+    meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
+    where = f" in {folder}" if folder.name else ""
+    raise InputError(f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; allowed: a path from there")
 
 
 def builtin_scenes() -> tuple[str, ...]:

@@ -13,6 +13,7 @@ INSTEAD = {  # of a missing key
     "bodies.radius": " in m, or radii of both bodies",
     "bodies.width": " in m",
     "bodies.load": " in N, or hertz_pressure in Pa",
+    "bodies.boundary_friction_coefficient": " of the contact spots (some 0.1)",
     "bodies.e_prime": " in Pa, or material, or young_modulus and poisson_ratio",
     "motion.entrainment_speed": " in m/s, or surface_speeds of both bodies",
 }

@@ -15,6 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
+from .parent import end_with_parent
 from .studies import Study
 
 EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
@@ -102,7 +103,7 @@ def run(
             yield run_one(study, level, progress)
         return
     fresh = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=fresh, max_tasks_per_child=1) as pool:
+    with ProcessPoolExecutor(workers, mp_context=fresh, initializer=end_with_parent, max_tasks_per_child=1) as pool:
         waiting = [pool.submit(run_one, study, level, quiet) for study in studies]
         for study, future in zip(studies, waiting):
             announce(study)

@@ -7,10 +7,10 @@ A roller of 10 mm runs on a plane at 2 m/s, with ISO VG 68 at 70 °C.
 Left: friction over the slide-roll ratio at three Hertz pressures. The full lines have the heat of inlet, film and
 surfaces, the dashed lines leave it out.
 
-Right: without heat the curves fall on one, as Jacod, Venner and Lugt (Tribol. Trans. 44 (2001) 248-254) found. The
-characteristic stress is eta(mean pressure) du/h. Above about the Eyring stress, friction in units of the Eyring stress
-over the mean pressure depends on it alone. Below, the film is nearly Newtonian, and the points at 0.5 GPa lie above the
-grey line of one even pressure.
+Right: without heat the curves fall on one, as Jacod, Venner and Lugt found (J. Tribol. 123 (2001) 248-253,
+doi:10.1115/1.1308021). The characteristic stress is eta(mean pressure) du/h. Above about the Eyring stress, friction in
+units of the Eyring stress over the mean pressure depends on it alone. Below, the film is nearly Newtonian, and the
+points at 0.5 GPa lie above the grey line of one even pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -8,7 +8,9 @@ from .interpolate import Interpolant, Samples, knee_of
 
 CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to look
 TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
+WIDE = 12.0  # ratio of neighbouring speeds without contact from which one between them is solved
 ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
+SHARE, MANY = 0.85, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
 APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
@@ -20,8 +22,8 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     ``tried``: speeds that failed, which are left alone.
 
     First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
-    before how it ends. Then the speed at which the error is estimated to be largest, until that is below ``tolerance``
-    everywhere.
+    before how it ends. No two films are left far apart. Then the speed at which the error is estimated to be largest,
+    until that is below ``tolerance`` everywhere; with few speeds, below 0.85 of it.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)
@@ -29,10 +31,10 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     taken = np.append(speeds, np.asarray(tried, dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
-    for wanted in _about_the_knee(samples, knee):
+    for wanted in (*_about_the_knee(samples, knee), *_between_films(samples)):
         if _about(wanted, taken) < ENOUGH and _free(np.array([wanted]), taken)[0]:
             return wanted, largest
-    if largest <= tolerance:
+    if largest <= (tolerance if speeds.size >= MANY else SHARE * tolerance):
         return None, largest
     return float(at[error.argmax()]), largest
 
@@ -44,6 +46,12 @@ def _about_the_knee(samples: Samples, knee: float | None) -> list[float]:
     fastest, slowest = samples.speed[samples.contacts - 1], samples.speed[samples.contacts]
     above = [ABOVE * knee] if slowest > CLOSE * knee else []
     return [*above, BELOW * knee] if fastest < TOUCHING * knee else above
+
+
+def _between_films(samples: Samples) -> list[float]:
+    """Speeds [m/s] in the middle of what is too wide to be judged from its ends."""
+    films = samples.speed[samples.contacts :]
+    return [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]
 
 
 def _about(speed: float, taken: np.ndarray) -> int:

@@ -50,9 +50,10 @@ def gold(nu: float, base: str) -> Estimate:
     the temperature in question and ambient pressure.
 
     Source: P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synthetic Lubrication 18 (2001) 51-79,
-    doi:10.1002/jsl.3000180105. Only one source of the coefficients was at hand. Measured mineral oils have up to 1.63
-    times as much, an aromatic ester 1.9, a polypropylene glycol 1.7 times. The range stated is 0.85 to 1.65 times
-    (ester 2.1, polyglycol 1.75).
+    doi:10.1002/jsl.3000180105. A second source, a public program for gears (GEARpie), has the same digits, but those of
+    s and t exchanged, and PAO and ester the other way round. Measured mineral oils have up to 1.63 times as much, an
+    aromatic ester 1.9, a polypropylene glycol 1.7 times. The range stated is 0.85 to 1.65 times (ester 2.1, polyglycol
+    1.75).
     """
     nu, base = validate.positive("nu", nu, "m²/s", maximum=1.0), validate.choice("base", base, BASES)
     s, t = GOLD[base]

@@ -52,7 +52,9 @@ class ContactDomain(Brief):
                     f"contact.shape = {validate.shown(self.shape)} must be a pair (nx, ny) of whole numbers >= 1"
                 )
             object.__setattr__(
-                self, "shape", tuple(validate.integer("contact.shape", n, minimum=1) for n in self.shape)
+                self,
+                "shape",
+                tuple(validate.integer("contact.shape (cells of contact.spacing)", n, minimum=1) for n in self.shape),
             )
             cells = math.prod(self.shape)
             if cells > LARGEST:

@@ -38,8 +38,8 @@ def explain(plan) -> str:
         started = "each point started from the nearest of its curve"
     cells, seconds, failed = _costs(plan)
     lines += [
-        f"  shared         {len(maps)} height maps ({cells} cells the largest grid), {len(plan.batches)} batches that "
-        f"share map and operator, {started}",
+        f"  shared         {_count(maps, 'height map')} ({cells} cells the largest grid), "
+        f"{_count(plan.batches, 'batch')}, each of one map and operator, {started}",
         f"  time           {_foretold(plan, seconds)}",
         f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process "
         "while it runs",
@@ -51,10 +51,9 @@ def explain(plan) -> str:
 def _foretold(plan, seconds: float) -> str:
     if plan.scene.numerics.model == "deterministic" or plan.scene.numerics.closure == "one-way":
         return "not foretold where the fluid between the asperities is solved for"
-    return (
-        f"about {_time(seconds)} on one core (within a factor of 3), divided by the number of processes up to "
-        f"{len(plan.batches)}"
-    )
+    most = len(plan.batches)
+    shared = f", divided by the number of processes up to {most}" if most > 1 else ", in one process: it is one batch"
+    return f"about {_time(seconds)} on one core (within a factor of 3){shared}"
 
 
 def _costs(plan) -> tuple[int, float, list[str]]:
@@ -92,6 +91,11 @@ def _points(curves: list[tuple[Scene, Ground]], speeds: tuple[float, ...]) -> fl
         at = speeds or first_speeds(scene, ground.sq)
         found += sum(point_seconds(scene, ground, u, film) for u in at) * (1.0 if speeds else CHOSEN / len(at))
     return found
+
+
+def _count(things, name: str) -> str:
+    plural = "" if len(things) == 1 else "es" if name.endswith("ch") else "s"
+    return f"{len(things)} {name}{plural}"
 
 
 def _short(value) -> str:

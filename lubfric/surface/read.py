@@ -130,7 +130,8 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
         _refuse(suffix, spacing=spacing)
     elif spacing is None:
         raise InputError(
-            f"spacing of {path.name} is missing: the file does not carry it; allowed: one length or (dx, dy) in m"
+            f"spacing of {path.name} is missing: the file does not carry it; allowed: one length or (dx, dy) in m "
+            "(of a scene: surface.spacing)"
         )
     return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
 

@@ -14,53 +14,57 @@ SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"model": "deterministic", "grid": "given"}
 )
 MODEL = lubfric.prepare(SCENE)
-POINT = lubfric.friction(MODEL, 0.01)
 
 
-def test_the_words_of_a_result_keep_their_meaning():
-    found, b = POINT.deterministic.result, SCENE.bodies
-    assert POINT.contact_load + POINT.film_load == pytest.approx(b.load)
-    assert POINT.coefficient * b.load == pytest.approx(POINT.boundary_force + POINT.shear_force)
-    assert POINT.boundary_force == pytest.approx(0.09 * POINT.contact_load)
+@pytest.fixture(scope="module")
+def point():
+    return lubfric.friction(MODEL, 0.01)
+
+
+def test_the_words_of_a_result_keep_their_meaning(point):
+    found, b = point.deterministic.result, SCENE.bodies
+    assert point.contact_load + point.film_load == pytest.approx(b.load)
+    assert point.coefficient * b.load == pytest.approx(point.boundary_force + point.shear_force)
+    assert point.boundary_force == pytest.approx(0.09 * point.contact_load)
     (dx, dy), ny = found.spacing, found.pressure.shape[1]
     spots = found.pressure[found.spots].sum() * dx * dy * b.width / (ny * dy)
-    assert spots == pytest.approx(POINT.contact_load)
-    assert POINT.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))
-    assert POINT.balance is None and np.isnan(POINT.volume_residual) and POINT.report.converged
-    assert "deterministic" in POINT.decision.film and "estimated error" in POINT.report.notes[0]
+    assert spots == pytest.approx(point.contact_load)
+    assert point.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))
+    assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
+    assert "deterministic" in point.decision.film and "estimated error" in point.report.notes[0]
 
 
-def test_it_is_not_far_from_load_sharing_and_not_the_same():
+def test_it_is_not_far_from_load_sharing_and_not_the_same(point):
     shared = lubfric.friction(lubfric.prepare(SCENE.with_(numerics={"model": "full"}), like=MODEL), 0.01)
-    assert POINT.coefficient == pytest.approx(shared.coefficient, rel=0.25)
-    assert abs(POINT.mean_gap / shared.mean_gap - 1) > 1e-3
+    assert point.coefficient == pytest.approx(shared.coefficient, rel=0.25)
+    assert abs(point.mean_gap / shared.mean_gap - 1) > 1e-3
 
 
-def test_no_entrainment_and_the_other_way_round():
+def test_no_entrainment_and_the_other_way_round(point):
     still = lubfric.friction(MODEL, 0.0)
     assert still.coefficient == pytest.approx(0.09) and still.film_load == 0
     surface = MODEL.surface
     from dataclasses import replace
 
     turned = lubfric.prepare(SCENE, surface=replace(surface, heights=surface.heights[::-1]))
-    assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(POINT.coefficient, rel=1e-6)
+    assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(point.coefficient, rel=1e-6)
 
 
-def test_a_sweep_starts_from_neighbours_and_keeps_fields_only_where_asked():
+def test_a_sweep_starts_from_neighbours_and_keeps_fields_only_where_asked(point):
     speeds = [0.02, 0.01, 0.005]
     curve = lubfric.stribeck(MODEL, speeds, fields=[0.005])
     assert np.all(np.diff(curve.contact_load) > 0) and np.all(np.isfinite(curve.mean_gap))
-    assert curve.coefficient[1] == pytest.approx(POINT.coefficient, rel=1e-4)
+    assert curve.coefficient[1] == pytest.approx(point.coefficient, rel=1e-4)
     assert curve.points[1].deterministic is None and curve.points[2].deterministic.result.pressure.shape[1] == 64
     alone = lubfric.friction(MODEL, 0.005).deterministic.result.report.iterations
     assert curve.points[2].deterministic.result.report.iterations < alone + 1
 
 
-def test_a_result_can_be_stored_and_started_from_again():
-    again = decode(b"".join(encode(POINT)))
-    assert np.array_equal(again.deterministic.result.pressure, POINT.deterministic.result.pressure)
+def test_a_result_can_be_stored_and_started_from_again(point):
+    again = decode(b"".join(encode(point)))
+    assert np.array_equal(again.deterministic.result.pressure, point.deterministic.result.pressure)
     assert lubfric.friction(MODEL, 0.008, start=again).coefficient == pytest.approx(
-        lubfric.friction(MODEL, 0.008, start=POINT).coefficient, rel=1e-12
+        lubfric.friction(MODEL, 0.008, start=point).coefficient, rel=1e-12
     )
 
 

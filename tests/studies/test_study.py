@@ -364,7 +364,10 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     text = plan.explain()
     for words in ("1200 points", "2 x bodies.load from 3 to 5.5", "60 speeds", "2 height maps", "60 warm-started"):
         assert words in text, text
-    assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
+    assert "divided by the number of processes up to" in text and " batches, each of one map" in text
+    one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
+    assert "cannot be solved: correlation_length" in one and "1 height map (" in one
+    assert "in one process: it is one batch" in one and "up to 1" not in one
 
 
 # tables
@@ -392,6 +395,20 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
         np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
     serial.to_parquet(tmp_path / "study.parquet")
     assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
+
+
+def test_zarr_round_trip(serial, tmp_path):
+    """Numbers, names of the axes, status and units, read by xarray alone."""
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("zarr", "3")
+    data = serial.to_xarray()
+    data.to_zarr(tmp_path / "study.zarr", zarr_format=2)
+    with xarray.open_zarr(tmp_path / "study.zarr") as again:
+        assert again.sizes == data.sizes and set(again.variables) == set(data.variables)
+        for name in data.variables:
+            np.testing.assert_array_equal(again[name].values, data[name].values, err_msg=name)
+            assert again[name].attrs == data[name].attrs
+        assert again.attrs == data.attrs
 
 
 def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):

@@ -77,7 +77,21 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "Sq in micrometres": ({"surface": {"sq": "0.1"}}, "0.1 um = 1e-07 m"),
     "correlation length in µm": ({"surface": {"correlation_length": "12"}}, "12 um = 1.2e-05 m"),
     "spacing in micrometres": ({"contact": {"spacing": "3.2"}}, "3.2 um = 3.2e-06 m"),
-    "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "no such file"),
+    "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "did you mean.*'map.npy'"),
+    "load in kN": ({"bodies": {"load": "0.2"}}, "0.2 kN = 200 N"),
+    "alpha in 1/MPa": (
+        {"lubricant": dict.fromkeys(OIL) | NUMBERS | {"pressure_viscosity_coefficient": "0.02"}},
+        "1/MPa meant",
+    ),
+    "Sq in mm": ({"surface": {"sq": "0.1e-3"}}, "0.0001 mm = 1e-07 m"),
+    "tolerance in percent": ({"numerics": {"tolerance": "1"}}, "1 % = 0.01"),
+    "viscosity index as a share": ({"lubricant": {"viscosity_index": "0.95"}}, "viscosity_index 0.95.*unusual"),
+    "speeds in mm/s": (
+        {"motion": {"speeds": "[1, 1000]"}},
+        "motion.speeds 1e\\+03 m/s, above 100 m/s: unusual; mm/s meant",
+    ),
+    "size of the patch for its cells": ({"contact": {"shape": "[300e-6, 150e-6]"}}, "cells of contact.spacing"),
+    "no boundary friction": ({"bodies": {"boundary_friction_coefficient": None}}, "some 0.1"),
     "a picture for a map": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.png"'}}, "allowed"),
     "a map without its grid": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.npy"'}}, "spacing"),
     "a map shorter than the strip": (

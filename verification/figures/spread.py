@@ -6,6 +6,8 @@ import os
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
+from ..parent import end_with_parent
+
 
 def spread(function, cases, quick: bool) -> list:
     """``[function(*case) for case in cases]``, a process a core (one when ``quick``).
@@ -18,7 +20,7 @@ def spread(function, cases, quick: bool) -> list:
     before = os.environ.get("OMP_NUM_THREADS")
     os.environ["OMP_NUM_THREADS"] = "1"
     try:
-        with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as pool:
+        with ProcessPoolExecutor(cores, mp_context=get_context("spawn"), initializer=end_with_parent) as pool:
             return list(pool.map(function, *zip(*cases)))
     finally:
         if before is None:

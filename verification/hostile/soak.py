@@ -19,6 +19,7 @@ import numpy as np
 
 import lubfric
 
+from ..parent import end_with_parent
 from .case import resident_memory
 from .soak_judge import verdict
 from .soak_scenes import random_scene
@@ -54,7 +55,7 @@ def soak(count: int, seed: int, folder: Path | None = None, workers: int = 1) ->
     jobs = [(k, min(CHUNK, count - CHUNK * k), seed, folder) for k in range(-(-count // CHUNK))]
     if workers == 1:
         return [chunk(*job) for job in jobs]
-    with ProcessPoolExecutor(workers) as pool:
+    with ProcessPoolExecutor(workers, initializer=end_with_parent) as pool:
         return list(pool.map(chunk, *zip(*jobs)))
 
 
