@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from .. import budget
 from ..rough.contract import ContactState, RoughContact
 from .balance import Balance
@@ -16,6 +18,8 @@ from .tolerances import balance_tolerance, felt_gap
 LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
 LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
 WORST_GRID = 2.0  # relative error of the film's load that the coarsest grid may make
+SEEN, FEW_CELLS = 0.3, 64  # of what summits have lost; touching cells below which all of that counts
+LARGEST_GROWTH = 50.0  # of ln(F_H/F_C): beyond it nothing is known
 LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
 
 
@@ -72,7 +76,7 @@ def on_enough_cells(
         sensitivity = felt_gap(numerics, stage.balance)
         balance = replace(stage.balance, states=(*states, stage.balance.contact), coarse=-sum(changes))
         stage = replace(stage, balance=balance)
-        error = grid_error(changes, stage.balance, limit) if changes else math.inf
+        error = grid_error(changes, stage.balance, limit, grids[index].lost) if changes else math.inf
         if index == last or error <= limit:
             point.prepared.contact.check(stage.balance.contact)
             return stage, index, error
@@ -109,7 +113,7 @@ def refined(
         change = found.volume_residual - state.volume_residual
         changes, state = (*changes, change), found
         states.append(found)
-        if grid_error(changes, balance, limit) <= limit:
+        if grid_error(changes, balance, limit, grids[index].lost) <= limit:
             break
     point = replace(stage.point, contact=contact)
     found_here = replace(balance, contact=state, states=tuple(states[:-1]))
@@ -146,22 +150,35 @@ def under_the_film(
     return whole, whole.close(thickness, load, found, shape)
 
 
-def grid_error(changes: Sequence[float], balance: Balance, limit: float) -> float:
+def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: float = 0.0) -> float:
     """Estimated relative error of f by the contact grid. Infinite where nothing can be said.
 
     It follows from the last two changes d2, d1 of the volume residual between grids. With r = d1/d2, kept between 1/4
     (second order) and 3/4 (hardly converging), or 1/2 where there is no d2, the rest of the geometric series is d1 r/(1
-    - r). It is no less than d2/12, in case d1 is small by chance. Times 2 ``gap_sensitivity`` it is the effect on f.
+    - r). It is no less than d2/12, in case d1 is small by chance, and, where few cells touch, than a part of what its
+    summits have ``lost`` [m] to the averages over its cells. Times 2 ``gap_sensitivity`` it is the effect on f to
+    first order; the load of a light contact follows a gap exponentially, s = ln(F_H/F_C) in proportion to it.
     Whatever the grid does to the film's share of the load, f changes by no more than ``sensitivity`` of that.
     """
     if balance.contact_load == 0:
         return math.inf
-    sensitivity = balance.forces.gap_sensitivity
-    bound = WORST_GRID * sensitivity
+    bound = WORST_GRID * balance.forces.sensitivity
     if bound <= limit:
         return bound
     if not changes:
         return math.inf
     d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
     ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
-    return 2 * sensitivity * max(d1 * ratio / (1 - ratio), d2 / 12)
+    rest = max(d1 * ratio / (1 - ratio), d2 / 12, _by_chance(balance.contact, lost))
+    return 2 * balance.forces.gap_sensitivity * rest * _growth(rest / abs(balance.slope) if balance.slope else 0.0)
+
+
+def _by_chance(contact: ContactState, lost: float) -> float:
+    """Volume residual that ``lost`` [m] summits leave unseen, however alike the contact is on two grids."""
+    cells = FEW_CELLS if contact.pressure is None else np.count_nonzero(contact.pressure)
+    return SEEN * lost / (2 * contact.mean_film) * min(1.0, FEW_CELLS / max(cells, 1))
+
+
+def _growth(moved: float) -> float:
+    """By how much the contact load changes more than to first order where ln(F_H/F_C) moves by ``moved``."""
+    return math.expm1(min(moved, LARGEST_GROWTH)) / moved if moved > 0 else 1.0

@@ -127,27 +127,33 @@ def contact_curve(
 
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
     """Intervals in which the interpolated gap, or the load read off it, may be off by more than ``accuracy``."""
-    log_pressure, error = np.log(pressure), _left_out(pressure, gap)
+    log_pressure, missed = np.log(pressure), _missed(pressure, gap)
+    error, middle = np.maximum(missed[1:], missed[:-1]) / 4, np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
-    allowed = np.minimum(np.sqrt(gap[1:] * gap[:-1]), rate / np.maximum(felt, NOTHING))
-    deep = np.sqrt(gap[1:] * gap[:-1]) <= NOTHING * gap[-1]
-    return (error > 2 * accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
+    allowed = np.minimum(middle, rate / np.maximum(felt, NOTHING))
+    deep = middle <= NOTHING * gap[-1]
+    return (error > accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
-def _left_out(pressure, gap) -> np.ndarray:
-    """Estimated error of the gap interpolated between neighbouring nodes: half of the most that any of the four
-    nodes around is missed by when it is left out of the interpolation."""
+def _missed(pressure, gap) -> np.ndarray:
+    """Gap [m] by which each node is missed when it is left out of the interpolation."""
     from scipy.interpolate import PchipInterpolator
 
     log_pressure, missed = np.log(pressure), np.zeros(pressure.size)
     for i in range(1, pressure.size - 1):
         others = np.delete(np.arange(pressure.size), i)[::-1]
         missed[i] = abs(PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i]) - gap[i])
+    return missed
+
+
+def _gap_error(pressure, gap) -> np.ndarray:
+    """Estimated error of the gap between neighbouring nodes: the most that any of the four nodes around is missed by.
+    A curve of few summits has kinks, next to which a single node may be met by chance."""
+    missed = _missed(pressure, gap)
     near = np.maximum(missed[1:], missed[:-1])
-    wide = np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
-    return wide / 2
+    return np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
 
 
 def _curve(solved: dict, touching_gap: float) -> ContactCurve:
@@ -157,4 +163,4 @@ def _curve(solved: dict, touching_gap: float) -> ContactCurve:
         [(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations) for r in results]
     ).T
     nodes = np.array(pressures)
-    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), _left_out(nodes, gap))
+    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), _gap_error(nodes, gap))

@@ -129,6 +129,8 @@ class RoughContact:
         """Every ``every``-th of its cells each way, with the heights they have; None where that cannot be."""
         return None
 
+    lost = 0.0  # height [m] by which its highest summits fall short of those of the grid it was coarsened from
+
     @property
     def sq(self) -> float:
         """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""

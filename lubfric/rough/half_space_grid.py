@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Self
 
@@ -17,6 +17,7 @@ MARGIN = 0.1  # of the length in contact, kept free on each side
 MARGIN_CELLS = 4
 LEAST_CUT = 0.9  # of the columns: a part that keeps more is not worth it
 TOUCH = 1e-3  # of Sq: an overlap that is none
+SUMMITS = 32  # the highest, of which is told what averages take from them
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,8 @@ class HalfSpaceGrid(RoughContact):
     """A rough surface under a cylinder on its grid: free along x, periodic along y.
 
     heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of
-    each column inside the area A of Eq. (8), |x| <= half_width [m] (None: all).
+    each column inside the area A of Eq. (8), |x| <= half_width [m] (None: all). lost [m]: by how much its highest
+    summits are lower than on the grid that it was coarsened from.
     """
 
     heights: np.ndarray
@@ -33,6 +35,7 @@ class HalfSpaceGrid(RoughContact):
     weight: np.ndarray
     half_width: float | None
     operator: HalfSpace
+    lost: float = field(default=0.0, kw_only=True)
 
     @property
     def grid(self) -> Grid:
@@ -69,11 +72,13 @@ class HalfSpaceGrid(RoughContact):
         if factors == (1, 1):
             return None
         (nx, ny), (fx, fy) = operator.shape, factors
-        heights = self.heights.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3))
+        blocks = self.heights.reshape(nx // fx, fx, ny // fy, fy)
+        heights = blocks.mean(axis=(1, 3))
+        lost = self.lost + _lost(heights, blocks.max(axis=(1, 3)))
         x = self.x.reshape(-1, fx).mean(axis=1)
         coarse = operator.coarsened(factors)
         weight = np.ones(x.size) if half_width is None else strip_weight(x, coarse.spacing[0], half_width)
-        return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
+        return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight, lost=lost)
 
     def thinned(self, every: int) -> Self | None:
         """Every ``every``-th cell; None where their number or the area A does not allow it."""
@@ -141,3 +146,13 @@ class HalfSpaceGrid(RoughContact):
 def _step(contact: RoughContact) -> float:
     """Length [m] of a cell along x."""
     return contact.x[1] - contact.x[0] if contact.grid is None else contact.grid.spacing[0]
+
+
+def _lost(heights, highest) -> float:
+    """Mean height [m] by which the highest local maxima of ``heights``, averages over cells, are below the ``highest``
+    in their cells."""
+    from scipy.ndimage import maximum_filter
+
+    summits = np.flatnonzero(heights == maximum_filter(heights, size=3, mode="wrap"))
+    tops = summits[np.argsort(heights.ravel()[summits])[-SUMMITS:]]
+    return float(np.mean((highest - heights).ravel()[tops]))

@@ -158,7 +158,7 @@ def test_a_part_that_does_not_hold_gives_way_to_the_whole():
 
 
 def test_the_error_of_a_grid_is_the_rest_of_its_series():
-    found = stage(point(model()), sensitivity=0.5, by_load=math.inf).balance
+    found = replace(stage(point(model()), sensitivity=0.5, by_load=math.inf).balance, slope=None)
     for ratio in (0.25, 0.5, 0.7):
         changes = [-1e-3, -1e-3 * ratio, -1e-3 * ratio**2]
         rest = 1e-3 * ratio**2 * ratio / (1 - ratio)
@@ -169,6 +169,10 @@ def test_the_error_of_a_grid_is_the_rest_of_its_series():
     assert grid_error([], found, 0.0) == math.inf
     assert grid_error([1e-3], found, WORST_GRID * 0.5) == WORST_GRID * 0.5  # so little of the film in f
     assert grid_error([1e-3], replace(found, contact_load=0.0), 1.0) == math.inf
+    light = replace(found, slope=1e-3)  # ln(F_H/F_C) moves by 1: e times the load, not twice
+    assert grid_error([1e-3], light, 0.0) == pytest.approx(2 * 0.5 * 1e-3 * (math.e - 1))
+    film = found.contact.mean_film  # summits lower by a hundredth of it, which two grids do not show
+    assert grid_error([1e-9], found, 0.0, 0.01 * film) == pytest.approx(2 * 0.5 * 0.3 * 0.005)
 
 
 def test_a_contact_that_carries_little_is_felt_little():

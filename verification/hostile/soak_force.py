@@ -9,6 +9,7 @@ import numpy as np
 from ..stability.film_check import viscosity_ratio
 from .soak_heat import heated_stress, heats, inlet_viscosity
 
+MOSTLY = 0.5  # of the isothermal force: below it the heated one is summed by itself
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
@@ -76,8 +77,10 @@ def _couette(scene, x, p, h, free, contact_load, speed) -> float:
         force = float(np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])))
     if heats(scene):
         some = np.unique(np.linspace(0, x.size - 1, min(x.size, HEATED)).round().astype(int))
-        x, p, h, log_ratio, free = (a[some] for a in (x, p, h, log_ratio, free))
-        return float(np.trapezoid(free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed), x))
+        x, p, h, log_ratio, free, tau = (a[some] for a in (x, p, h, log_ratio, free, tau))
+        heated = free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed)
+        hot, cold = np.trapezoid(heated, x), np.trapezoid(free * tau, x)
+        return float(hot if hot < MOSTLY * cold else force + hot - cold)
     return force
 
 
