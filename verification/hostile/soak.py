@@ -91,7 +91,11 @@ def _one(found: Chunk, seeds: tuple[int, int]) -> None:
     found.answered += 1
     for feature in _features(prepared, result):
         _count(found.features, feature)
-    ratios = verdict(prepared, result)
+    try:
+        ratios = verdict(prepared, result)
+    except lubfric.LubfricError as error:  # of the judge's own film or contact: it does not know
+        _count(found.reasons, f"not judged: {type(error).__name__}: {error}"[:WORDS])
+        return
     found.judged += "friction" in ratios
     worst = max(ratios, key=lambda name: ratios[name])
     said = f"{seeds}: {worst} {ratios[worst]:.3g} of what is allowed, f = {result.coefficient:.4g}"

@@ -15,7 +15,7 @@ import numpy as np
 import lubfric
 from lubfric.lines.make import lines_of
 
-LINES, FEWEST = 16, 4  # patches, at most and at least
+LINES, FEWEST = 32, 16  # patches, at most and at least: few tell no error of their mean
 LENGTHS = 1900  # of a patch, in correlation lengths along y
 PIECES, PIECE = 4, 90  # patches on the scene's own cells, and their length
 CLOSE = 0.2  # of the standard error asked: of the truth
@@ -32,7 +32,7 @@ class Truth:
 
 
 def truth(scene, speed: float, seed: int, asked: float) -> Truth:
-    """Patches with seeds from ``seed`` on, until their mean is known to a fifth of ``asked``, or sixteen of them."""
+    """Patches with seeds from ``seed`` on, until their mean is known to a fifth of ``asked``, or thirty-two of them."""
     cells, along = lines_of(scene).cells, lines_of(scene).lengths[1]
     columns = 64 * round(LENGTHS * along / cells.coarse[1] / 64)
     change, own = _cells(scene, speed, seed + 500, cells, along)
