@@ -360,7 +360,7 @@ def test_shear_and_flow_of_a_film_obey_the_laws_asked_for(law):
 
 def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip():
     """Hardness and geometry: gap and area from a dry contact solved here, at F_C over the Hertz strip; the gap within
-    twice its stated error, which is below half a percent."""
+    its stated error, which is below two percent."""
     scene = BASE.with_(bodies={"hardness": 4e8})
     result, surface = lubfric.friction(scene), contact_map(scene)
     pressure = result.contact_load / (2 * scene.bodies.half_width * scene.bodies.width)
@@ -371,8 +371,8 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
         mean_pressure=pressure,
         hardness=scene.bodies.hardness,
     )
-    assert result.errors.mean_gap < 5e-3
-    assert result.mean_gap == pytest.approx(np.maximum(dry.gap, 0).mean(), rel=2 * result.errors.mean_gap)
+    assert result.errors.mean_gap < 2e-2
+    assert result.mean_gap == pytest.approx(np.maximum(dry.gap, 0).mean(), rel=result.errors.mean_gap)
     assert result.real_contact_area_fraction == pytest.approx((dry.pressure > 0).mean(), rel=0.05)
     assert result.plastic_area_fraction == pytest.approx((dry.pressure >= 4e8 * (1 - 1e-9)).mean(), rel=0.1)
     elastic = lubfric.friction(BASE)
