@@ -13,9 +13,10 @@ MOSTLY = 0.5  # of the isothermal force: below it the heated one is summed by it
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
-def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float]:
+def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float, float]:
     """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding, the far inlet in closed form;
-    and the size [N] of the parts of the film's share, of which f may be a small difference."""
+    the size [N] of the parts of the film's share, of which f may be a small difference; and what its stress sums to
+    less [N] on half of the nodes: a pressure spike that they do not hold."""
     bodies, oil, ratio, film = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -37,7 +38,10 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[flo
     parts = couette + np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.abs(np.diff(p))) / 2
     sense = -1.0 if ratio < 0 else 1.0  # along the sliding; the pressure flow pushes along the entrainment
     boundary = bodies.boundary_friction_coefficient * contact_load * (ratio != 0)
-    return float(boundary + bodies.width * (couette + sense * rolling)), float(bodies.width * parts)
+    coarse = _couette(scene, x[::2], p[::2], h[::2], free[::2], contact_load, speed, hot=False)
+    spike = abs(_couette(scene, x, p, h, free, contact_load, speed, hot=False) - coarse)
+    force, parts, spike = (bodies.width * v for v in (couette + sense * rolling, parts, spike))
+    return float(boundary + force), float(parts), float(spike)
 
 
 def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
@@ -61,7 +65,7 @@ def _inside(x, half) -> np.ndarray:
     return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
 
-def _couette(scene, x, p, h, free, contact_load, speed) -> float:
+def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
     """Couette force over the film per width [N/m]; that of a film that heats itself from fewer nodes."""
     oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
     log_ratio = viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
@@ -75,13 +79,20 @@ def _couette(scene, x, p, h, free, contact_load, speed) -> float:
     if oil.eyring_stress is None and oil.limiting_stress_coefficient is None:
         rate = free * slide / h
         force = float(np.sum(np.diff(x) * _log_mean(eta) * 0.5 * (rate[1:] + rate[:-1])))
-    if heats(scene):
-        some = np.unique(np.linspace(0, x.size - 1, min(x.size, HEATED)).round().astype(int))
+    if hot and heats(scene):
+        some = _where_it_varies(tau)
         x, p, h, log_ratio, free, tau = (a[some] for a in (x, p, h, log_ratio, free, tau))
         heated = free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed)
         hot, cold = np.trapezoid(heated, x), np.trapezoid(free * tau, x)
         return float(hot if hot < MOSTLY * cold else force + hot - cold)
     return force
+
+
+def _where_it_varies(tau) -> np.ndarray:
+    """Indices of `HEATED` nodes at most, half of them spread evenly and half where the stress changes."""
+    steps = np.abs(np.diff(np.log(np.maximum(tau, 1e-300))))
+    measure = np.concatenate([[0.0], np.cumsum(1 / steps.size + steps / max(steps.sum(), 1e-300))])
+    return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))
 
 
 def _log_mean(eta) -> np.ndarray:

@@ -21,7 +21,7 @@ from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of all lines and one of each may differ
-LOOSE, TIGHT, CANCELS = 2e-3, 3e-4, 0.2  # of a film; f over its parts below which they cancel
+LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
 
 
@@ -130,11 +130,11 @@ class Judge:
         return np.clip(inside / dx, 0, 1)
 
     def coefficient(self, split: float, sides: Sides) -> tuple[float, float]:
-        """f at a division of the load, and what the tolerance of the film leaves open of it."""
+        """f at a division of the load, and what the tolerance and the nodes of the film leave open of it."""
         scene = self.prepared.scene
         contact_load = scene.bodies.load / (1 + math.exp(split))
-        force, parts = friction_force(scene, sides, contact_load, self.speed)
-        return force / scene.bodies.load, self.film_tolerance * parts / scene.bodies.load
+        force, parts, spike = friction_force(scene, sides, contact_load, self.speed)
+        return force / scene.bodies.load, (self.film_tolerance * parts + spike) / scene.bodies.load
 
 
 def judge_of(prepared: Prepared, result) -> Judge:
@@ -144,7 +144,9 @@ def judge_of(prepared: Prepared, result) -> Judge:
     x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
     cancels = abs(result.coefficient) * prepared.scene.bodies.load < CANCELS * parts
-    tolerance = TIGHT if cancels or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
+    oil = prepared.scene.lubricant
+    newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
+    tolerance = TIGHT if cancels or newtonian or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
     if prepared.lines is None:
         return Judge(prepared, result.speed, scaled, (_strip(prepared.surface, x),), (), tolerance)
     more = [prepared.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import lubfric
 
-SEED = 70_000
+SEED = 240_000
 
 
 @dataclass(frozen=True)
