@@ -54,6 +54,12 @@ class Balance:
         return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
 
     @property
+    def gap_sensitivity(self) -> float:
+        """That of the forces. A slope that was only foretold says nothing of a light contact, whose residual may hang
+        on the film alone there: then an error of the gap is felt as one of the film."""
+        return self.forces.gap_sensitivity if self.report.evaluations > 1 else self.forces.sensitivity
+
+    @property
     def lubricated(self) -> Lubricated | None:
         """This balance, where it has a film; None where it has not."""
         return None

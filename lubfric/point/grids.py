@@ -170,7 +170,7 @@ def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: f
     d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
     ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
     rest = max(d1 * ratio / (1 - ratio), d2 / 12, _by_chance(balance.contact, lost))
-    return 2 * balance.forces.gap_sensitivity * rest * _growth(rest / abs(balance.slope) if balance.slope else 0.0)
+    return 2 * balance.gap_sensitivity * rest * _growth(rest / abs(balance.slope) if balance.slope else 0.0)
 
 
 def _by_chance(contact: ContactState, lost: float) -> float:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
@@ -20,10 +22,18 @@ def felt_share(numerics: Numerics, balance: Balance) -> float:
 
 
 def felt_gap(numerics: Numerics, balance: Balance) -> float:
-    """Share of an error of the contact's mean gap that reaches f; as `felt_share`."""
+    """Share of an error of the contact's mean gap that reaches f; as `felt_share`.
+
+    A light contact feels its gap exponentially. What is felt is the error that moves f by its share of the tolerance:
+    of ``sensitivity`` times ``|slope| (exp(d) - 1)``, d what it moves ln(F_H/F_C) by.
+    """
     if balance.contact_load == 0 or numerics.model == "full":
         return felt_share(numerics, balance)
-    return max(balance.forces.gap_sensitivity, 1e-12)
+    sensitivity = max(balance.gap_sensitivity, 1e-12)
+    if not balance.slope:
+        return sensitivity
+    first_order = budget.BALANCE * numerics.tolerance / (sensitivity * abs(balance.slope))
+    return sensitivity * first_order / math.log1p(first_order)
 
 
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:

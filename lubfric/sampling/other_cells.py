@@ -36,7 +36,7 @@ def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
         found.append(coarse.close(thickness, balance.contact_load, balance.contact, shape).volume_residual)
     if len(found) == 1:
         return math.nan
-    return 2 * balance.forces.gap_sensitivity * half_again([a - b for a, b in zip(found, found[1:])])
+    return 2 * balance.gap_sensitivity * half_again([a - b for a, b in zip(found, found[1:])])
 
 
 def half_again(changes) -> float:

@@ -126,7 +126,7 @@ def _from_slope(point: Solved) -> Response:
     split = -0.5 / (slope * film)
     share = balance.contact_load / total
     rates = {
-        "coefficient": point.balance.forces.gap_sensitivity / abs(split * film),
+        "coefficient": balance.gap_sensitivity / abs(split * film),
         "contact_load": share - 1,
         "boundary_force": share - 1,
         "film_load": share,
