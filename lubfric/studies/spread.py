@@ -6,10 +6,8 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
-LOOK, SHARE = (
-    0.1,
-    0.1,
-)  # s between two looks at what is under way, at least; share of the time spent on looking, at most
+LOOK = 0.1  # s between two looks at what is under way, at least
+SHARE = 0.1  # of the time spent on looking, at most
 
 
 def spread(

@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 
-from .. import budget
 from ..heat.point import film_lubricant, inlet_at
 from ..history import Constant, History
 from ..history.plan import Transient
@@ -111,9 +110,7 @@ def inlet_viscosity(source: SceneInTime) -> History:
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
     if scene.numerics.heat == "auto" and scene.numerics.model != "full":
-        limit = budget.INLET * scene.numerics.tolerance
-        thinned = (inlet_at(now, now.motion.entrainment_speed)[0] for now in map(source.at, _looks(source)))
-        if not any(inlet is not None and 1 - inlet.factor > limit for inlet in thinned):
+        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in map(source.at, _looks(source))):
             return cold
     return WarmInlet(SceneInTime(scene.with_(numerics={"heat": "on"}), plan))
 
