@@ -14,8 +14,8 @@ from ..prepared import Prepared
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import GridStep, mean_error, mean_of
-from .influence import BlockError, add_errors
+from .grid_pair import GridStep, mean_of
+from .influence import BlockError
 from .line_record import Pooled
 from .response import Response, touched_length
 from .sample import Anchor, Sample, lines_of_model
@@ -153,13 +153,12 @@ def _found(sample: Sample) -> LineFound:
     ended = sample.reached > sample.prepared.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
         return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
-    error = add_errors(together.gap, mean_error(anchor.grid))
     return LineFound(
         _divided(sample, together),
         first.balance,
         together,
         anchor.response,
-        error,
+        sample.gap_error,
         anchor.grid,
         map_ends=ended,
     )
