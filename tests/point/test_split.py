@@ -80,7 +80,7 @@ def test_what_was_foretold_too_low_once_is_added_again(heavy):
     point = OperatingPoint(made, 0.01536, made.contact, Settings(before.level, 0.03, 1e-3))
     assert before.drift != 0
     missed = [abs(_begin(point, start.closed)[0] - there.split) for start in (before, replace(before, drift=0.0))]
-    assert missed[0] < 0.5 * missed[1]
+    assert missed[0] < 0.7 * missed[1]
 
 
 def test_the_drift_is_what_was_missed_and_moves_no_answer(heavy):
