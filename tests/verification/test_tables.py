@@ -1,20 +1,56 @@
 """Tables in the documents are written by a command: the marks in the pages and the tables that can be measured
 agree."""
 
+import importlib
 import json
+import re
+from argparse import ArgumentParser
+from pathlib import Path
 
 import pytest
 
 from verification.check import Table
-from verification.tables import BLOCK, TABLES, body, main, replaced
+from verification.tables import TABLES, main
+from verification.tables.pages import BENCHMARKS, BLOCK, body, replaced
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
+TYPED = {("theory.md", "| checked | caution | no answer |")}  # limits, not results
 
 
 def test_every_mark_in_a_page_names_a_table(root):
     marked = {m["name"] for page in (root / "docs").glob("*.md") for m in BLOCK.finditer(page.read_text())}
-    assert marked <= set(TABLES)
+    assert marked <= set(TABLES) | set(BENCHMARKS)
+    assert not set(TABLES) & set(BENCHMARKS)
+
+
+def test_every_table_of_a_benchmark_is_written_by_its_script(root):
+    for name, script in BENCHMARKS.items():
+        assert f'page.write("{name}"' in (root / "benchmarks" / script).read_text(), name
+
+
+def test_a_page_has_no_table_of_results_outside_the_marks(root):
+    """A table whose cells are mostly measured numbers stands between marks; `TYPED` are no results."""
+    for page in (root / "docs").glob("*.md"):
+        for table in re.findall(r"(?:^\|.*\n)+", BLOCK.sub("", page.read_text(encoding="utf-8")), re.MULTILINE):
+            cells = [cell for line in table.splitlines()[2:] for cell in line.strip("|").split("|")[1:]]
+            measured = [cell for cell in cells if re.match(r"\s*[+-]?\d", cell)]
+            assert len(measured) <= len(cells) / 2 or (page.name, table.splitlines()[0]) in TYPED, table
+
+
+def test_a_benchmark_puts_its_table_and_the_command_without_paths(tmp_path, root, monkeypatch):
+    monkeypatch.syspath_prepend(str(root))
+    page = importlib.import_module("benchmarks.page")
+    parser = ArgumentParser()
+    parser.add_argument("--cells", type=int, nargs="+", default=[816])
+    parser.add_argument("--target", type=float, default=1e-5)
+    parser.add_argument("--out", type=Path)
+    page.add_option(parser)
+    asked = ["--cells", "64", "128", "--out", str(tmp_path), "--docs", str(tmp_path)]
+    text = marked(tmp_path, "film-times")
+    page.write("film-times", *CELLS, (parser, parser.parse_args(asked)))
+    assert "| 0.1 | 0.05 |" in text.read_text()
+    assert "`python benchmarks/ehl_times.py --cells 64 128 --docs docs`" in text.read_text()
 
 
 def test_only_the_named_table_is_replaced_and_again_gives_the_same():
@@ -22,10 +58,10 @@ def test_only_the_named_table_is_replaced_and_again_gives_the_same():
         f"<!-- table: {name} -->\n{text}\n<!-- end of table -->\n" for name, text in (("one", "old"), ("two", "kept"))
     )
     page = f"before\n{one}between\n{two}"
-    once = replaced(page, "one", body(TABLE))
+    once = replaced(page, "one", body(TABLE, "c"))
     assert "old" not in once and "kept" in once and "| 0.1 | 0.05 |" in once
     assert once.startswith("before\n") and "\nbetween\n" in once
-    assert replaced(once, "one", body(TABLE)) == once
+    assert replaced(once, "one", body(TABLE, "c")) == once
 
 
 def marked(folder, *names):

@@ -1,4 +1,7 @@
-"""``python -m verification charts``: error against time, and cost against size, measured on this machine."""
+"""``python -m verification charts``: error against time, and cost against size, measured on this machine.
+
+Times are processor seconds, which another job on the machine changes less than it changes the time by the clock.
+"""
 
 from __future__ import annotations
 

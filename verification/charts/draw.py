@@ -29,7 +29,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         ax.set(
             xscale="log",
             yscale="log",
-            xlabel="seconds",
+            xlabel="CPU seconds",
             title=label,
             ylabel="discretisation error" if apart else "solver error",
         )
@@ -96,7 +96,9 @@ def growth(points: list[Check], machine: str) -> Figure:
         sizes = [p.number("size") for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
         axes[0, column].loglog(sizes, [p.duration for p in chosen], "o-")
-        axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
+        axes[0, column].set(
+            title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="CPU seconds", xlabel=unit
+        )
         if label == "contact":
             axes[0, column].set_title(
                 f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"

@@ -43,7 +43,7 @@ def write_document(folder: Path, sections: dict[str, str], pictures: dict[str, b
     images.mkdir(parents=True, exist_ok=True)
     for name, picture in pictures.items():
         (images / f"{name}.png").write_bytes(picture)
-    told = source("figures --docs docs")
+    told = source("python -m verification figures --docs docs")
     (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()) + f"\n{told}\n", encoding="utf-8")
 
 
