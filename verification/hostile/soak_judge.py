@@ -1,8 +1,9 @@
-"""Closes the balance of a result anew: another film solver, fresh dry contacts, its own sums of the friction forces.
+"""Closes the balance of a result anew: with another film solver, fresh dry contacts, and its own sums of friction
+forces.
 
-Nothing of `lubfric` is used but the surface, the dry contact of one pressed map and the film by differential
-deflection; what they are joined by is written here. Two divisions of the load, the result's own and one beside it, give
-the one that balances by a secant; where that is far off, a bracketed root does.
+Nothing of `lubfric` is used but the surface, the dry contact of one pressed map, and the film by differential
+deflection. What joins them is written here. Two divisions of the load, the result's own and one beside it, give the one
+that balances by a secant. Where that is far off, a bracketed root does.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a s
 
 @dataclass(frozen=True)
 class Strip:
-    """Heights [m] of a piece of the surface, less their mean, its spacing and x [m], its length [m] along y."""
+    """Heights [m] of a piece of the surface, less their mean, with spacing and x [m] and the length [m] along y."""
 
     heights: np.ndarray
     spacing: tuple[float, float]
@@ -51,8 +52,11 @@ class Sides:
 
 @dataclass(frozen=True)
 class Judge:
-    """A prepared scene at one speed [m/s], its film deflected by its own pressure or, ``scaled``, by the whole load;
-    its strips, and pairs of fine and coarse ones whose difference is added."""
+    """A prepared scene at one speed [m/s].
+
+    The film is deflected by its own pressure or, ``scaled``, by the whole load. There are strips of the surface, and
+    pairs of fine and coarse ones whose difference is added.
+    """
 
     prepared: Prepared
     speed: float
@@ -76,7 +80,7 @@ class Judge:
         return Sides(film, gap, found[0][1], self.strips[0].x, touching)
 
     def film(self, film_load: float, modulus: float):
-        """By differential deflection, or if that does not converge by the tightest Newton solution."""
+        """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
         bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
         case: dict[str, Any] = {
             "load_per_width": film_load / bodies.width,

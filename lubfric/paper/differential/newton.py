@@ -24,7 +24,7 @@ FORCING = 1e-2  # share of the far deflection that a Newton step may leave to th
 
 @dataclass(frozen=True)
 class Solution:
-    """Pressures and films on ``mesh`` with their `Terms`, the residuals of `measure`, and the number of banded solves."""
+    """Pressures and films on ``mesh`` with their `Terms`, residuals of `measure`, and the number of banded solves."""
 
     mesh: Mesh
     P: np.ndarray

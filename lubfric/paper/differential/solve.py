@@ -176,7 +176,7 @@ def _ascend(
 
 
 def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
-    """A start from nothing: a semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
+    """A first guess: a semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
     place = (mesh.X - rupture_guess(problem)) / width
