@@ -11,7 +11,7 @@ from multiprocessing.connection import wait
 
 
 def end_with_parent() -> None:
-    """To be called first in a worker (``initializer`` of a pool): it starts a thread that waits for the parent to end."""
+    """To be called first in a worker (``initializer`` of a pool): starts a thread that waits for the parent to end."""
     parent = parent_process()
     if parent is not None:
         threading.Thread(target=_watch, args=(parent.sentinel,), daemon=True).start()

@@ -17,7 +17,7 @@ def fitted_order(sizes, errors) -> float:
 
 
 def positive(name: str, values) -> np.ndarray:
-    """Raise ValueError unless there are at least two finite values > 0. An order fitted to anything else means nothing."""
+    """Raise ValueError unless there are at least two finite values > 0: an order fitted to others means nothing."""
     a = np.asarray(values, dtype=float)
     if a.ndim != 1 or a.size < 2 or not np.all(np.isfinite(a) & (a > 0)):
         raise ValueError(f"{name} = {a}; an order needs at least two finite values > 0")

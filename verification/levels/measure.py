@@ -60,7 +60,7 @@ def row(index: int, values: dict) -> list[Check]:
 
 
 def compared(index: int, tolerance: float, found: dict, reference: dict, shared: dict) -> Check:
-    """f at one tolerance. Three times the tolerance is allowed, because the share of scenes within it is judged apart."""
+    """f at one tolerance. Three times that is allowed, because the share of scenes within it is judged apart."""
     failed = found.get("error") or ("error" in reference and f"reference: {reference['error']}") or ""
     return Check(
         f"scene {index} at {100 * tolerance:g} %",

@@ -85,7 +85,7 @@ def endless(case: Case, seed: int, out: Path) -> dict:
 
 
 def run(case: Case, trials: int, seed: int, out: Path) -> Result:
-    """Trials with seeds from ``seed`` on, and the truth. Rows are kept in ``out`` as they come, and not solved again."""
+    """Trials with seeds from ``seed`` on, and the truth. Rows are kept in ``out`` as they come and not solved again."""
     wanted = [("truth", seed + REPORTED), *(("trial", seed + k) for k in range(trials))]
     truth, *rows = _rows(case, wanted, _file(case, seed, out))
     return Result(case, rows, truth["f"], truth["error"])
