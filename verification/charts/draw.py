@@ -43,15 +43,17 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
 
 
 def readable(ax) -> None:
-    """Labels at 1, 2 and 5 where the time axis shows less than two powers of ten, and room for two of them."""
+    """Labels at 1, 2 and 5 where the time axis shows less than two powers of ten, at least two of them."""
     from matplotlib.ticker import FixedLocator, FuncFormatter
 
     low, high = ax.get_xlim()
     if high < 30 * low:
-        low, high = low / 1.3, high * 1.3
+        ticks: list[float] = []
+        while len(ticks) < 2:
+            low, high = low / 1.3, high * 1.3
+            ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5) if low <= m * 10.0**k <= high]
         ax.set_xlim(low, high)
-        ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5)]
-        ax.xaxis.set_major_locator(FixedLocator([t for t in ticks if low <= t <= high]))
+        ax.xaxis.set_major_locator(FixedLocator(ticks))
         ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter("")
 

@@ -75,27 +75,16 @@ def solve_transient_ehl(
     ----------
     load_per_width, radius, viscosity : [N/m], [m], [Pa s], all > 0; numbers or histories (`lubfric.history`)
     entrainment_speed : [m/s], any sign, also 0; a number or a history
-    e_prime : [Pa]
-    pressure_viscosity_coefficient, viscosity_law, density_law : [1/Pa]; see `lubfric.lubricant.Lubricant`
+    e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.lubricant.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
     initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
         None: from the steady state of the values before t = 0
-    tolerance : asked of the grid, relative to the film; 1e-5 to 0.1
-    time_tolerance : largest local error of the film in a step, relative (None: 0.01 x tolerance)
+    tolerance, time_tolerance : relative error of the film by the grid, 1e-5 to 0.1, and in a step (None: 1 % of it)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
-    Returns
-    -------
-    TransientFilm : ``report.residuals`` are "step", the largest accepted local error, and "grid", the grid error of the
-        smallest and central film of the steady start (where there is one), each over its tolerance
-
-    Raises
-    ------
-    InputError : a value out of range, before any work
-    ConvergenceError : the shortest step fails, or there is no accurate steady start; carries the films so far
-
-    The equations, cavitation and residuals are in `squeeze` and `active_set` beside this module, the steps in time in
-    `lubfric.march`.
+    ``report.residuals`` are the largest accepted local error ("step") and the error of the grid at the steady start
+    ("grid"), each over its tolerance. Raises `InputError` before any work, and `ConvergenceError` with the films so far
+    when the shortest step fails or there is no accurate steady start. Equations of a step: `squeeze`, `active_set`.
     """
     times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
