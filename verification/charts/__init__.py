@@ -26,7 +26,7 @@ LEVELS = ("full", "quick")
 
 
 def main(argv: list[str]) -> int:
-    """The command."""
+    """Run the command line."""
     studies = tuple(
         Study(name, "verification.charts:chart", title, LEVELS, {"name": name}) for name, title in CHARTS.items()
     )

@@ -1,4 +1,5 @@
-"""Contact: pressure error against time, by method, tolerance, load, surface and boundary."""
+"""The chart of the dry contact: error of the pressure against time, by method, tolerance, load, surface and
+boundary."""
 
 from __future__ import annotations
 
@@ -43,7 +44,7 @@ def _finest(acf: str, seed: int, finest: int = 2048) -> np.ndarray:
 
 
 def points(level: str) -> Iterator[Check]:
-    """Panels over (surface, load) when periodic, and the other boundaries at one load."""
+    """Panels for surfaces and loads where the contact is periodic, and for the other boundaries at one load."""
     quick = level == "quick"
     n = 64 if quick else 256
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
@@ -125,7 +126,7 @@ def attempt(solve, tolerance: float):
 
 
 def grids(quick: bool) -> Iterator[Check]:
-    """Discretisation: contact area and mean gap of coarser grids of one surface against the finest; solver error
+    """Error of coarser grids: contact area and mean gap of one surface against the finest grid, with a solver error of
     1e-6."""
     sizes = (32, 64, 128) if quick else (128, 256, 512, 1024, 2048)
     for acf in ("gaussian",) if quick else ("gaussian", "exponential"):

@@ -26,10 +26,10 @@ Quartiles = tuple[float, float, float]  # median, lower, upper, of processor sec
 def point(
     panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
 ) -> Check:
-    """One setting of one method, where it is drawn: its error against a tight solution, and its time.
+    """One setting of one method: its error against a tight solution, its time, and where it is drawn.
 
-    ``at``: default (the setting users get), apart (the error is that of the grid against a finer one, not of the
-    solver), size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
+    ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
+    not that of the solver), size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
     """
     median, low, high = (float(s) for s in seconds)
     return Check(
@@ -45,7 +45,7 @@ def point(
 
 
 def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
-    """{name: (value, (median, lower, upper quartile) of processor seconds)}, the repeats of all calls taken in turn."""
+    """{name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every repeat."""
     seconds: dict[K, list[float]] = {name: [] for name in calls}
     values: dict[K, V] = {}
     for _ in range(repeats):

@@ -1,4 +1,4 @@
-"""Charts from the points alone."""
+"""Draws charts from the points alone."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "de
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Error against time, one panel each; the default ringed; bars from quartile to quartile."""
+    """Error against time, a panel each. The default is ringed, and bars reach from quartile to quartile."""
     panels = list(dict.fromkeys(p.word("panel") for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
@@ -43,7 +43,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
 
 
 def readable(ax) -> None:
-    """Labels at 1, 2 and 5 where the time axis shows less than two powers of ten, at least two of them."""
+    """Label the time axis at 1, 2 and 5 where it shows less than two powers of ten, in at least two places."""
     from matplotlib.ticker import FixedLocator, FuncFormatter
 
     low, high = ax.get_xlim()

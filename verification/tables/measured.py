@@ -1,4 +1,4 @@
-"""What each table measures. A function returns `Cells`; `TABLES` names them."""
+"""What each table measures. Each function returns `Cells`, and `TABLES` names the functions."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def ran(name: str) -> Outcome:
 
 
 def copied(study: str, table: str, *formats: str) -> Callable[[], Cells]:
-    """A table of a study as it stands there; one format a column, the last for all that are left."""
+    """A table of a study as it stands there, with one format for each column, the last one for all that are left."""
 
     def make() -> Cells:
         found = next(t for t in ran(study).tables if t.name == table)
