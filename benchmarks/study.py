@@ -140,10 +140,10 @@ def main() -> None:
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),
     ]
     draw(folder, again)
-    print("| | |\n|---|---|")
+    print("| what | measured |\n|---|---|")
     for name, value in rows:
         print(f"| {name} | {value} |")
-    page.write("study-points", ("", ""), rows, (parser, arguments))
+    page.write("study-points", ("what", "measured"), rows, (parser, arguments))
 
 
 if __name__ == "__main__":
