@@ -29,8 +29,8 @@ STUDIES = (
     Study("bias", "verification.sampling:bias", "Bias and scatter of one patch against its length", LONG),
     Study("cost", "verification.sampling:time_and_error", "Processor time against the error of f", LONG),
 )
-TRIALS = {"quick": 16, "default": 60, "full": 200}
-OTHERS = 100  # trials of other surfaces and loads, at most
+TRIALS = {"quick": 16, "default": 60, "full": 400}
+OTHERS = 200  # trials of other surfaces and loads, at most
 MAPS = {"default": 2, "full": 6}
 SCENES = {"default": 24, "full": 100}
 PATCHES = {"default": 8, "full": 24}

@@ -15,10 +15,10 @@ import numpy as np
 import lubfric
 from lubfric.lines.make import lines_of
 
-LINES, FEWEST = 32, 16  # patches, at most and at least: few tell no error of their mean
+LINES, FEWEST = 160, 16  # patches, at most and at least: few tell no error of their mean
 LENGTHS = 1900  # of a patch, in correlation lengths along y
-PIECES, PIECE = 4, 90  # patches on the scene's own cells, and their length
-CLOSE = 0.2  # of the standard error asked: of the truth
+PIECES, PIECE = 8, 90  # patches on the scene's own cells, and their length
+CLOSE = 0.1  # of the standard error asked: of the truth
 
 
 @dataclass(frozen=True)
