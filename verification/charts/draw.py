@@ -8,12 +8,17 @@ from .. import plotting
 from ..check import Check, Figure
 from .growth import exponent
 
+LEAST = 1e-12  # of the reference: errors below are drawn there
 NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "default, warm")
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Error against time, a panel each. The default is ringed, and bars reach from quartile to quartile."""
+    """Error against time, a panel each. The default is ringed, and bars reach from quartile to quartile.
+
+    Where a solver is off by its whole answer it has failed: such points are left out.
+    """
+    points = [p for p in points if p.at.get("apart") or p.measured < 1]
     panels = list(dict.fromkeys(p.word("panel") for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
@@ -74,6 +79,7 @@ def palette(points: list[Check]) -> dict[str, str]:
         "#000000",
         "#8C564B",
         "#7F7F7F",
+        "#882255",
     ]
     return {m: colours[i % len(colours)] for i, m in enumerate(methods)}
 
@@ -83,10 +89,10 @@ def curve(ax, points: list[Check], colour: str) -> None:
     errors = [p.measured for p in points]
     times = np.array([p.duration for p in points])
     spread = np.abs([times - [p.number("low") for p in points], [p.number("high") for p in points] - times])
-    ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
+    ax.errorbar(times, np.maximum(errors, LEAST), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.at.get("default"):
-            ax.plot(p.duration, e, "o", mfc="none", mec="k", ms=10)
+            ax.plot(p.duration, max(e, LEAST), "o", mfc="none", mec="k", ms=10)
 
 
 def growth(points: list[Check], machine: str) -> Figure:

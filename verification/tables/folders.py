@@ -17,6 +17,7 @@ from ..sampling import cases, measure, quantities, verdict
 from .measured import Cells
 
 SAMPLING, LEVELS, CHARTS = Path("out/sampling"), Path("out/levels"), Path("out/charts")
+METHODS_ERROR = 1e-5  # of the pressure
 
 
 def coverage() -> Cells:
@@ -59,6 +60,19 @@ def levels_saving() -> Cells:
     return [*columns, 'the same with `model="full"` at 1 % : auto'], rows
 
 
+def contact_methods() -> Cells:
+    """Contacts solved to a measured error of 1e-5: time of every method over that of the library, from the chart."""
+    points = [p for p in data.load(CHARTS, "contact") if not p.at.get("apart") and p.measured <= METHODS_ERROR]
+    names = [name for name in dict.fromkeys(p.word("method") for p in points) if name != "lubfric"]
+    rows = []
+    for panel in dict.fromkeys(p.word("panel") for p in points):
+        own = [p for p in points if p.word("panel") == panel]
+        best = {p.word("method"): min(q.duration for q in own if q.at["method"] == p.at["method"]) for p in own}
+        ours = best["lubfric"]
+        rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
+    return ["contact", "lubfric", *names], rows
+
+
 def growth() -> Cells:
     """Cost against size, by `python -m verification charts --only growth`."""
     points = data.load(CHARTS, "growth")
@@ -78,4 +92,5 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "sampling-numbers": other_numbers,
     "levels-saving": levels_saving,
     "growth": growth,
+    "contact-methods": contact_methods,
 }
