@@ -1,4 +1,4 @@
-"""Rows of a long run, a line of JSON each in one file: what is found there is not solved again."""
+"""Rows of a long run, kept as a line of JSON each in one file. What is found there is not solved again."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def read(file: Path) -> list[Any]:
 
 
 def append(file: Path, row: Any) -> None:
-    """Put one row behind the others, in a folder that is made where it is missing."""
+    """Append one row, in a folder that is made where it is missing."""
     file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("a", encoding="utf-8") as stream:
         stream.write(json.dumps(row) + "\n")

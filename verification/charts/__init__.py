@@ -1,4 +1,7 @@
-"""``python -m verification charts``: error against time, and cost against size, measured on this machine."""
+"""``python -m verification charts``: error against time, and cost against size, measured on this machine.
+
+Times are processor seconds, which another job on the machine changes less than it changes the time by the clock.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ LEVELS = ("full", "quick")
 
 
 def main(argv: list[str]) -> int:
-    """The command."""
+    """Run the command line."""
     studies = tuple(
         Study(name, "verification.charts:chart", title, LEVELS, {"name": name}) for name, title in CHARTS.items()
     )

@@ -11,7 +11,7 @@ from .measure import Result
 
 
 def coverage(results: list[Result]) -> Figure:
-    """Every interval of every case over the truth, those that miss it in red."""
+    """Every interval of every case over the truth. Those that miss it are red."""
     canvas, grid = axes(-(-len(results) // 2), 2, 11, 2.6 * -(-len(results) // 2), squeeze=False)
     for axis, result in zip(grid.flat, results):
         order = np.argsort(result.column("f"))
@@ -30,7 +30,7 @@ def coverage(results: list[Result]) -> Figure:
 
 
 def bias(found: Found) -> Figure:
-    """Mean and scatter of f of one patch, over its length."""
+    """Mean and scatter of f of one patch over its length."""
     canvas, axis = axes(1, 1, 6.4, 4)
     for speed, (rows, truth) in found.items():
         length, mean, scatter, count = rows.T
@@ -52,7 +52,7 @@ def bias(found: Found) -> Figure:
 
 
 def cost(found: dict[str, np.ndarray]) -> Figure:
-    """Time against the error of f that was made, the surface in it."""
+    """Time against the error of f that was made by having a finite surface."""
     canvas, axis = axes(1, 1, 6.4, 4)
     for name, rows in found.items():
         asked, seconds, error = rows.T

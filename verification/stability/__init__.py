@@ -1,7 +1,7 @@
 """``python -m verification stability``: map where methods fail, and prove that the default ones say so.
 
-Exit code 1: a cell of a default method is silently wrong, one inside the promised range failed, a bad input was not
-refused in words, or one of many random scenes was answered wrongly.
+The exit code is 1 when a cell of a default method is silently wrong, when one inside the promised range failed, when a
+bad input was not refused in words, or when one of many random scenes was answered wrongly.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def main(argv: list[str]) -> int:
 
 
 def _kept(study: Study, options: argparse.Namespace) -> Study:
-    """The soak keeps what is done in the folder of the report; alone, it has all the processes."""
+    """The soak keeps what is done in the folder of the report. Run alone, it has all the processes."""
     if study.name != "soak":
         return study
     workers = options.workers if options.only == ["soak"] else 1
@@ -47,7 +47,7 @@ def _kept(study: Study, options: argparse.Namespace) -> Study:
 
 
 def stability_map(level: str, name: str) -> Iterator[Item]:
-    """Every cell of one map, judged without asking the solver; then their counts and their picture."""
+    """Every cell of one map, judged without asking the solver, then the counts and the picture."""
     from .draw import draw, table
 
     cells = list(importlib.import_module(f"verification.stability.{name}_map").cells(level))
