@@ -84,5 +84,15 @@ def processor() -> str:
 
 def load(folder: Path, chart: str) -> list[Check]:
     """The points of one chart in the report.json of an earlier run."""
-    studies = json.loads((Path(folder) / "report.json").read_text())["studies"]
-    return [Check.from_dict(c) for study in studies if study["name"] == chart for c in study["checks"]]
+    return [Check.from_dict(c) for study in _studies(folder, chart) for c in study["checks"]]
+
+
+def measured_on(folder: Path, chart: str) -> str:
+    """The line that `machine` gave in an earlier run, "" where that run did not keep it."""
+    tables = [table for study in _studies(folder, chart) for table in study.get("tables", ())]
+    return next((t["rows"][0][0] for t in tables if t["name"] == f"{chart}_machine"), "")
+
+
+def _studies(folder: Path, chart: str) -> list[dict]:
+    studies = json.loads((folder / "report.json").read_text())["studies"]
+    return [study for study in studies if study["name"] == chart]

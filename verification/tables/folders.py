@@ -81,10 +81,11 @@ def growth() -> Cells:
         own = [p for p in points if p.word("panel") == panel]
         told = [f"{1e3 * p.duration:.3g} ms" if p.duration < 1 else f"{p.duration:.3g} s" for p in own]
         power = f"N^{exponent(own, 'seconds'):.2f}"
-        memory = f"{np.max([p.number('memory') for p in own]) / 1e6:.3g} MB"
-        ends = [f"{own[0].word('setting')} to {own[-1].word('setting')}", ", ".join(told), power, memory]
-        rows.append([panel, *ends, f"{own[0].number('work'):.3g} to {own[-1].number('work'):.3g}"])
-    return ["job", "size", "CPU time of each size", "larger half", "memory at most", "convolutions or steps"], rows
+        memory = f"{np.max([p.number('memory') for p in own]) / 1e6:.0f} MB"
+        size, work = (f"{own[0].number(what):,.0f} to {own[-1].number(what):,.0f}" for what in ("size", "work"))
+        rows.append([panel, size, ", ".join(told), power, memory, work])
+    columns = ["job", "cells, nodes or points", "CPU time of each size", "larger half", "memory at most"]
+    return [*columns, "convolutions, steps or points"], rows
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
