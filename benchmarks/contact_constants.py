@@ -23,11 +23,11 @@ import numpy as np
 from benchmarks import page
 from benchmarks.contact_before_after import E_PRIME, surface
 from lubfric import solve_contact
-from lubfric.contact import careful, cells, descent, fields, nested, problem, refine, stencil
+from lubfric.contact import careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil
 from lubfric.halfspace import half_space
 
 SPACING = 2e-6
-MODULES = (careful, cells, descent, fields, nested, problem, refine, stencil)
+MODULES = (careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil)
 KINDS = ("exponential", "gaussian", "self-affine")
 CONSTANTS = (
     (descent, "FIRST_PACE"),
@@ -52,6 +52,9 @@ CONSTANTS = (
     (problem, "COARSE_ITERATIONS"),
     (cells, "DENSE"),
     (stencil, "SPARSE"),
+    (long_waves, "FACTOR"),
+    (long_waves, "LEAST"),
+    (nested, "HEAVIER"),
     (fields, "BLOCK"),
 )
 

@@ -235,11 +235,11 @@ def cost():
     scene = lubfric.load_scene("paper").with_(
         transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2))
     )
-    begun = time.perf_counter()
+    begun = time.process_time()
     found = lubfric.transient(scene)
     yield Check(
-        f"paper scene, {found.report.iterations} steps of a cycle: time",
-        time.perf_counter() - begun,
+        f"paper scene, {found.report.iterations} steps of a cycle: processor time",
+        time.process_time() - begun,
         30.0,
         0.0,
         "asked for",
