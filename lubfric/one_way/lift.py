@@ -25,7 +25,7 @@ from ..roots import increasing_root
 from .film import GapFilm, gap_film
 from .limit import pressure_limit
 
-TOLERANCE = 0.03  # of Q, which moves the film by some 2 % of itself
+TOLERANCE = 0.005  # of Q, which moves the film on the spots by some .3 % of itself, and its load by a part of that
 HIGHEST = 1e-4  # m
 GUESS = 0.1  # of the smooth film, to begin with
 STEP, MOST = 0.5, 2.0  # of ln δ at first; |ln| of the ratio of Q, beyond which it tells nothing
