@@ -6,8 +6,9 @@ compressible oil, from 0.3 down to 0.001 m/s.
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -16,6 +17,8 @@ import numpy as np
 import lubfric
 from lubfric.deterministic import lay_out, solve_point
 from lubfric.deterministic.point import layer
+from lubfric.deterministic.problem import Problem
+from lubfric.deterministic.result import DeterministicResult
 from lubfric.deterministic.solve import Start
 from lubfric.deterministic.transfer import state_on
 from lubfric.line_contact import LineContact
@@ -57,7 +60,9 @@ def loads(level: str, folder: Path | None = None) -> Iterator[Item]:
 def swept(cells: int, key: str) -> list[list]:
     """Rows of the table: the load and surface ``key`` at all speeds from the fastest down."""
     kind, seed = key.split(", ")
-    lay, rows, last = _laid(kind, int(seed), cells), [], None
+    lay = _laid(kind, int(seed), cells)
+    rows: list[list] = []
+    last: DeterministicResult | None = None
     for speed in SPEEDS:
         problem = lay(speed)
         starts = [] if last is None else [Start(partial(state_on, problem, last), last.speed)]
@@ -67,12 +72,12 @@ def swept(cells: int, key: str) -> list[list]:
             said = [last.coefficient, last.split.spots / last.load, 1e9 * last.mean_gap, last.report.iterations]
             failure = ""
         except lubfric.ConvergenceError as error:
-            last, said, failure = None, [np.nan] * 4, str(error)
+            last, said, failure = None, [math.nan] * 4, str(error)
         rows.append([kind, int(seed), speed, *said, time.process_time() - begun, failure])
     return rows
 
 
-def _laid(kind: str, seed: int, cells: int):
+def _laid(kind: str, seed: int, cells: int) -> Callable[[float], Problem]:
     if kind == "1 GPa":
         step = bearing.WIDTH / cells
         surface = lubfric.generate_surface(
