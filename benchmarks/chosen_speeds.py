@@ -1,6 +1,7 @@
 """Curves at speeds of their own choice beside curves at 25 even ones: points, processor time, largest error between.
 
     python benchmarks/chosen_speeds.py [--line] [--seed SEED] [--scenes COUNT] [--points POINTS]
+        [--docs docs]
 
 Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --line, on a
 line at a sampling tolerance of 5 %. The error is that of ``curve.at`` beside a curve of 100 even speeds, solved to
@@ -13,12 +14,19 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 import argparse
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 from scipy.stats import qmc
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
 import lubfric
+from benchmarks import page
+
+COLUMNS = ("scene", "speeds", "error told", "largest error", "of 25 even speeds", "time over that of 25")
 
 
 def scenes(count: int, line: bool, sequence: int):
@@ -52,9 +60,10 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--scenes", type=int, default=16)
     parser.add_argument("--points", type=int, default=100)
+    page.add_option(parser)
     arguments = parser.parse_args()
-    print("| scene | speeds | error told | largest error | of 25 even speeds | time over that of 25 |")
-    print("|---|---|---|---|---|---|")
+    print(" | ".join(COLUMNS))
+    rows = []
     for number, scene in enumerate(scenes(arguments.scenes, arguments.line, arguments.seed), start=1):
         prepared = lubfric.prepare(scene)
         lubfric.stribeck(prepared, [0.1])  # whatever is imported at first is
@@ -69,11 +78,10 @@ def main() -> None:
         true = lubfric.stribeck(prepared, np.sort(speeds), tolerance=2e-3, raise_on_failure=False)
         good = np.isfinite(true.coefficient)
         missed = [np.abs(c.at(true.speed[good]) / true.coefficient[good] - 1).max() for c in (auto, even)]
-        print(
-            f"| {number} | {auto.speed.size} | {auto.report.residual:.2%} | {missed[0]:.2%} | {missed[1]:.2%} | "
-            f"{spent / usual:.2f} |",
-            flush=True,
-        )
+        errors = [f"{error:.2%}" for error in (auto.report.residual, *missed)]
+        rows.append([str(number), str(auto.speed.size), *errors, f"{spent / usual:.2f}"])
+        print(" | ".join(rows[-1]), flush=True)
+    page.write("chosen-speeds", COLUMNS, rows, (parser, arguments))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Two versions of the library on the same dry contacts: CPU time at one measured pressure error.
 
-    OMP_NUM_THREADS=1 python benchmarks/contact_before_after.py BEFORE [AFTER] [--only 816 line] [--repeats 5] [--target
-    1e-5]
+    OMP_NUM_THREADS=1 python benchmarks/contact_before_after.py BEFORE [AFTER] [--only 816 line] [--repeats 5]
+        [--target 1e-5] [--docs docs]
 
 BEFORE and AFTER (default: the tree of this file) are folders that hold a ``lubfric`` package. Each is imported in a
 process of its own; solves of the two are interleaved, one thread each. Error: relative L2 distance of the pressure
@@ -135,16 +135,23 @@ def loosest(pool, name, target, file):
     return LADDER[low]
 
 
-def markdown(rows) -> str:
-    """The rows as a table."""
-    lines = ["| case | before: CPU s, convolutions | after: CPU s, convolutions | ratio |", "|---|---|---|---|"]
+COLUMNS = ("case", "before: CPU s, convolutions", "after: CPU s, convolutions", "ratio")
+
+
+def cells_of(rows) -> list[list[str]]:
+    """The rows of the page."""
+    lines = []
     for row in rows:
         (a, b), ((_, c), (_, d)) = row["seconds"], row["work"]
-        lines.append(f"| {row['case']} | {a:.3g}, {c:g} | {b:.3g}, {d:g} | {a / b:.1f} |")
-    return "\n".join(lines) + "\n"
+        lines.append([row["case"], f"{a:.3g}, {c:g}", f"{b:.3g}, {d:g}", f"{a / b:.1f}"])
+    return lines
 
 
 def main() -> None:
+    """Compare; what writes the page is imported here, as the processes import each a library of their own."""
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+    from benchmarks import page
+
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("before")
     parser.add_argument("after", nargs="?", default=str(Path(__file__).parents[1]))
@@ -153,7 +160,7 @@ def main() -> None:
     parser.add_argument("--target", type=float, default=1e-5)
     parser.add_argument("--work", type=Path, default=Path("out/before_after"), help="folder for reference pressures")
     parser.add_argument("--json", type=Path)
-    parser.add_argument("--markdown", type=Path, help="table for docs/performance.md")
+    page.add_option(parser)
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     fresh, rows = multiprocessing.get_context("spawn"), []
@@ -186,8 +193,7 @@ def main() -> None:
                 "errors": [k[-1][0] for k in found],
             }
         )
-    if options.markdown:
-        options.markdown.write_text(markdown(rows))
+    page.write("contact-before", COLUMNS, cells_of(rows), (parser, options))
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1))
 

@@ -1,6 +1,6 @@
 """Each constant of the contact search at half and at twice its value, on several surfaces.
 
-    OMP_NUM_THREADS=1 python benchmarks/contact_constants.py [--cells 256] [--markdown FILE]
+    OMP_NUM_THREADS=1 python benchmarks/contact_constants.py [--cells 256] [--docs docs]
 
 Periodic surfaces with exponential and Gaussian autocorrelation and self-affine ones (H = 0.8) at 50, 200 and 1000 MPa,
 one with a hardness of 3 GPa and one with a free axis, to tolerance 1e-4. Told are the convolutions against those of the
@@ -20,13 +20,14 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import numpy as np
 
+from benchmarks import page
 from benchmarks.contact_before_after import E_PRIME, surface
 from lubfric import solve_contact
-from lubfric.contact import careful, cells, descent, fields, nested, problem, refine, stencil
+from lubfric.contact import careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil
 from lubfric.halfspace import half_space
 
 SPACING = 2e-6
-MODULES = (careful, cells, descent, fields, nested, problem, refine, stencil)
+MODULES = (careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil)
 KINDS = ("exponential", "gaussian", "self-affine")
 CONSTANTS = (
     (descent, "FIRST_PACE"),
@@ -51,8 +52,13 @@ CONSTANTS = (
     (problem, "COARSE_ITERATIONS"),
     (cells, "DENSE"),
     (stencil, "SPARSE"),
+    (long_waves, "FACTOR"),
+    (long_waves, "LEAST"),
+    (nested, "HEAVIER"),
     (fields, "BLOCK"),
 )
+
+COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled")
 
 
 def solvers(n: int) -> list:
@@ -104,23 +110,17 @@ def words(rows, usual) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cells", type=int, default=256)
-    parser.add_argument("--markdown", type=Path)
+    page.add_option(parser)
     options = parser.parse_args()
     solves = solvers(options.cells)
     [solve() for solve in solves]
-    lines = [
-        "| constant | value | halved: convolutions, mean and worst | doubled |",
-        "|---|---|---|---|",
-    ]
+    rows = []
     for module, name in CONSTANTS:
         usual = solved_with(module, name, 1.0, solves)
         found = [words(solved_with(module, name, factor, solves), usual) for factor in (0.5, 2.0)]
-        lines.append(
-            f"| `{module.__name__.rpartition('.')[2]}.{name}` | {getattr(module, name)} | {' | '.join(found)} |"
-        )
-        print(lines[-1], flush=True)
-    if options.markdown:
-        options.markdown.write_text("\n".join(lines) + "\n")
+        rows.append([f"`{module.__name__.rpartition('.')[2]}.{name}`", str(getattr(module, name)), *found])
+        print(" | ".join(rows[-1]), flush=True)
+    page.write("contact-constants", COLUMNS, rows, (parser, options))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Dry contact against aspher and tamaas: processor time at one measured pressure error.
 
     python benchmarks/contact_vs_aspher.py [--surfaces exponential gaussian self-affine] [--cells 816 2048]
-        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--markdown FILE]
+        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--docs docs]
 
 Periodic surfaces (exponential or Gaussian ACF, 1/e length 34 um, or self-affine with H = 0.8; sigma 240 nm, spacing 2
 um). Error: relative L2 distance of the pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12
@@ -28,6 +28,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import numpy as np
 
+from benchmarks import page
 from benchmarks.contact_before_after import E_PRIME, surface
 from verification.opponents import aspher_solver, lubfric_solver, tamaas_solver
 
@@ -84,19 +85,22 @@ def stopped(heights, load, reference, seconds):
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
-def markdown(rows) -> str:
-    """Rows as a table, a line for each case."""
-    lines = [
-        "| surface, grid, mean pressure | lubfric: CPU s, error | aspher: CPU s, error | ratio |",
-        "|---|---|---|---|",
-    ]
+COLUMNS = ("surface, grid, mean pressure", "lubfric: CPU s, error", "aspher: CPU s, error", "ratio")
+
+
+def cells_of(rows) -> list[list[str]]:
+    """The table of the page, a row for each case."""
+    lines = []
     for case in dict.fromkeys((r["surface"], r["cells"], r["load"]) for r in rows):
         found = {r["name"]: r for r in rows if (r["surface"], r["cells"], r["load"]) == case}
         ours, theirs = found["lubfric"], found.get("aspher")
-        words = [f"{r['median']:.3g} [{r['low']:.3g}, {r['high']:.3g}], {r['error']:.0e}" for r in (ours, theirs) if r]
+        words = [
+            f"{r['median']:.3g} [{r['low']:.3g}, {r['high']:.3g}], {r['error']:.0e}" if r else ""
+            for r in (ours, theirs)
+        ]
         ratio = f"{theirs['median'] / ours['median']:.1f}" if theirs else ""
-        lines.append(f"| {case[0]}, {case[1]}², {case[2]:g} MPa | {' | '.join(words)} | {ratio} |")
-    return "\n".join(lines) + "\n"
+        lines.append([f"{case[0]}, {case[1]}², {case[2]:g} MPa", *words, ratio])
+    return lines
 
 
 def case_rows(kind, cells, load, solvers, heights, options, kept) -> list[dict]:
@@ -128,8 +132,8 @@ def main() -> None:
     parser.add_argument("--target", type=float, default=1e-5)
     parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: left out)")
     parser.add_argument("--kept", type=Path)
-    parser.add_argument("--markdown", type=Path)
     parser.add_argument("--json", type=Path)
+    page.add_option(parser)
     options = parser.parse_args()
     rows: list[dict] = []
     kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}
@@ -144,8 +148,7 @@ def main() -> None:
                 for path, text in ((options.kept, kept), (options.json, rows)):
                     if path:
                         path.write_text(json.dumps(text, indent=1))
-                if options.markdown:
-                    options.markdown.write_text(markdown(rows))
+                page.write("contact-aspher", COLUMNS, cells_of(rows), (parser, options))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """A study of many points: points per second, what two processes gain, memory, disk.
 
-    python benchmarks/study.py [--points 10000] [--workers 2] [--out FOLDER]
+    python benchmarks/study.py [--points 10000] [--workers 2] [--out FOLDER] [--docs docs]
 
 Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; every tenth of its
 batches is run in this process too, and its processor time is set beside the processor time that the same batches took
@@ -16,6 +16,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 import argparse
 import json
 import resource
+import sys
 import tempfile
 import time
 from collections import defaultdict
@@ -25,7 +26,10 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
 import lubfric
+from benchmarks import page
 from lubfric.studies import run
 
 FEW = 10  # every so many batches are run here too
@@ -96,6 +100,7 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=10_000)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path)
+    page.add_option(parser)
     arguments = parser.parse_args()
     folder = arguments.out or Path(tempfile.mkdtemp())
     whole = plan(arguments.points)
@@ -135,9 +140,10 @@ def main() -> None:
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),
     ]
     draw(folder, again)
-    print("| | |\n|---|---|")
+    print("| what | measured |\n|---|---|")
     for name, value in rows:
         print(f"| {name} | {value} |")
+    page.write("study-points", ("what", "measured"), rows, (parser, arguments))
 
 
 if __name__ == "__main__":

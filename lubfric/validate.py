@@ -135,14 +135,16 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         raise InputError(f"{name} has {a.ndim} axes (shape {a.shape}); allowed: exactly {ndim} [{unit}]")
     if a.size == 0:
         raise InputError(f"{name} is empty (shape {a.shape}); allowed: at least one value [{unit}]")
-    bad = a.size - np.count_nonzero(np.isfinite(a))
-    if bad:
+    with np.errstate(invalid="ignore"):
+        furthest = max(float(a.max()), -float(a.min()))  # NaN where any value is
+    if not math.isfinite(furthest):
+        bad = a.size - np.count_nonzero(np.isfinite(a))
         raise InputError(
             f"{name} has {bad} of {a.size} values that are NaN or infinite; allowed: finite values in {unit}"
         )
     most = SANE.get(unit, (LEAST, LARGEST))[1]
-    if max(a.max(), -a.min()) > most:
-        raise InputError(f"{name} reaches {max(a.max(), -a.min()):g} {unit}; allowed: up to {most:g} {unit}")
+    if furthest > most:
+        raise InputError(f"{name} reaches {furthest:g} {unit}; allowed: up to {most:g} {unit}")
     return a
 
 

@@ -25,7 +25,7 @@ SUBCOMMANDS: dict[str, str] = {
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Exit code of the command asked for, see `verification.frame.main`."""
+    """Run the command that ``argv`` asks for, and return its exit code (see `verification.frame.main`)."""
     argv = sys.argv[1:] if argv is None else list(argv)
     if argv and argv[0] in SUBCOMMANDS:
         return importlib.import_module(SUBCOMMANDS[argv[0]]).main(argv[1:])

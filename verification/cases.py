@@ -8,7 +8,7 @@ ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
 
 
 def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:
-    """SI arguments with the Moes numbers M and L; L = 0 is the constant viscosity."""
+    """Arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
     law, effective = ("constant", 5.0) if L == 0 else (law, L)
     u1 = (effective / (ALPHA * E_PRIME)) ** 4
     return {

@@ -1,4 +1,4 @@
-"""What a part of the verification hands back: checks, tables, figures and fields, all plain frozen data."""
+"""What a part of the verification hands back: checks, tables, figures and fields. All are plain frozen data."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Where = Mapping[str, str | float | bool | None]
 
 @dataclass(frozen=True)
 class Check:
-    """One measured number set against the number it should be: the one record of all commands.
+    """One measured number set against the number it should be. All commands use this one record.
 
     ``kind`` says what passes:
 
@@ -32,12 +32,17 @@ class Check:
     - "at_least": ``measured >= expected - tolerance``, for bounds on convergence orders
     - "told":     any finite number: a time, or an error that a chart shows
 
-    A measured value that is NaN or infinite never passes. ``source`` names where ``expected`` comes
-    from (closed form, publication, another solver); ``seconds`` is filled in by the runner for studies
-    that yield their checks one by one. ``decisive``: False for what is shown beside the others, such as a method that
-    users do not get unasked: it may fail without the run failing. ``refused``: what the method said in place of a
-    number, which then is NaN. ``at``: where it was measured (axes of a map, setting and cost of a method, seed of a
-    scene), by name.
+    A measured value that is NaN or infinite never passes.
+
+    Attributes
+    ----------
+    source : where ``expected`` comes from (closed form, publication, another solver)
+    seconds : filled in by the runner for studies that yield their checks one by one
+    decisive : False for what is only shown beside the others, such as a method that users do not get unasked; it may
+        fail
+        without the run failing
+    refused : what the method said in place of a number, which then is NaN
+    at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
 
     Raises
     ------
@@ -87,12 +92,12 @@ class Check:
 
     @property
     def passed(self) -> bool:
-        """True when the measured value is finite and within the tolerance."""
+        """Whether the measured value is finite and within the tolerance."""
         return math.isfinite(self.measured) and self.deviation <= self.tolerance
 
     @property
     def failed(self) -> bool:
-        """True when the run fails by it."""
+        """Whether the run fails by this check."""
         return self.decisive and not self.passed
 
     @property
@@ -122,7 +127,7 @@ class Check:
 
     @classmethod
     def from_dict(cls, values: dict) -> Check:
-        """The check that `as_dict` made the values of; what JSON has no word for comes back as NaN."""
+        """The check whose values `as_dict` gave. What JSON has no word for comes back as NaN."""
         known = {f.name: values[f.name] for f in fields(cls) if f.name in values}
         for name in ("measured", "expected", "tolerance"):
             known[name] = math.nan if known[name] is None else known[name]
@@ -131,7 +136,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of numbers or text under ``columns``; shown in the report, stored in report.json."""
+    """Rows of numbers or text under ``columns``. The report shows them, and report.json stores them."""
 
     name: str
     caption: str
@@ -191,7 +196,7 @@ Item = Check | Table | Figure | Field
 
 @dataclass(frozen=True)
 class StudyResult:
-    """All that a study found, for a study that returns at its end instead of yielding as it goes."""
+    """All that a study found. It is for a study that returns once at its end, and does not yield as it goes."""
 
     checks: tuple[Check, ...] = ()
     tables: tuple[Table, ...] = ()

@@ -1,6 +1,6 @@
-"""Closed forms and one-dimensional quadratures for rigid films: what the finite elements are held against.
+"""Closed forms and one-dimensional quadratures for rigid films, which the finite elements are held against.
 
-Written from the equations, with nothing from `lubfric` nor from `verification.fem`. U is the entrainment
+They are written from the equations, with nothing from `lubfric` nor from `verification.fem`. U is the entrainment
 speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
 """
 
@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 
 @dataclass(frozen=True)
 class Slider:
-    """Plane slider without side flow, film falling linearly from ``inlet`` to ``outlet`` over ``length``.
+    """A plane slider without side flow. Its film falls linearly from ``inlet`` to ``outlet`` over ``length``.
 
-    Rayleigh (1918, doi:10.1080/14786440108635730): with K = inlet/outlet - 1.
+    Rayleigh (1918, doi:10.1080/14786440108635730), with K = inlet/outlet - 1.
     """
 
     viscosity: float
@@ -50,11 +50,10 @@ class Slider:
 
 @dataclass(frozen=True)
 class Parabola:
-    """Rigid parabolic film ``h0 + x^2/(2R)`` flooded from ``x = inlet sqrt(2 R h0)``, Reynolds' outlet.
+    """A rigid parabolic film ``h0 + x^2/(2R)``, flooded from ``x = inlet sqrt(2 R h0)``, with Reynolds' outlet.
 
-    In X = x/sqrt(2 R h0) the pressure is ``12 eta U sqrt(2 R h0)/h0^2 P(X)`` with
-    ``dP/dX = (X^2 - Xe^2)/(1 + X^2)^3`` and Xe such that P vanishes at the inlet (Martin 1916; Gumbel 1916;
-    for inlet = -inf, Xe = 0.4751299).
+    In X = x/sqrt(2 R h0) the pressure is ``12 eta U sqrt(2 R h0)/h0^2 P(X)`` with ``dP/dX = (X^2 - Xe^2)/(1 + X^2)^3``.
+    Xe is such that P vanishes at the inlet (Martin 1916; Gumbel 1916; for inlet = -inf, Xe = 0.4751299).
     """
 
     viscosity: float
@@ -75,7 +74,7 @@ class Parabola:
 
     @property
     def exit(self) -> float:
-        """Xe, where both P and dP/dX vanish."""
+        """Xe, the place where both P and dP/dX vanish."""
         return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
     def film(self, x):
@@ -134,11 +133,11 @@ def antiderivative(big_x, xe: float):
 
 @dataclass(frozen=True)
 class ExponentialPad:
-    """Pad of finite width with film ``inlet exp(-g x)``, from ``inlet`` to ``outlet`` over ``length``.
+    """A pad of finite width with the film ``inlet exp(-g x)``, from ``inlet`` to ``outlet`` over ``length``.
 
-    p = 0 on all four sides, |y| <= width/2. With p = sum_n f_n(x) cos(k_n y), k_n = n pi/width, n odd, each
-    f_n solves ``f'' - 3 g f' - k^2 f = c_n exp(2 g x)``, which exponentials do; the series is summed to
-    ``terms`` terms. The tail of its load falls like ``terms^-4``, once ``k_n length`` is beyond 1.
+    p = 0 on all four sides, with |y| <= width/2. The pressure is p = sum_n f_n(x) cos(k_n y) with k_n = n pi/width and
+    n odd. Each f_n solves ``f'' - 3 g f' - k^2 f = c_n exp(2 g x)``, which is done by exponentials. The series is
+    summed to ``terms`` terms. The tail of its load falls like ``terms^-4``, once ``k_n length`` is beyond 1.
     """
 
     viscosity: float
@@ -248,10 +247,10 @@ def roelands_to_true(reduced, exponent: float, index: float, pressure: float = 1
 
 
 def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray:
-    """Gauge pressure of an isothermal ideal gas under a plane slider (Harrison 1913) at ``points`` in m.
+    """Gauge pressure [Pa] of an isothermal ideal gas under a plane slider (Harrison 1913) at ``points`` in m.
 
-    ``(p h^3/(12 eta)) dp/dx = p U h - q`` with absolute p is integrated from the outlet upstream, the stable
-    direction, and the flow q found such that the inlet is at ambient pressure. Relative error below 1e-9.
+    ``(p h^3/(12 eta)) dp/dx = p U h - q``, with absolute p, is integrated from the outlet upstream, which is the stable
+    direction. The flow q is found such that the inlet is at ambient pressure. The relative error is below 1e-9.
     """
 
     def upstream(q, where=None):

@@ -16,7 +16,7 @@ from scipy.integrate import quad
 
 @dataclass(frozen=True)
 class Line:
-    """Cylinder on a plane: e_prime Pa, radius m, half_width b in m."""
+    """A cylinder on a plane: e_prime [Pa], radius [m] and the half-width b of the contact [m]."""
 
     e_prime: float
     radius: float
@@ -38,13 +38,13 @@ class Line:
         return self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
 
     def mean_gap(self, half: float) -> float:
-        """Over |x| < half, m."""
+        """Mean of the gap [m] over |x| < half."""
         return quad(self.gap, self.half_width, half)[0] / half
 
 
 @dataclass(frozen=True)
 class Sphere:
-    """Sphere on a plane: e_prime Pa, radius m, contact radius a in m."""
+    """A sphere on a plane: e_prime [Pa], radius [m] and the contact radius a [m]."""
 
     e_prime: float
     radius: float
@@ -74,7 +74,8 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Wave:
-    """Surface ``amplitude cos(2 pi x/length)`` on a plane; share s = p/p* of the pressure that closes it."""
+    """The surface ``amplitude cos(2 pi x/length)`` on a plane. The share s is p/p*, p* the pressure that closes the
+    gap."""
 
     e_prime: float
     amplitude: float
@@ -93,13 +94,12 @@ class Wave:
 
     @property
     def mean_gap(self) -> float:
-        """``amplitude (1 - s + s ln s)``, m: the pressure is minus the derivative of the energy by the mean
-        gap.
-        """
+        """``amplitude (1 - s + s ln s)`` [m], because the pressure is minus the derivative of the energy by the mean
+        gap."""
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
     def pressure(self, x):
-        """Pa at x, crest at 0."""
+        """Pressure [Pa] at x, with the crest at 0."""
         phase = math.pi * np.asarray(x) / self.length
         inside = np.sqrt(np.maximum(self.share - np.sin(phase) ** 2, 0))
         return 2 * self.mean_pressure / self.share * np.abs(np.cos(phase)) * inside

@@ -1,7 +1,7 @@
 """The frame of every command: what may be asked, the studies run, page and files written, the exit code.
 
-A command is a list of studies and little else (`Command`); its studies hand over checks, tables, figures and fields
-(`check`), and the run fails when a check that decides does.
+A command is a list of studies and little else (`Command`). Its studies hand over checks, tables, figures and fields
+(`check`). The run fails when a check that decides fails.
 """
 
 from __future__ import annotations
@@ -47,13 +47,16 @@ class Command:
 
     @property
     def program(self) -> str:
-        """As it is typed."""
+        """The command as it is typed."""
         return f"python -m verification {self.name}".strip()
 
 
 def main(command: Command, argv: list[str]) -> int:
-    """Exit code: 0 no check failed, 1 a check failed or a study raised, 2 the command makes no sense,
-    130 stopped from the keyboard (the report then holds the studies that had finished)."""
+    """Run a command and return its exit code.
+
+    0: no check failed. 1: a check failed, or a study raised. 2: the command makes no sense. 130: stopped from the
+    keyboard; the report then holds the studies that had finished.
+    """
     p = parser(command)
     options = p.parse_args(argv)
     studies = choose(command, p, options)
@@ -64,7 +67,7 @@ def main(command: Command, argv: list[str]) -> int:
 
 
 def parser(command: Command) -> argparse.ArgumentParser:
-    """The command line."""
+    """The parser of the command line."""
     p = argparse.ArgumentParser(command.program, description=command.summary)
     if len(command.levels) > 1:
         level = p.add_mutually_exclusive_group()
@@ -106,7 +109,7 @@ def did_you_mean(word: str, options) -> str:
 
 
 def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Namespace) -> int:
-    """Run, write the report after every study so that a killed process loses only the one at work."""
+    """Run the studies. The report is written after every one, so that a killed process loses only the one at work."""
     out, level = options.out, options.level
     out.mkdir(parents=True, exist_ok=True)
     begun = time.perf_counter()
@@ -142,10 +145,10 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
 
 
 def tell_study(study: Study, names: tuple[str, ...]) -> None:
-    """Progress on stderr: which study starts."""
+    """Say on stderr which study starts."""
     print(f"[{names.index(study.name) + 1}/{len(names)}] {study.name}: {study.title}", file=sys.stderr, flush=True)
 
 
 def tell_check(check: Check) -> None:
-    """Progress on stderr: a check as it comes in."""
+    """Say on stderr how a check ended, as it comes in."""
     print(f"    {'FAIL' if check.failed else 'ok  '} {check.name}", file=sys.stderr, flush=True)

@@ -1,4 +1,4 @@
-"""Rows of a long run, a line of JSON each in one file: what is found there is not solved again."""
+"""Rows of a long run, kept as a line of JSON each in one file. What is found there is not solved again."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Ways to break `lubfric` while it runs: functions replaced in one process, no source edited.
+"""Ways to break `lubfric` while it runs. Functions are replaced in one process, and no source is edited.
 
-A mutant names the places it changes as "module:attribute"; ``wrong(original)`` gives what is put there. A
-place that no longer exists is an AttributeError, and `applied` counts the calls, so that a mutant that never
-ran is not taken for one that was caught.
+A mutant names the places that it changes as "module:attribute", and ``wrong(original)`` gives what is put there. A
+place that no longer exists is an AttributeError. `applied` counts the calls, so that a mutant that never ran is not
+taken for one that was caught.
 """
 
 from __future__ import annotations
@@ -16,8 +16,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mistake: ``name``, ``what`` it is in a sentence, for each place "module:attribute" its replacement, and the
-    studies that are asked to catch it.
+    """A mistake.
+
+    Attributes
+    ----------
+    name, what : its name, and what it is in a sentence
+    places : for each place "module:attribute" what replaces it
+    studies : those that are asked to catch it
     """
 
     name: str
@@ -28,7 +33,7 @@ class Mutant:
 
 @contextlib.contextmanager
 def applied(mutant: Mutant) -> Iterator[list[str]]:
-    """While open, `lubfric` is broken; the list grows by a place whenever its replacement is called."""
+    """`lubfric` is broken while this is open. The list grows by a place whenever its replacement is called."""
     calls: list[str] = []
     undo = []
     try:
@@ -56,7 +61,7 @@ def located(place: str) -> tuple[object, str]:
 
 
 def replacement(original, wrong: Callable, place: str, calls: list[str]):
-    """``wrong(original)`` that counts; a property stays one."""
+    """``wrong(original)``, which counts its calls. A property stays a property."""
     function: Callable = original.fget if isinstance(original, property) and original.fget else original
     broken = wrong(function)
 
@@ -69,5 +74,5 @@ def replacement(original, wrong: Callable, place: str, calls: list[str]):
 
 
 def with_keywords(**wrong) -> Callable:
-    """Call a function with these keywords, whatever was asked."""
+    """Replace a function by one that gets these keywords, whatever was asked."""
     return lambda original: lambda *args, **options: original(*args, **options | wrong)

@@ -1,5 +1,5 @@
-"""The mutants: mistakes in the kernels, which the studies against closed forms and finite elements have to catch, and
-options that do not arrive (`wiring_mutants`), which the wiring checks have to catch."""
+"""The mutants. Some are mistakes in the kernels, which the studies against closed forms and finite elements have to
+catch. The others are options that do not arrive (`wiring_mutants`), which the wiring checks have to catch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def times(factor: float) -> Callable:
 
 
 def reversed_couette(original):
-    """Face fluxes with -rho H for the Couette flow."""
+    """Fluxes through faces with -rho H for the Couette flow."""
 
     def residual(grid, problem, z, H):
         R, terms = original(grid, problem, z, H)
@@ -45,7 +45,7 @@ def decadic_exponent(original):
 
 
 def without_overlap(original):
-    """A search that knows only cells under pressure: elsewhere the gap is taken for open."""
+    """A search that knows only cells under pressure, and takes the gap for open elsewhere."""
 
     def look(descent):
         fields = descent.fields
@@ -66,7 +66,7 @@ def half_load(original):
 
 
 def lower_side(original):
-    """Shear taken on the lower surface: the pressure-gradient part changes sign."""
+    """The shear on the lower surface, where the part of the pressure gradient has the other sign."""
 
     def force(*args, **options):
         found = original(*args, **options)
@@ -76,7 +76,7 @@ def lower_side(original):
 
 
 def mean_wave_only(original):
-    """Every wave along y lost: the row of images that makes a point load a point load."""
+    """A line kernel that has lost every wave along y: the row of images that makes a point load a point load."""
 
     def coefficients(*args):
         kernel = original(*args).copy()
@@ -88,7 +88,7 @@ def mean_wave_only(original):
 
 
 def stale(original):
-    """The contact before this one handed back where it is the warm start."""
+    """The contact before this one, handed back where it is the warm start."""
     before = {}
 
     def solve(gap0, *args, **options):
@@ -100,7 +100,7 @@ def stale(original):
 
 
 def corner_axis(original):
-    """Cell corners taken for cell centres."""
+    """Corners of cells in place of their centres."""
     return lambda count, step: original(count, step) - step / 2
 
 

@@ -1,8 +1,8 @@
-"""``python -m verification mutations``: break `lubfric` in many ways; the studies and wiring checks have to catch each.
+"""``python -m verification mutations``: break `lubfric` in many ways. The studies and wiring checks have to catch each.
 
-Each mutant (`mutants`) runs a few studies at the quick level in a process of its own. Caught means that a
-check fails, or that a study is stopped by an error `lubfric` raises on purpose; any other exception is a
-broken trial, not a catch. The unbroken library runs the same studies and has to pass them all.
+Each mutant (`mutants`) runs a few studies at the quick level, in a process of its own. It is caught when a check fails,
+or when a study is stopped by an error that `lubfric` raises on purpose. Any other exception is a broken trial, and no
+catch. The unbroken library runs the same studies and has to pass them all.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def main(argv: list[str]) -> int:
 
 
 def trials() -> tuple[Study, ...]:
-    """The library as it is, and each mutant."""
+    """One trial of the library as it is, and one of each mutant."""
     titles = {NONE: "the library as it is"} | {m.name: m.what for m in MUTANTS}
     target = "verification.mutations:trial"
     return tuple(Study(name, target, title, ("default",), {"name": name}) for name, title in titles.items())
@@ -42,7 +42,7 @@ def trials() -> tuple[Study, ...]:
 def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] = ()) -> Iterator[Check]:
     """The studies on one mutant, one after the other until a check fails (``thorough``: all of them).
 
-    Measured is the number of checks that failed: none of the library as it is, one or more of a mutant.
+    The measured number is how many checks failed: none of the library as it is, one or more of a mutant.
     """
     mutant = next((m for m in MUTANTS if m.name == name), None)
     suite = suite or (mutant.suite if mutant else tuple(dict.fromkeys(s for m in MUTANTS for s in m.suite)))
@@ -78,7 +78,7 @@ def judged(name: str, mutant: bool, failed: list[tuple], looked_at: int, crash: 
 
 
 def words(check: Check) -> tuple[str, str, str]:
-    """Name, measured and allowed value of a check; for a study that was stopped, by what."""
+    """Name, measured and allowed value of a check. Of a study that was stopped: by what."""
     if check.name.endswith("runs to its end"):
         return check.name, check.note[:160], "no error"
     return check.name, f"{number(check.measured)} {check.unit.replace('1', '')}".strip(), allowed(check)
@@ -88,7 +88,7 @@ COLUMNS = ("mutant", "what is wrong", "caught by", "failing checks")
 
 
 def rows(outcomes: Iterable[Outcome]) -> list[list[str]]:
-    """Mutant, what is wrong, the first check that caught it and its numbers, how many checks failed."""
+    """The mutant, what is wrong, the first check that caught it with its numbers, and how many checks failed."""
     found = []
     for outcome in outcomes:
         for c in outcome.checks:
@@ -99,7 +99,7 @@ def rows(outcomes: Iterable[Outcome]) -> list[list[str]]:
 
 
 def table(report: Report, options: Namespace) -> str:
-    """The same as Markdown, and the count."""
+    """The rows as Markdown, and the count."""
     mutants = [c for o in report.outcomes for c in o.checks if o.study.name != NONE]
     caught = f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"
     return f"{markdown(COLUMNS, rows(report.outcomes))}\n\n{caught}"

@@ -1,4 +1,4 @@
-"""The report as one HTML page: no script, nothing fetched, readable on a phone and without a network."""
+"""The report as one HTML page. It has no script, fetches nothing, and can be read on a phone and without a network."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def render(report) -> str:
 
 
 def overview(report) -> str:
-    """One line a study, with a link to its section."""
+    """A line for each study, with a link to its section."""
     done = {o.study.name: o for o in report.outcomes}
     rows = []
     for name in report.selected:
@@ -119,7 +119,7 @@ def section(outcome) -> str:
 
 
 def checks_table(checks) -> str:
-    """The checks of a study, or the failed ones of all; of very many the failed ones."""
+    """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
     rows = [
@@ -137,7 +137,7 @@ def checks_table(checks) -> str:
 
 
 def data_table(table) -> str:
-    """A table of a study; a wide one scrolls inside its own box."""
+    """A table of a study. A wide one scrolls inside its own box."""
     head = "".join(f"<th>{escape(str(c))}</th>" for c in table.columns)
     body = "".join("<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows)
     return (

@@ -1,7 +1,7 @@
-"""A worker of a pool ends with the process that started it, whatever it is in the middle of.
+"""A worker of a pool ends with the process that started it, whatever the worker is in the middle of.
 
-A pool tells its workers that it is over; one that was killed tells nothing, and a worker would go on to the end of its
-check.
+A pool tells its workers that it is over. One that was killed tells nothing, and its workers would go on to the end of
+their checks.
 """
 
 import os
@@ -11,7 +11,7 @@ from multiprocessing.connection import wait
 
 
 def end_with_parent() -> None:
-    """To be called first in a worker (``initializer`` of a pool): a thread of it waits for the parent to end."""
+    """To be called first in a worker (``initializer`` of a pool): starts a thread that waits for the parent to end."""
     parent = parent_process()
     if parent is not None:
         threading.Thread(target=_watch, args=(parent.sentinel,), daemon=True).start()

@@ -1,4 +1,4 @@
-"""Parts of a result and of a model that a study counts on: one that is missing ends the study in words."""
+"""Parts of a result and of a model that a study counts on. A part that is missing ends the study in words."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ def the(part: T | None, name: str) -> T:
 
 
 def balance(result: FrictionResult) -> Lubricated:
-    """The balance of a point with entrainment: it has a film."""
+    """The balance of a point with entrainment, which has a film."""
     return the(the(result.balance, "balance").lubricated, "film")
 
 
 def contact_fields(result: FrictionResult) -> ContactResult:
-    """Pressure and gap on the contact grid of a point solved with ``fields=True``."""
+    """Pressure and gap on the contact grid, of a point that was solved with ``fields=True``."""
     return the(the(result.balance, "balance").contact.fields, "contact with fields")
 
 
 def decision(result: FrictionResult) -> Decision:
-    """How much was modelled."""
+    """What was modelled, and how far."""
     return the(result.decision, "decision")
 
 

@@ -1,4 +1,4 @@
-"""Figures of the report: one look, no global state, finished as bytes."""
+"""Figures of the report. They have one look, keep no global state, and end as bytes."""
 
 from __future__ import annotations
 
@@ -80,7 +80,8 @@ def convergence(name: str, caption: str, series: dict, size_label: str, error_la
 
 
 def compact(figure: Figure, colours: int = 128) -> Figure:
-    """The same picture with a palette (rare colours kept as well), for files that stay: a third of the size."""
+    """The same picture with a palette (rare colours are kept as well), for files that stay. It takes a third of the
+    space."""
     from PIL import Image
 
     stream = io.BytesIO()

@@ -1,8 +1,9 @@
 """Contact by the plain method of Polonsky and Keer: the yardstick of the field, and a second opinion.
 
-I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1: conjugate gradient on the cells
-in contact, restarted whenever a cell enters; overlapping cells corrected in a step of their own; pressure rescaled to
-the load. Elastic, load given. Double precision throughout, no preconditioner, no nested grids.
+I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1. It is a conjugate gradient on
+the cells in contact, restarted whenever a cell enters. Overlapping cells are corrected in a step of their own, and the
+pressure is rescaled to the load. The contact is elastic and its load is given. All is in double precision, with no
+preconditioner and no nested grids.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ def polonsky_keer(
 ) -> tuple[np.ndarray, bool]:
     """(pressure [Pa], converged) for any ``operator`` with ``apply``.
 
-    Converged when sum(p |g|)/sum(p) and the deepest overlap are <= tolerance times the load-weighted deflection
-    sum(p u)/sum(p) (rms of gap0 if that is larger). Overlap is looked at as well: a single touching cell has p g = 0.
+    It has converged when sum(p |g|)/sum(p) and the deepest overlap are <= tolerance times the load-weighted deflection
+    sum(p u)/sum(p), or times the rms of gap0 if that is larger. The overlap is looked at as well, because a single
+    touching cell has p g = 0.
     """
     p = np.full(gap0.shape, float(mean_pressure))
     direction, power, keep = np.zeros_like(p), 1.0, 0.0

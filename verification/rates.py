@@ -6,7 +6,7 @@ import numpy as np
 
 
 def orders(sizes, errors) -> np.ndarray:
-    """Order between successive meshes, ``log(e_i/e_{i+1}) / log(h_i/h_{i+1})``, one fewer than the meshes."""
+    """Orders between successive meshes, ``log(e_i/e_{i+1}) / log(h_i/h_{i+1})``: one fewer than there are meshes."""
     log_size, log_error = np.log(positive("sizes", sizes)), np.log(positive("errors", errors))
     return np.diff(log_error) / np.diff(log_size)
 
@@ -17,7 +17,7 @@ def fitted_order(sizes, errors) -> float:
 
 
 def positive(name: str, values) -> np.ndarray:
-    """At least two finite values > 0, or ValueError: an order fitted to anything else is a fiction."""
+    """Raise ValueError unless there are at least two finite values > 0: an order fitted to others means nothing."""
     a = np.asarray(values, dtype=float)
     if a.ndim != 1 or a.size < 2 or not np.all(np.isfinite(a) & (a > 0)):
         raise ValueError(f"{name} = {a}; an order needs at least two finite values > 0")

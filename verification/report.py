@@ -1,4 +1,4 @@
-"""A run as a whole: its verdict, its text on the terminal, its files. `page` makes the HTML."""
+"""A run as a whole: its verdict, its text on the terminal and its files. `page` makes the HTML."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def environment() -> dict[str, str]:
 def save_files(outcome: Outcome, out: Path) -> Outcome:
     """Write the figures, tables and fields of one study to ``out``.
 
-    A file that cannot be written is one more failed check of the outcome that comes back.
+    A file that cannot be written is one more failed check of the outcome that is returned.
     """
     try:
         for figure in outcome.figures:
@@ -151,12 +151,12 @@ def save_files(outcome: Outcome, out: Path) -> Outcome:
 
 
 def file_of(study: str, name: str, ending: str) -> str:
-    """The file of what a study calls ``name``: after the study, unless it bears its name already."""
+    """The file of what a study calls ``name``. It is named after the study, unless it bears that name already."""
     return f"{name}.{ending}" if name.startswith(study) else f"{study}_{name}.{ending}"
 
 
 def write_table(path: Path, table: Table) -> None:
-    """As CSV."""
+    """Write a table as CSV."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(table.columns)
@@ -172,7 +172,7 @@ def save(report: Report, out: Path) -> Path:
 
 
 def terminal_table(report: Report) -> str:
-    """The checks as text, one line each, with the reason below those that failed; of very many only the failed ones."""
+    """The checks as text, one line each, with the reason below those that failed. Of very many only the failed ones."""
     lines = []
     for outcome in report.outcomes:
         lines += [f"{outcome.study.name}: {outcome.study.title} ({seconds(outcome.seconds)})"]

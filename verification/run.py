@@ -1,5 +1,5 @@
-"""Run studies, one after another or each in a process of its own; one that raises is a failed check and stops nothing
-else."""
+"""Run studies one after another, or each in a process of its own. A study that raises is a failed check, and stops no
+other."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Collector:
     progress: Callable[[Check], None] = lambda check: None
 
     def take(self, items, timed: bool) -> None:
-        """Take every item; the time since the one before belongs to a check that brings none of its own."""
+        """Take every item. The time since the one before belongs to a check that brings no time of its own."""
         last = time.perf_counter()
         for item in items:
             now = time.perf_counter()
@@ -73,8 +73,11 @@ class Collector:
             self.add(item)
 
     def add(self, item: Item) -> None:
-        """Put one item with its kind; two of one name would overwrite each other's file, or hide each other. Checks
-        that say where they were measured are told apart by that."""
+        """Put one item with its kind.
+
+        Two of one name would overwrite each other's file, or hide each other. Checks that say where they were measured
+        are told apart by that.
+        """
         kind = type(item)
         if kind not in self.items:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
@@ -93,10 +96,12 @@ def run(
     announce: Callable[[Study], None] = lambda study: None,
     workers: int = 0,
 ) -> Iterator[Outcome]:
-    """Yield the `Outcome` of each study in order; ``announce`` is called before each, ``progress`` on each check.
+    """Yield the `Outcome` of each study in order. ``announce`` is called before each, ``progress`` on each check.
 
-    ``workers``: that many processes, a fresh one for each study (the number of threads is read once, when NumPy is
-    loaded, and a broken library must not outlive its trial); 0: all of them here, each check told as it comes."""
+    ``workers`` is a number of processes, with a fresh one for each study: the number of threads is read once, when
+    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and each check is told as it
+    comes.
+    """
     if not workers:
         for study in studies:
             announce(study)

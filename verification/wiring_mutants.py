@@ -1,4 +1,5 @@
-"""Options lost on their way to the number: each function works, but something that was asked for does not arrive."""
+"""Options that are lost on their way to the number. Each function works, but something that was asked for does not
+arrive."""
 
 from __future__ import annotations
 
@@ -34,46 +35,46 @@ def in_time_without(**lost):
 
 
 def sheared_without(**lost):
-    """A shear law with something left out."""
+    """A shear law that leaves something out."""
     return lambda original: lambda lubricant, *args: original(replace(lubricant, **lost), *args)
 
 
 def itself(original):
-    """A map that is handed back as it came."""
+    """A function that hands a map back as it came."""
     return lambda surface, *args, **options: surface
 
 
 def same_cells(original):
-    """Axes exchanged, cell lengths not."""
+    """A function that exchanges the axes and not the cell lengths."""
     return lambda surface: replace(original(surface), spacing=surface.spacing)
 
 
 def not_mirrored(original):
-    """Called periodic without being made so."""
+    """A map that is called periodic without being made so."""
     return lambda surface, edge="mirror", *, axes=(True, True): replace(
         surface, periodic_axes=tuple(a or b for a, b in zip(axes, surface.periodic_axes))
     )
 
 
 def from_the_corner(original):
-    """Cut from the first point instead of the middle."""
+    """A map that is cut from its first point instead of its middle."""
     return lambda surface, shape, start=None: original(surface, shape, (0, 0))
 
 
 def swapped_cells(original):
-    """Cell lengths of a file the wrong way round."""
+    """A file whose cell lengths are the wrong way round."""
     return lambda path, **options: original(path, **options | {"spacing": options["spacing"][::-1]})
 
 
 def one_length(original):
-    """One correlation length for both axes."""
+    """A generated map with one correlation length for both axes."""
     return lambda *args, **options: original(
         *args, **options | {"correlation_length": np.max(options["correlation_length"])}
     )
 
 
 def subsampled(original):
-    """Every other height instead of the mean of the cells."""
+    """A coarse grid of every other height instead of the mean of the cells."""
 
     def coarse(contact):
         found = original(contact)
@@ -86,12 +87,12 @@ def subsampled(original):
 
 
 def half_a_column(original):
-    """Columns in contact half a column off."""
+    """The columns in contact, half a column off."""
     return lambda state, x: original(state, np.asarray(x) + 0.5 * (state.x[1] - state.x[0]))
 
 
 def whole_patch(original):
-    """The area A as long as the patch."""
+    """An area A as long as the patch."""
     return lambda scene, x, step: np.ones(x.size)
 
 

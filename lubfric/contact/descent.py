@@ -21,6 +21,7 @@ import numpy as np
 
 from ..halfspace.operator import filtered, wavenumber
 from .fields import begun
+from .long_waves import worth
 from .projection import with_load
 from .residual import dot
 from .stencil import Stencil
@@ -30,7 +31,7 @@ LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, 
 LEARNING = 0.3  # power of the relative length of a step in the next pace
 STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
-TRANSFORMED = 0.7  # share of contact from which the preconditioner is the transform, not nine points
+TRANSFORMED = 0.7  # share of contact from which, on short axes, the preconditioner is the transform, not nine points
 REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
 NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
 NEAR, WORTH = 0.7, 0.8  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
@@ -69,7 +70,7 @@ class Descent:
         self.power = self.level = self.overlap = 0.0
         self.iterations = self.convolutions = 0
         self.history: list[float] = []
-        self._precondition(operator, loaded > TRANSFORMED * state.pressure.size)
+        self._precondition(operator, not worth(cells.shape) and loaded > TRANSFORMED * state.pressure.size)
 
     def _precondition(self, operator, by_transform: bool) -> None:
         factor = operator.e_prime / 4 / self.compliance

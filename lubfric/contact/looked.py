@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .fields import BLOCK
 from .residual import blocks, contact_residuals, deflection_scale, dot
 
 
@@ -31,7 +32,7 @@ class State:
 
     def light(self) -> State:
         """The state without displacement and with the gap in single precision, which is what a search needs."""
-        return replace(self, displacement=np.empty((0, 0)), gap=self.gap.astype(np.float32))
+        return replace(self, displacement=np.empty((0, 0)), gap=self.gap.astype(np.float32, copy=False))
 
     @property
     def overlap(self) -> float:
@@ -44,26 +45,32 @@ class State:
 def look(problem, operator, pressure, level=None) -> State:
     """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
     displacement = operator.apply(pressure)
-    gap = problem.gap0 + displacement
-    approach = _approach(problem, pressure, gap) if level is None else level
+    gap = np.empty(displacement.shape, displacement.dtype)
+    energy = total = height = 0.0
+    count, room = 0, np.empty(min(BLOCK, gap.size))
+    for p, u, g, own in blocks(pressure, displacement, problem.gap0, gap):
+        np.add(g, u, out=own, casting="same_kind")
+        total += float(p.sum())
+        energy += dot(p, u)
+        if level is None:
+            inside = p > 0
+            if problem.hardness < np.inf:
+                inside &= p < problem.hardness
+            count += int(np.count_nonzero(inside))
+            height += float(np.multiply(own, inside, out=room[: own.size]).sum())
+    approach = level
+    if level is None:
+        approach = height / count if count else _between(pressure, gap)
     gap -= approach
-    scale = deflection_scale(dot(pressure, displacement), pressure.sum(), problem.roughness, operator)
+    scale = deflection_scale(energy, total, problem.roughness, operator)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
     del residuals["load"]
     return State(pressure, displacement, gap, approach, scale, residuals)
 
 
-def _approach(problem, pressure, height) -> float:
-    """The approach at which the mean gap over elastic contact is zero; where nothing is elastic, halfway between the
-    highest yielded cell and the lowest free one."""
-    count, total = 0, 0.0
-    for p, h in blocks(pressure, height):
-        inside = p > 0
-        inside &= p < problem.hardness
-        count += int(np.count_nonzero(inside))
-        total += dot(h, inside.astype(float))
-    if count:
-        return total / count
+def _between(pressure, height) -> float:
+    """The approach where nothing is elastic: halfway between the highest yielded cell and the lowest free one. (Else it
+    is that at which the mean gap over elastic contact is zero.)"""
     yielded = pressure > 0
     highest = height[yielded].max()
     return float(0.5 * (highest + (height[~yielded].min() if not yielded.all() else highest)))

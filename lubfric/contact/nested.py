@@ -7,15 +7,18 @@ from dataclasses import replace
 import numpy as np
 
 from .descent import FIRST_PACE
-from .projection import rescaled
+from .projection import rescaled, shifted
 from .refine import Found, approximate, refine
+
+HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
 
 
 def load_controlled(problem, mean_pressure: float, start=None) -> Found:
-    """Solve for a mean pressure [Pa] from ``start``, rescaled to it, or else from coarser grids."""
+    """Solve for a mean pressure [Pa] from ``start``, made to carry it, or else from coarser grids."""
     load = mean_pressure * problem.gap0.size
     if start is not None and start.any():
-        return refine(problem, rescaled(start, load, problem.hardness), load=load)
+        made_for = shifted if load <= HEAVIER * start.sum() else rescaled
+        return refine(problem, made_for(start, load, problem.hardness), load=load)
     return _from_coarse(problem, mean_pressure, refine, mean_pressure=mean_pressure)
 
 

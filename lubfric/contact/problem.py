@@ -10,6 +10,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..halfspace import HalfSpace, half_space
+from .residual import spread
 
 COARSEST = 24  # cells along an axis below which it is not halved
 COARSE_TOLERANCE = 1e-2  # coarse grids only give a start
@@ -80,7 +81,7 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
         )
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
-    return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
+    return Problem(gap0, offset, spread(gap0), operator, hardness, tolerance, max_iterations)
 
 
 def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:

@@ -39,17 +39,27 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor. With a hardness it is then shifted to carry ``load`` within 0..hardness. Elastic
-    cells are shifted if they can do it, else all loaded ones, else all."""
+    """``pressure`` times a factor. With a hardness it is then `shifted` to carry ``load``."""
     result = pressure * (load / pressure.sum())
     if hardness == np.inf:
         return result
     np.minimum(result, hardness, out=result)
     result[pressure >= hardness] = hardness
-    yielded = result >= hardness
-    for movable in ((result > 0) & ~yielded, result > 0, np.ones(result.shape, bool)):
-        share = load - result[~movable].sum()
+    return shifted(result, load, hardness)
+
+
+def shifted(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` with its elastic cells shifted alike, within 0..hardness, so that it carries ``load``. All loaded
+    cells are shifted where those cannot do it, else all cells.
+
+    A start for another load: spots of contact grow and shrink at their edges, and their pressure changes as under a
+    flat punch, which is nearer to an even change than to one in proportion.
+    """
+    yielded, loaded = pressure >= hardness, pressure > 0
+    for movable in (loaded & ~yielded, loaded, np.ones(pressure.shape, bool)):
+        share = load - pressure[~movable].sum()
         if 0 < share <= hardness * np.count_nonzero(movable):
-            result[movable] = with_load(result[movable], share, hardness)
+            result = pressure.copy()
+            result[movable] = with_load(pressure[movable], share, hardness)
             return result
     return np.full(pressure.shape, load / pressure.size)

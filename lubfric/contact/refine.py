@@ -79,11 +79,15 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
 
 
 def _admissible(found, begun, load, hardness) -> np.ndarray:
-    """``found`` made to carry the load. Where single precision has lost it, what the search had ``begun`` with."""
+    """``found``, which may be written over, made to carry the load. Where single precision has lost it, what the search
+    had ``begun`` with."""
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
         return begun
-    return found if load is None else rescaled(found, load, hardness)
+    if load is None or hardness < np.inf:
+        return found if load is None else rescaled(found, load, hardness)
+    found *= load / total
+    return found
 
 
 def _rigid(problem) -> bool:

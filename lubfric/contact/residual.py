@@ -67,4 +67,13 @@ def blocks(*fields):
 
 def volume(gap) -> float:
     """Mean of the gap [m] where it is open, over all cells: overlap counts zero."""
-    return float((gap.sum() - gap[gap < 0].sum()) / gap.size)
+    return sum(float(np.maximum(g, 0.0).sum()) for (g,) in blocks(gap)) / gap.size
+
+
+def spread(field) -> float:
+    """Standard deviation of a field."""
+    mean, squares = float(field.mean()), 0.0
+    for (values,) in blocks(field):
+        apart = values - mean
+        squares += dot(apart, apart)
+    return math.sqrt(squares / field.size)

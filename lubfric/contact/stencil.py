@@ -1,4 +1,5 @@
-"""Nine points that stand for |k|: the inverse of the half-space, up to E'/4, near enough for a search direction.
+"""Nine points that stand for |k|: the inverse of the half-space, up to E'/4, near enough for a search direction. Long
+waves, which they make too stiff, are taken off (`lubfric.contact.long_waves`).
 
 The Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. As those nine numbers
 are always a multiple of the identity less an outer product of three and three, two passes of three points do.
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .fields import BLOCK, parts
+from .long_waves import LongWaves, worth
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
@@ -30,13 +32,15 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
 
 
 class Stencil:
-    """Applies the nine points, times ``factor``, to single-precision values on some ``cells`` of a grid (None: all),
-    zero on the others; periodic axes close."""
+    """Applies the nine points, less long waves, times ``factor``, to single-precision values on some ``cells`` of a
+    grid (None: all), zero on the others; periodic axes close."""
 
     def __init__(self, shape, spacing, boundary, cells, factor: float):
         self.shape, self.boundary = shape, boundary
         self.padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
-        self.coefficients = tuple(np.float32(factor * c) for c in nearest_coefficients(shape, spacing))
+        nearest = nearest_coefficients(shape, spacing)
+        self.coefficients = tuple(np.float32(factor * c) for c in nearest)
+        self.long_waves = LongWaves(shape, spacing, boundary, nearest, factor) if worth(shape) else None
         self.take_on(cells)
 
     def on(self, cells) -> Stencil:
@@ -49,18 +53,20 @@ class Stencil:
         shape = self.shape
         thin, size = 1 in shape, shape[0] * shape[1]
         cells = np.arange(size) if thin and cells is None else cells
-        # flat index of the lower left point
-        self.corner: Any = None if cells is None else cells + 2 * (cells // shape[1])
+        row: Any = None if cells is None else cells // shape[1]
+        self.corner: Any = None if cells is None else cells + 2 * row  # flat index of the lower left point
+        if self.long_waves is not None:
+            self.long_waves.take_on(cells, row, shape[1])
         self.sparse = thin or cells is not None and cells.size < SPARSE * size
 
     def __call__(self, values: np.ndarray) -> np.ndarray:
-        """The nine-point sums at the cells."""
+        """The sums at the cells."""
         sums = np.empty_like(values)
         self.apply(values, sums)
         return sums
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
-        """Write the nine-point sums at the cells into ``sums``."""
+        """Write the sums at the cells into ``sums``."""
         padded, width = self.padded, self.padded.shape[1]
         if self.corner is None:
             padded[1:-1, 1:-1] = values.reshape(self.shape)
@@ -74,6 +80,8 @@ class Stencil:
             self._gathered(values, sums)
         else:
             self._swept(values, sums)
+        if self.long_waves is not None:
+            self.long_waves.take_off(padded[1:-1, 1:-1], sums)
 
     def _gathered(self, values, sums) -> None:
         flat, width = self.padded.ravel(), self.padded.shape[1]

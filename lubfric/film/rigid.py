@@ -69,6 +69,17 @@ def _all_nodes() -> np.ndarray:
     return np.concatenate([nodes, np.geomspace(1.0, OUTLET / nodes[-1], 17)[1:] * nodes[-1]])
 
 
+@cache
+def _unit_pressure() -> tuple[np.ndarray, np.ndarray]:
+    """The isoviscous pressure at `unit_nodes`, and the weights of its integral over x/sqrt(2 R h0), the inlet's tail
+    ~ 1/x³ before the first node among them: pure numbers."""
+    nodes = unit_nodes()
+    cells = np.diff(nodes)
+    weight = 0.5 * (np.append(cells, 0.0) + np.append(0.0, cells))
+    weight[0] -= 0.5 * nodes[0]
+    return rigid.pressure(nodes, 0.5, radius=1.0, entrainment_speed=1.0, viscosity=1 / 48), weight
+
+
 def isoviscous_film(line: LineContact) -> RigidFilm:
     """The film of a constant viscosity, h0 = 4.895 eta0 U R/w. The viscosity returned is the lubricant's at that
     pressure. E' is kept, but not used."""
@@ -84,13 +95,12 @@ def piezoviscous_film(line: LineContact) -> RigidFilm:
 
     if line.lubricant.viscosity_law == "constant":
         return _film(line, line.rigid_film, np.positive, "rigid piezoviscous film")
-    law, nodes = true_pressure(line.lubricant), unit_nodes()
+    law, (pressure, weight) = true_pressure(line.lubricant), _unit_pressure()
 
     def surplus(log_h0):
         h0 = math.exp(log_h0)
-        x = math.sqrt(2 * line.radius * h0) * nodes
-        p = law(_isoviscous_pressure(line, x, h0))
-        carried = np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0]
+        p = law(_pressure_unit(line, h0) * pressure)
+        carried = math.sqrt(2 * line.radius * h0) * float(np.einsum("i,i", weight, p))
         return math.log(carried / line.load_per_width) if math.isfinite(carried) else 1e3
 
     low = math.log(line.rigid_film) - 1e-3
@@ -101,10 +111,9 @@ def piezoviscous_film(line: LineContact) -> RigidFilm:
     return _film(line, h0, law, "rigid piezoviscous film")
 
 
-def _isoviscous_pressure(line: LineContact, x, h0: float) -> np.ndarray:
-    """[Pa] at ``x`` [m] in the direction of motion."""
-    speed, viscosity = abs(line.entrainment_speed), line.lubricant.viscosity
-    return rigid.pressure(x, h0, radius=line.radius, entrainment_speed=speed, viscosity=viscosity)
+def _pressure_unit(line: LineContact, h0: float) -> float:
+    """12 eta0 U sqrt(2 R h0)/h0² [Pa]: the isoviscous pressure is this times that of `_unit_pressure`."""
+    return 12 * line.lubricant.viscosity * abs(line.entrainment_speed) * math.sqrt(2 * line.radius * h0) / h0**2
 
 
 @lru_cache(maxsize=16)
@@ -143,12 +152,13 @@ def _table(lubricant: Lubricant) -> tuple[np.ndarray, np.ndarray]:
 
 def _film(line: LineContact, h0: float, law, solver: str) -> RigidFilm:
     constants, scale = rigid.rigid_constants(), math.sqrt(2 * line.radius * h0)
-    x = scale * _all_nodes()
-    p = law(_isoviscous_pressure(line, x, h0))
-    p[CELLS:] = 0.0
+    x, (unit, weight) = scale * _all_nodes(), _unit_pressure()
+    p = np.zeros(x.size)
+    p[: CELLS + 1] = law(_pressure_unit(line, h0) * unit)
+    p[CELLS] = 0.0
     sign = math.copysign(1.0, line.entrainment_speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
-    carried = float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(x)) - 0.5 * x[0] * p[0])
+    carried = scale * float(np.einsum("i,i", weight, p[: CELLS + 1]))
     residual = abs(carried / line.load_per_width - 1)
     with np.errstate(over="ignore"):  # far above its range: infinite beyond e^709, as in an EHLResult
         eta = viscosity(line.lubricant, p)[order]

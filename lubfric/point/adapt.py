@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..errors import ConvergenceError
+from ..film.contract import Film
 from ..film.ladder import given_level, level_for
 from ..line_contact import LineContact
 from ..prepared import Prepared
 from ..report import CONVERGED, Report
 from ..rough.contract import RoughContact
-from .balance import Balance, separated
+from .balance import Balance, drift, separated
 from .decision import Decision, alone, dry, in_contact
 from .forces import dry_forces
 from .grids import coarser_grids, on_enough_cells
@@ -52,6 +53,7 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
     if numerics.contact_level == "none":
         return _film_alone(prepared, speed, start)
     notes: tuple[str, ...] = ()
+    alone: Film | None = None
     if not _certainly_touching(prepared, speed):
         try:
             found = _film_alone(prepared, speed, start)
@@ -60,9 +62,10 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
         else:
             if found.decision.clearance is not None and found.decision.clearance >= 0:
                 return found
+            alone = found.balance.film
             if start is None or start.contact_load == 0:
                 start = _first_touch(found.balance) or start
-    found = _in_contact(prepared, speed, start, given_grid)
+    found = _in_contact(prepared, speed, start, given_grid, alone)
     return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
 
 
@@ -116,13 +119,15 @@ def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solv
     return Solved(balance, alone(Stage(point, balance, left_out)), prepared.contact)
 
 
-def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_grid: bool) -> Solved:
+def _in_contact(
+    prepared: Prepared, speed: float, start: Balance | None, given_grid: bool, alone: Film | None
+) -> Solved:
     """Film and contact. The first solve has the level and tolerances of a neighbour, or else the simplest ones.
-    These cost next to nothing, and tell what is needed."""
+    These cost next to nothing, and tell what is needed. ``alone``: the film of the whole load, where it is known."""
     numerics = prepared.scene.numerics
     level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
     settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)
-    point = OperatingPoint(prepared, speed, prepared.contact, settings)
+    point = OperatingPoint(prepared, speed, prepared.contact, settings, alone)
     if start is not None and start.film is not None and (start.contact_load > 0 or start.contact.volume_residual > 0):
         share = felt_share(numerics, start)
         allowed, line = allowed_left_out(numerics, share), point.line(start.film_load)
@@ -133,4 +138,5 @@ def _in_contact(prepared: Prepared, speed: float, start: Balance | None, given_g
     grids = [prepared.contact] if own else coarser_grids(prepared.contact, prepared.surface.sq)
     stage, index, error = on_enough_cells(point, grids, start)
     decision = in_contact(stage, error, finest=index == len(grids) - 1)
-    return Solved(stage.balance, decision, stage.point.contact)
+    balance = stage.balance if start is None else replace(stage.balance, drift=drift(stage.point, start, stage.balance))
+    return Solved(balance, decision, stage.point.contact)

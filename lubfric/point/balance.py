@@ -18,6 +18,7 @@ from .split import BOUNDS, divided, foretold_split
 
 THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
 NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
+LARGEST_DRIFT = 0.3  # of ln(F_H/F_C), that one step between speeds is taken to miss like the one before
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
 
 
@@ -28,6 +29,7 @@ class Balance:
     - ``slope``: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
     - ``states``: the contact on each grid on the way here, the coarsest first. A neighbour starts from them.
     - ``coarse``: volume residual on the first of these grids less that on the last, under one film.
+    - ``drift``: by how much ``split`` was foretold too low from the speed before, over the ln of the ratio of the two.
     """
 
     film_load: float
@@ -40,6 +42,7 @@ class Balance:
     slope: float | None = None
     states: tuple[ContactState, ...] = ()
     coarse: float = 0.0
+    drift: float = 0.0
 
     @property
     def closure(self) -> ContactState:
@@ -162,7 +165,22 @@ def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
     """Split at which the balance should be, from that of ``start``, and the slope of the residual there."""
     if start.film is None or start.film.entrainment_speed == 0:
         return start.split, start.slope
-    return foretold_split(point, start.film.entrainment_speed, start.split, start.slope)
+    split, slope = foretold_split(point, start.film.entrainment_speed, start.split, start.slope)
+    again = start.drift * math.log(abs(point.speed / start.film.entrainment_speed))
+    return split + min(max(again, -LARGEST_DRIFT), LARGEST_DRIFT), slope
+
+
+def drift(point: OperatingPoint, start: Balance, found: Balance) -> float:
+    """`Balance.drift` of what was ``found`` from ``start``. What is foretold leaves out much the same from speed to
+    speed: next to a full film, or under loads that bend the film."""
+    if start.film is None or start.contact_load == 0 or found.contact_load == 0:
+        return 0.0
+    before = start.film.entrainment_speed
+    step = math.log(abs(point.speed / before)) if before else 0.0
+    if not step:
+        return start.drift
+    foretold = foretold_split(point, before, start.closed.split, start.slope)[0]
+    return (found.closed.split - foretold) / step
 
 
 def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Lubricated:

@@ -62,12 +62,16 @@ class Trial(Start):
 
 @dataclass(frozen=True)
 class OperatingPoint:
-    """A model at one speed [m/s], not 0, to ``settings``, on ``contact``: the model's own, coarser, or a part of it."""
+    """A model at one speed [m/s], not 0, to ``settings``, on ``contact``: the model's own, coarser, or a part of it.
+
+    ``alone``: the film of the whole load, where it was solved. The first numerical film may start from it.
+    """
 
     prepared: Prepared
     speed: float
     contact: RoughContact
     settings: Settings
+    alone: Film | None = None
 
     @property
     def scene(self) -> Scene:
@@ -127,12 +131,13 @@ class OperatingPoint:
 
     def film(self, film_load: float, start: Start, imposed=None) -> Film:
         """The film that carries ``film_load`` [N], deflected by the line pressure ``imposed`` too."""
+        near = start.film if start.film is not None and start.film.cells else self.alone
         return self.settings.level.solve(
             self.line(film_load),
             tolerance=self.settings.film_tolerance,
             cells=max(self.settings.film_cells, start.least_cells),
             imposed=imposed,
-            start=start.film,
+            start=near,
         )
 
     @staticmethod

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from functools import cached_property
 
 import numpy as np
 
 from .. import validate
 from ..contact import solve_contact
+from .left_out import left_out
 
-LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used
+LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,
+ENOUGH = 0.25  # and from where the gap is as near as this, in its accuracy, to that of first touch, which is exact
 SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
-SMALL = 128**2  # cells and fewer, whose summits come into contact one by one
+SMALL = 128**2  # cells and fewer, whose summits come into contact one by one, down to
+FEW = 1e-3  # of the heaviest pressure, below which f does not feel the load
 ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
 NOTHING = 1e-9  # of the lightest gap: below it the contact is full
 MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
@@ -36,9 +40,12 @@ class ContactCurve:
 
     def error_at(self, mean_pressure: float) -> float:
         """Estimated error [m] of the gap read at a mean pressure [Pa]."""
+        if not self.gap_error.size:
+            return 0.0
+        if mean_pressure < self.mean_pressure[-1]:  # what is read is between these two, and so is what is right
+            return self.touching_gap - float(self.mean_gap[-1])
         lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
-        inside = 0 < lighter < self.mean_pressure.size and self.gap_error.size
-        return float(self.gap_error[lighter - 1]) if inside else 0.0
+        return float(self.gap_error[lighter - 1]) if lighter > 0 else 0.0
 
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
@@ -47,18 +54,28 @@ class ContactCurve:
         logarithm of the area, the plastic share of the area. Below the lightest node a single Hertz
         asperity: approach and area ~ p^(2/3).
         """
-        from scipy.interpolate import PchipInterpolator
-
         pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
         gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
         lightest = self.mean_pressure[-1]
         if pressure <= lightest:
             share = (pressure / lightest) ** (2 / 3)
             return self.touching_gap - share * (self.touching_gap - gap[-1]), share * area[-1], share * plastic[-1]
-        table = np.stack([gap, np.log(area), plastic / area])[:, ::-1]
-        values = PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)(np.log(pressure))
+        values = self._read(math.log(pressure))
         touching = float(np.exp(values[1]))
         return float(values[0]), touching, float(values[2]) * touching
+
+    @cached_property
+    def _read(self):
+        """(gap, logarithm of the area, plastic share of it) at a logarithm of the pressure, between the nodes."""
+        from scipy.interpolate import PchipInterpolator
+
+        area = self.contact_area_fraction
+        table = np.stack([self.mean_gap, np.log(area), self.plastic_area_fraction / area])[:, ::-1]
+        return PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)
+
+    def __getstate__(self) -> dict:
+        """What was derived is not pickled."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def pressure_at(self, mean_gap: float) -> float:
         """Mean pressure [Pa] at a mean gap [m]: 0 above first touch, the heaviest below the curve's least gap."""
@@ -94,9 +111,7 @@ def contact_curve(
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
-    spread = SPACING if gap0.size > SMALL else math.sqrt(SPACING)
-    count = 1 + math.ceil(math.log(1 / LIGHTEST) / math.log(spread))
-    solved = {}
+    touching_gap, solved = float(gap0.mean()), {}
 
     def add(pressure, start):
         solved[pressure] = solve_contact(
@@ -111,9 +126,13 @@ def contact_curve(
         )
         return solved[pressure]
 
-    start = None
-    for pressure in heaviest * np.geomspace(1.0, LIGHTEST, count):
-        start = add(float(pressure), start)
+    pressure, start = float(heaviest), None
+    while pressure >= LIGHTEST * heaviest:
+        start = add(pressure, start)
+        if len(solved) > 2 and touching_gap - start.mean_gap <= ENOUGH * accuracy * touching_gap:
+            break
+        one_by_one = gap0.size <= SMALL and pressure > FEW * heaviest
+        pressure /= math.sqrt(SPACING) if one_by_one else SPACING
     for _ in range(ROUNDS):
         pressures = sorted(solved, reverse=True)
         gap = np.array([solved[p].mean_gap for p in pressures])
@@ -122,7 +141,7 @@ def contact_curve(
             add(float(np.sqrt(heavier * lighter)), solved[heavier])
         if not wide.any():
             break
-    return _curve(solved, float(gap0.mean()))
+    return _curve(solved, touching_gap)
 
 
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
@@ -139,12 +158,8 @@ def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
 
 def _missed(pressure, gap) -> np.ndarray:
     """Gap [m] by which each node is missed when it is left out of the interpolation."""
-    from scipy.interpolate import PchipInterpolator
-
-    log_pressure, missed = np.log(pressure), np.zeros(pressure.size)
-    for i in range(1, pressure.size - 1):
-        others = np.delete(np.arange(pressure.size), i)[::-1]
-        missed[i] = abs(PchipInterpolator(log_pressure[others], gap[others])(log_pressure[i]) - gap[i])
+    missed = np.zeros(pressure.size)
+    missed[1:-1] = left_out(np.log(pressure[::-1]), gap[::-1])[::-1]
     return missed
 
 

@@ -14,14 +14,15 @@ from ..prepared import Prepared
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import GridStep, mean_error, mean_of
-from .influence import BlockError, add_errors
+from .grid_pair import GridStep, mean_of
+from .influence import BlockError
 from .line_record import Pooled
 from .response import Response, touched_length
 from .sample import Anchor, Sample, lines_of_model
 
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
-LINE_VOLUME = 0.03  # volume residual of a further line, at most; the rest is corrected to first order
+LINE_BALANCE = 0.3  # of the sampling tolerance on f: closing of a further line, before it is corrected to first order
+LOOSEST_LINE = 0.03  # volume residual of a further line
 LIGHT = 0.1  # of the load on the contact: it touches for sure
 
 
@@ -126,24 +127,30 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     """Balance on one more line. It starts from where the balance of the lines so far is, and takes level and grid of
     the film from the anchor.
 
-    The volume is closed to `LINE_VOLUME` only. What is left moves the load, to first order, by the slope that the
-    response of the anchor gives.
+    The volume is closed as loosely as `LINE_BALANCE` allows. What is left moves the load, to first order, by the slope
+    that the last two evaluations of the root give, or the response of the anchor where there was one.
     """
     anchor, scene = sample.known, sample.prepared.scene
     there = _lubricated(anchor)
     here = redivided(at(sample.prepared, sample.speed, anchor.contact, there), there, sample.together.contact_load)
     point = at(sample.prepared, sample.speed, contact, there)
-    point = replace(point, settings=replace(point.settings, balance_tolerance=LINE_VOLUME))
+    slope = -0.5 / (anchor.response.split * there.contact.mean_film)
+    point = replace(point, settings=replace(point.settings, balance_tolerance=_looseness(sample, slope)))
     if here.contact_load < LIGHT * scene.bodies.load:
         alone = separated(point, here.film)
         if alone.contact.volume_residual <= 0:
             return Solved(alone, anchor.point.decision, contact)
-    slope = -0.5 / (anchor.response.split * there.contact.mean_film)
     found = balanced(point, replace(here, contact=state, slope=slope))
     found.report.raise_if_failed(found)
     contact.check(found.contact)
-    corrected = found.moved(-found.contact.volume_residual / slope).contact_load
-    return Solved(replace(found, contact_load=corrected), anchor.point.decision, contact)
+    return Solved(replace(found, contact_load=found.closed.contact_load), anchor.point.decision, contact)
+
+
+def _looseness(sample: Sample, slope: float) -> float:
+    """Volume residual of a further line whose correction moves f by `LINE_BALANCE` of the sampling tolerance."""
+    rate = abs((sample.known.response.rates or {})["coefficient"])
+    allowed = LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance * slope
+    return min(allowed / rate, LOOSEST_LINE) if rate else LOOSEST_LINE
 
 
 def _found(sample: Sample) -> LineFound:
@@ -153,13 +160,12 @@ def _found(sample: Sample) -> LineFound:
     ended = sample.reached > sample.prepared.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
         return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
-    error = add_errors(together.gap, mean_error(anchor.grid))
     return LineFound(
         _divided(sample, together),
         first.balance,
         together,
         anchor.response,
-        error,
+        sample.gap_error,
         anchor.grid,
         map_ends=ended,
     )

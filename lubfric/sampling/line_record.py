@@ -123,20 +123,17 @@ def pooled(records) -> Pooled:
     """The mean over ``records``. Their errors add as independent ones do. A line without contact counts as uncertain as
     one with contact, for its length.
 
-    Under one film the gaps of all lines are averaged, and a gap falls as the logarithm of the load. So where every line
-    touches, the loads at which each line fills its film are averaged geometrically.
+    The loads are averaged by length, as the parts of one line share theirs. Lines that were joined and balanced as one
+    carried that load within half the square of their scatter.
     """
     length = sum(r.length for r in records)
 
     def mean(name):
         return sum(r.length * getattr(r, name) for r in records) / length
 
-    loads = [r.contact_load for r in records]
-    logs = [r.length * math.log(r.contact_load) for r in records] if min(loads) > 0 else None
-
     return Pooled(
         length,
-        mean("contact_load") if logs is None else math.exp(sum(logs) / length),
+        mean("contact_load"),
         _over_lines(records, "gap"),
         _over_lines(records, "area"),
         _over_lines(records, "touched"),

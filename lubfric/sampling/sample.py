@@ -16,7 +16,7 @@ from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
 from .grid_pair import FEWEST, GridStep, grid_step, mean_error
-from .influence import add_errors
+from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import missed_share
 from .response import Response, respond, slopes_of
@@ -73,8 +73,24 @@ class Sample:
             return 0.0
         if self.anchor is None:
             return self.missed
-        error = add_errors(self.together.gap, mean_error(self.anchor.grid))
-        return self.anchor.response.relative("coefficient", error.error)
+        return self.anchor.response.relative("coefficient", self.gap_error.error)
+
+    @property
+    def gap_error(self) -> BlockError:
+        """Standard error of the mean gap [m] at given load: of all lines, and of what their cells change."""
+        return add_errors(self.together.gap, mean_error(self.known.grid))
+
+    @property
+    def doubted(self) -> float:
+        """`reached`, with a doubt of it on the first line.
+
+        A standard error from few blocks is itself known to 1/sqrt(2 nu) only, nu its degrees of freedom. A line that is
+        taken for long enough because its blocks happen to scatter little would state too small an error. So the first
+        line counts as long enough where even 1 + 1/sqrt(nu) times its error is within what is asked.
+        """
+        if self.anchor is None or len(self.records) > 1:
+            return self.reached
+        return self.reached * (1 + 1 / math.sqrt(max(self.gap_error.freedom, 1)))
 
     @property
     def missed(self) -> float:
@@ -95,7 +111,7 @@ class Sample:
         """Length [m] of the next line. 0 where no more is needed, or no more can be had."""
         lines, asked, so_far = self.lines, self.prepared.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
-        reached = self.reached
+        reached = self.doubted
         if room < LEAST_MORE * so_far or (reached <= asked and not self.few):
             return 0.0
         contact: Any = self.prepared.contact  # of half-spaces, on the cells of the line

@@ -5,6 +5,7 @@ import pytest
 
 from lubfric import solve_contact
 from lubfric.contact import descent, refine
+from lubfric.contact.projection import shifted
 from lubfric.contact.stencil import Stencil, nearest_coefficients
 from lubfric.halfspace import half_space
 
@@ -106,3 +107,19 @@ def test_memory_is_at_most_twelve_fields(boundary, hardness):
         tracemalloc.stop()
         assert result.report.converged and result.contact_area_fraction == pytest.approx(share, rel=0.3)
         assert peak <= 12
+
+
+@pytest.mark.parametrize("hardness", [np.inf, 4.0])
+@pytest.mark.parametrize("load", [0.5, 20.0, 30.0])
+def test_a_start_is_shifted_on_its_elastic_cells(load, hardness):
+    """Cells without pressure and yielded ones keep theirs where the others can carry the load; these differ by one
+    number, but for those that are let go."""
+    pressure = np.array([[0.0, 1.0, 2.0, 3.0], [3.5, 4.0, 0.0, 4.0]])
+    moved = shifted(pressure, load, hardness)
+    assert moved.sum() == pytest.approx(load)
+    assert moved.min() >= 0 and moved.max() <= hardness
+    elastic = (pressure > 0) & (pressure < hardness)
+    if hardness == np.inf:
+        assert not moved[pressure == 0].any()
+        change = (moved - pressure)[elastic & (moved > 0)]
+        assert np.ptp(change) == pytest.approx(0, abs=1e-12)

@@ -7,6 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.point.adapt import solved
+from lubfric.point.balance import _begin, drift
 from lubfric.point.operating_point import OperatingPoint, Settings
 from lubfric.point.split import divided, foretold_split
 
@@ -62,3 +63,31 @@ def test_a_neighbour_saves_contacts_and_moves_nothing():
     assert warm.forces.coefficient == pytest.approx(cold.forces.coefficient, rel=1e-3)
     shifted = solved(made, 7e-4, replace(before, coarse=0.5)).balance  # what finer grids take away, foretold wrongly
     assert shifted.forces.coefficient == pytest.approx(cold.forces.coefficient, rel=1e-3)
+
+
+@pytest.fixture(scope="module")
+def heavy():
+    """Balances at speeds that fall by a fifth, under a load that bends the film, each started from the one before."""
+    made = lubfric.prepare(PAPER.with_(bodies={"load": 60.0}))
+    found = [solved(made, 0.03).balance]
+    for speed in (0.024, 0.0192, 0.01536):
+        found.append(solved(made, speed, found[-1]).balance)
+    return made, found
+
+
+def test_what_was_foretold_too_low_once_is_added_again(heavy):
+    made, (_, _, before, there) = heavy
+    point = OperatingPoint(made, 0.01536, made.contact, Settings(before.level, 0.03, 1e-3))
+    assert before.drift != 0
+    missed = [abs(_begin(point, start.closed)[0] - there.split) for start in (before, replace(before, drift=0.0))]
+    assert missed[0] < 0.7 * missed[1]
+
+
+def test_the_drift_is_what_was_missed_and_moves_no_answer(heavy):
+    made, (first, before, there, _) = heavy
+    point = OperatingPoint(made, 0.024, made.contact, Settings(before.level, 0.03, 1e-3))
+    foretold = foretold_split(point, 0.03, first.closed.split, first.slope)[0]
+    assert drift(point, first, before) == pytest.approx((before.closed.split - foretold) / math.log(0.8))
+    assert drift(point, before, before) == before.drift  # the same speed again
+    wrong = solved(made, 0.0192, replace(before, drift=-30.0)).balance
+    assert wrong.forces.coefficient == pytest.approx(there.forces.coefficient, rel=2e-3)

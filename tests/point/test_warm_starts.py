@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import lubfric
+from lubfric.ehl import solve as ehl_solve
 from lubfric.point.adapt import solved
 from lubfric.rough import half_space
 
@@ -45,3 +46,13 @@ def test_a_coarsest_grid_closed_loosely_leaves_nothing_open(paper, speed):
     assert found.balance.report.converged
     error = abs(found.balance.film_load / tight.balance.film_load - 1) * found.balance.forces.sensitivity
     assert error < 0.2 * paper.scene.numerics.tolerance
+
+
+def test_one_film_is_solved_from_nothing(paper, monkeypatch):
+    """That of the whole load, which tells that the summits touch: the films of the balance start from it."""
+    cold = []
+    honest = ehl_solve._cold
+    monkeypatch.setattr(ehl_solve, "_cold", lambda *args: cold.append(args) or honest(*args))
+    found = solved(paper, 0.0316).balance
+    assert found.contact_load > 0 and found.film.cells > 0
+    assert len(cold) == 1

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric.contact import nested
+from lubfric.contact.projection import rescaled, shifted
 from lubfric.rough.contact_curve import contact_curve
+from lubfric.rough.left_out import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 
@@ -25,7 +28,10 @@ def test_the_error_told_holds_where_the_contact_is_solved(surface):
         off.append(abs(curve.at(pressure)[0] - solved.mean_gap))
         told.append(curve.error_at(pressure))
     assert np.mean(np.array(off) <= told) >= 0.75 and np.all(np.array(off) <= 4 * np.array(told))
-    assert curve.error_at(curve.mean_pressure[-1] / 2) == 0.0
+    lightest, below = curve.mean_pressure[-1], curve.mean_pressure[-1] / 2
+    solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=below, tolerance=1e-7)
+    assert abs(curve.at(below)[0] - solved.mean_gap) <= curve.error_at(below) <= 3e-3 * curve.touching_gap
+    assert lightest < 1e-2 * HEAVIEST and curve.error_at(0.0) == curve.error_at(below)
 
 
 def test_a_tighter_curve_tells_less_and_is_nearer(surface):
@@ -62,3 +68,31 @@ def test_it_is_part_of_the_numerical_error_of_f():
     assert abs(found.coefficient - right.coefficient) < found.uncertainty.numerical * abs(right.coefficient)
     without = found.errors.contact_load
     assert without > right.errors.contact_load
+
+
+@pytest.mark.parametrize("nodes", [3, 4, 5, 12])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes, seed):
+    from scipy.interpolate import PchipInterpolator
+
+    rng = np.random.default_rng(seed)
+    x, y = np.cumsum(rng.uniform(0.1, 2.0, nodes)), rng.standard_normal(nodes)
+    for values in (y, np.cumsum(np.abs(y)), np.zeros(nodes)):
+        for i, found in enumerate(left_out(x, values), 1):
+            others = np.delete(np.arange(nodes), i)
+            assert found == pytest.approx(
+                abs(PchipInterpolator(x[others], values[others])(x[i]) - values[i]), abs=1e-12
+            )
+
+
+def test_a_start_shifted_to_less_load_saves_work(monkeypatch):
+    """Against pressures in proportion to the load; the gaps are the same."""
+    heights = lubfric.generate_surface((96, 96), 2e-6, sq=1e-7, correlation_length=8e-6, seed=1).heights
+    curves = []
+    for begin in (shifted, rescaled):
+        monkeypatch.setattr(nested, "shifted", begin)
+        curves.append(contact_curve(heights, (2e-6, 2e-6), E_PRIME, heaviest=HEAVIEST, tolerance=1e-5))
+    assert curves[0].evaluations < 0.8 * curves[1].evaluations
+    share = np.array([0.5, 0.1, 1e-3])
+    gaps = np.array([[curve.at(HEAVIEST * p)[0] for p in share] for curve in curves])
+    assert gaps[0] == pytest.approx(gaps[1], rel=1e-3)

@@ -40,6 +40,16 @@ def test_the_error_asked_is_reached_and_a_longer_line_is_used():
     assert tight.uncertainty.line_scatter == pytest.approx(scatter)
 
 
+def test_the_first_line_is_doubted_and_the_next_are_not():
+    pilot = lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": 0.1}), 0.005).uncertainty
+    just, well = (
+        lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": times * pilot.sampling}), 0.005).uncertainty
+        for times in (1.05, 1.1 * (1 + pilot.freedom**-0.5))
+    )
+    assert just.length >= 1.2 * pilot.length and just.sampling < pilot.sampling
+    assert well.length == pilot.length and well.sampling == pilot.sampling
+
+
 def test_response_foretells_what_another_gap_does():
     model, speed = lubfric.prepare(PAPER.with_(numerics={"tolerance": 1e-3, "balance_tolerance": 1e-6})), 0.003
     point = solved(model, speed, given_grid=True)

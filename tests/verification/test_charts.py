@@ -7,7 +7,7 @@ import pytest
 
 from verification.__main__ import main
 from verification.charts import contact, draw
-from verification.charts.data import interleaved, load, point
+from verification.charts.data import interleaved, load, measured_on, point
 from verification.charts.growth import exponent
 from verification.opponents import CONTACT
 
@@ -21,8 +21,15 @@ def sample(n, power=1.5):
 
 
 def written(folder, **charts):
-    """A report.json with these points."""
-    studies = [{"name": name, "checks": [c.as_dict() for c in points]} for name, points in charts.items()]
+    """A report.json with these points, measured long ago."""
+    studies = [
+        {
+            "name": name,
+            "checks": [c.as_dict() for c in points],
+            "tables": [{"name": f"{name}_machine", "rows": [["an abacus"]]}],
+        }
+        for name, points in charts.items()
+    ]
     (folder / "report.json").write_text(json.dumps({"studies": studies}))
 
 
@@ -85,6 +92,7 @@ def test_redraw_from_saved_data(tmp_path):
     assert main(["charts", "--redraw", str(tmp_path), "--only", "growth", "contact", "--out", str(out)]) == 0
     assert (out / "contact.png").stat().st_size > 1000 and (out / "growth.png").stat().st_size > 1000
     assert load(out, "contact") == dots
+    assert measured_on(out, "contact") == "an abacus"  # not the machine that draws
     assert draw.palette([]) == {}
 
 

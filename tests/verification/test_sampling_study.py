@@ -9,7 +9,7 @@ import lubfric
 from verification import sampling
 from verification.sampling import charts, cost, lengths, measure, pieces, verdict
 from verification.sampling.cases import SPEEDS, Case
-from verification.tables import sampling as tables
+from verification.tables import folders as tables
 
 CASE = Case("made up", 0.01)
 SIZE, F = 400, 0.05
@@ -99,7 +99,7 @@ def test_the_command_reports_what_is_kept_and_the_table_of_the_page_reads_it(tmp
     assert sampling.main(["--quick", "--seed", "7", "--out", str(tmp_path)]) == 0
     assert "12 of 12 checks passed" in capsys.readouterr().out
     assert (tmp_path / "coverage.png").stat().st_size > 1000
-    monkeypatch.setattr(tables, "FOLDER", tmp_path)
+    monkeypatch.setattr(tables, "SAMPLING", tmp_path)
     monkeypatch.setattr(tables.cases, "SEED", 7)
     columns, rows = tables.coverage()
     assert len(rows) == len(SPEEDS) and all(len(row) == len(columns) for row in rows)

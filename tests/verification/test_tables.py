@@ -1,20 +1,59 @@
 """Tables in the documents are written by a command: the marks in the pages and the tables that can be measured
 agree."""
 
+import importlib
 import json
+import re
+from argparse import ArgumentParser
+from pathlib import Path
 
 import pytest
 
-from verification.check import Table
-from verification.tables import BLOCK, TABLES, body, main, replaced
+from verification.charts.data import point
+from verification.check import RELATIVE, Check, Table
+from verification.levels import measure as levels
+from verification.levels.scenes import SEED
+from verification.tables import TABLES, folders, main
+from verification.tables.pages import BENCHMARKS, BLOCK, body, replaced
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
+TYPED = {("theory.md", "| checked | caution | no answer |")}  # limits, not results
 
 
 def test_every_mark_in_a_page_names_a_table(root):
     marked = {m["name"] for page in (root / "docs").glob("*.md") for m in BLOCK.finditer(page.read_text())}
-    assert marked <= set(TABLES)
+    assert marked <= set(TABLES) | set(BENCHMARKS)
+    assert not set(TABLES) & set(BENCHMARKS)
+
+
+def test_every_table_of_a_benchmark_is_written_by_its_script(root):
+    for name, script in BENCHMARKS.items():
+        assert f'page.write("{name}"' in (root / "benchmarks" / script).read_text(), name
+
+
+def test_a_page_has_no_table_of_results_outside_the_marks(root):
+    """A table whose cells are mostly measured numbers stands between marks; `TYPED` are no results."""
+    for page in (root / "docs").glob("*.md"):
+        for table in re.findall(r"(?:^\|.*\n)+", BLOCK.sub("", page.read_text(encoding="utf-8")), re.MULTILINE):
+            cells = [cell for line in table.splitlines()[2:] for cell in line.strip("|").split("|")[1:]]
+            measured = [cell for cell in cells if re.match(r"\s*[+-]?\d", cell)]
+            assert len(measured) <= len(cells) / 2 or (page.name, table.splitlines()[0]) in TYPED, table
+
+
+def test_a_benchmark_puts_its_table_and_the_command_without_paths(tmp_path, root, monkeypatch):
+    monkeypatch.syspath_prepend(str(root))
+    page = importlib.import_module("benchmarks.page")
+    parser = ArgumentParser()
+    parser.add_argument("--cells", type=int, nargs="+", default=[816])
+    parser.add_argument("--target", type=float, default=1e-5)
+    parser.add_argument("--out", type=Path)
+    page.add_option(parser)
+    asked = ["--cells", "64", "128", "--out", str(tmp_path), "--docs", str(tmp_path)]
+    text = marked(tmp_path, "film-times")
+    page.write("film-times", *CELLS, (parser, parser.parse_args(asked)))
+    assert "| 0.1 | 0.05 |" in text.read_text()
+    assert "`python benchmarks/ehl_times.py --cells 64 128 --docs docs`" in text.read_text()
 
 
 def test_only_the_named_table_is_replaced_and_again_gives_the_same():
@@ -22,10 +61,10 @@ def test_only_the_named_table_is_replaced_and_again_gives_the_same():
         f"<!-- table: {name} -->\n{text}\n<!-- end of table -->\n" for name, text in (("one", "old"), ("two", "kept"))
     )
     page = f"before\n{one}between\n{two}"
-    once = replaced(page, "one", body(TABLE))
+    once = replaced(page, "one", body(TABLE, "c"))
     assert "old" not in once and "kept" in once and "| 0.1 | 0.05 |" in once
     assert once.startswith("before\n") and "\nbetween\n" in once
-    assert replaced(once, "one", body(TABLE)) == once
+    assert replaced(once, "one", body(TABLE, "c")) == once
 
 
 def marked(folder, *names):
@@ -61,3 +100,47 @@ def test_an_unknown_table_is_refused():
     with pytest.raises(SystemExit) as ended:
         main(["--only", "nothing"])
     assert ended.value.code == 2
+
+
+def written(folder, name, points):
+    study = {"name": name, "checks": [p.as_dict() for p in points]}
+    (folder / "report.json").write_text(json.dumps({"studies": [study]}))
+
+
+def test_methods_are_compared_at_one_error(tmp_path, monkeypatch):
+    """A fast solve that is not good enough counts for no method."""
+    seconds = {"lubfric": ((1e-3, 0.01), (1e-6, 0.02)), "other": ((1e-4, 0.03), (9e-6, 0.08), (1e-9, 0.4))}
+    points = [
+        point("case", method, str(k), error, (s, s, s))
+        for method, found in seconds.items()
+        for k, (error, s) in enumerate(found)
+    ]
+    written(tmp_path, "contact", points)
+    monkeypatch.setattr(folders, "CHARTS", tmp_path)
+    assert folders.contact_methods() == (["contact", "lubfric", "other"], [["case", "20 ms", "4.0"]])
+
+
+def test_growth_tells_the_exponent_and_the_largest_memory(tmp_path, monkeypatch):
+    sizes = (10, 100, 1000, 10000)
+    at = [{"size": n, "memory": 8e3 * n, "work": 20.0} for n in sizes]
+    points = [point("sweep", "sweep", str(n), 1.0, (1e-6 * n**1.5,) * 3, **where) for n, where in zip(sizes, at)]
+    written(tmp_path, "growth", points)
+    monkeypatch.setattr(folders, "CHARTS", tmp_path)
+    _, [row] = folders.growth()
+    assert row[0] == "sweep" and row[3] == "N^1.50" and row[4] == "80 MB"
+
+
+def test_levels_count_what_is_within_and_what_is_refused(tmp_path, monkeypatch):
+    def solved(index, asked, off, refused=""):
+        at = {"index": index, "asked": asked, "prepare": 0.0, "seconds_reference": 8.0, "seconds_full": 4.0}
+        value = float("nan") if refused else 1 + off
+        return Check("f", value, 1.0, 3 * asked, "full", RELATIVE, seconds=2.0, refused=refused, at=at)
+
+    lines = [[solved(0, t, t / 2).as_dict() for t in levels.TOLERANCES]]
+    lines += [[solved(1, t, 2 * t).as_dict() for t in levels.TOLERANCES]]
+    lines += [[solved(2, t, 0.0, "no").as_dict() for t in levels.TOLERANCES]]
+    text = "".join(json.dumps(line).replace("NaN", "null") + "\n" for line in lines)
+    levels.file_of(tmp_path, SEED).write_text(text)
+    monkeypatch.setattr(folders, "LEVELS", tmp_path)
+    _, rows = folders.levels_saving()
+    assert rows[1] == ["1 %", "1 of 3", "1", "2 %", "4.0", "2.0"]

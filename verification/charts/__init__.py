@@ -1,4 +1,7 @@
-"""``python -m verification charts``: error against time, and cost against size, measured on this machine."""
+"""``python -m verification charts``: error against time, and cost against size, measured on this machine.
+
+Times are processor seconds, which another job on the machine changes less than it changes the time by the clock.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from ..check import Item
+from ..check import Item, Table
 from ..frame import Command
 from ..frame import main as run
 from ..studies import Study
@@ -23,7 +26,7 @@ LEVELS = ("full", "quick")
 
 
 def main(argv: list[str]) -> int:
-    """The command."""
+    """Run the command line."""
     studies = tuple(
         Study(name, "verification.charts:chart", title, LEVELS, {"name": name}) for name, title in CHARTS.items()
     )
@@ -34,15 +37,17 @@ def main(argv: list[str]) -> int:
 
 def chart(level: str, name: str, redraw: str = "") -> Iterator[Item]:
     """Every method at every setting, measured in turn on this machine, or drawn again from an earlier report."""
-    from .data import load, machine
+    from .data import load, machine, measured_on
     from .draw import growth, work_precision
 
     if redraw:
         points = load(Path(redraw), name)
     else:
         points = list(importlib.import_module(f"verification.charts.{name}").points(level))
+    where = measured_on(Path(redraw), name) if redraw else machine()
     yield from points
-    yield growth(points, machine()) if name == "growth" else work_precision(name, points, machine())
+    yield Table(f"{name}_machine", "Where and when the points were measured", ("machine",), ((where,),))
+    yield growth(points, where) if name == "growth" else work_precision(name, points, where)
 
 
 def _options(parser: ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""Charts from the points alone."""
+"""Draws charts from the points alone."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from .. import plotting
 from ..check import Check, Figure
 from .growth import exponent
 
+LEAST = 1e-12  # of the reference: errors below are drawn there
 NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "default, warm")
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Error against time, one panel each; the default ringed; bars from quartile to quartile."""
+    """Error against time, a panel each. The default is ringed, and bars reach from quartile to quartile.
+
+    Where a solver is off by its whole answer it has failed: such points are left out.
+    """
+    points = [p for p in points if p.at.get("apart") or p.measured < 1]
     panels = list(dict.fromkeys(p.word("panel") for p in points))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)
@@ -29,7 +34,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         ax.set(
             xscale="log",
             yscale="log",
-            xlabel="seconds",
+            xlabel="CPU seconds",
             title=label,
             ylabel="discretisation error" if apart else "solver error",
         )
@@ -43,15 +48,17 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
 
 
 def readable(ax) -> None:
-    """Labels at 1, 2 and 5 where the time axis shows less than two powers of ten, and room for two of them."""
+    """Label the time axis at 1, 2 and 5 where it shows less than two powers of ten, in at least two places."""
     from matplotlib.ticker import FixedLocator, FuncFormatter
 
     low, high = ax.get_xlim()
     if high < 30 * low:
-        low, high = low / 1.3, high * 1.3
+        ticks: list[float] = []
+        while len(ticks) < 2:
+            low, high = low / 1.3, high * 1.3
+            ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5) if low <= m * 10.0**k <= high]
         ax.set_xlim(low, high)
-        ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5)]
-        ax.xaxis.set_major_locator(FixedLocator([t for t in ticks if low <= t <= high]))
+        ax.xaxis.set_major_locator(FixedLocator(ticks))
         ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter("")
 
@@ -72,6 +79,7 @@ def palette(points: list[Check]) -> dict[str, str]:
         "#000000",
         "#8C564B",
         "#7F7F7F",
+        "#882255",
     ]
     return {m: colours[i % len(colours)] for i, m in enumerate(methods)}
 
@@ -81,10 +89,10 @@ def curve(ax, points: list[Check], colour: str) -> None:
     errors = [p.measured for p in points]
     times = np.array([p.duration for p in points])
     spread = np.abs([times - [p.number("low") for p in points], [p.number("high") for p in points] - times])
-    ax.errorbar(times, np.maximum(errors, 1e-16), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
+    ax.errorbar(times, np.maximum(errors, LEAST), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.at.get("default"):
-            ax.plot(p.duration, e, "o", mfc="none", mec="k", ms=10)
+            ax.plot(p.duration, max(e, LEAST), "o", mfc="none", mec="k", ms=10)
 
 
 def growth(points: list[Check], machine: str) -> Figure:
@@ -96,7 +104,9 @@ def growth(points: list[Check], machine: str) -> Figure:
         sizes = [p.number("size") for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
         axes[0, column].loglog(sizes, [p.duration for p in chosen], "o-")
-        axes[0, column].set(title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="seconds", xlabel=unit)
+        axes[0, column].set(
+            title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="CPU seconds", xlabel=unit
+        )
         if label == "contact":
             axes[0, column].set_title(
                 f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"

@@ -1,4 +1,4 @@
-"""Smooth films: error of smallest film, flow film and friction against time."""
+"""The chart of smooth films: error of smallest film, flow film and friction against time."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def points(level: str) -> Iterator[Check]:
 
 
 def quantities(film) -> np.ndarray:
-    """Smallest film, flow film [m], and ∫ eta/h dx (Newtonian shear force per sliding speed)."""
+    """Smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
     x, h, eta = film.x, film.film_thickness, film.viscosity
     wet = x <= film.rupture + 1e-12 * film.half_width
     return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
 
 
 def runs(case: dict, M: float, L: float, quick: bool):
-    """Yield (method, setting, is it the default, ((quantities), quartiles, unknowns))."""
+    """Yield (method, setting, whether it is the default, ((quantities), quartiles, unknowns))."""
     repeats = 2 if quick else 7
     tolerances = (1e-2, 3e-3) if quick else (0.05, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
     near = case | {"load_per_width": 0.97 * case["load_per_width"]}
@@ -75,7 +75,7 @@ def runs(case: dict, M: float, L: float, quick: bool):
 
 
 def finite_elements(case: dict, quick: bool):
-    """The full system on its nested meshes: the time of each includes the coarser ones."""
+    """The full system by finite elements on its nested meshes. The time of each includes that of the coarser ones."""
     fluid = Fluid(
         case["viscosity"],
         viscosity_law=case["viscosity_law"],

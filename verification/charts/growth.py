@@ -36,9 +36,9 @@ solve_contact(-z[:32, :32], 2e-6, 231e9, mean_pressure=2e8)
 operator = half_space(z.shape, 2e-6, 231e9)
 times = []
 for _ in range(3 if n <= 1024 else 1):
-    begun = time.perf_counter()
+    begun = time.process_time()
     r = solve_contact(-z, 2e-6, 231e9, mean_pressure=2e8, operator=operator)
-    times.append(time.perf_counter() - begun)
+    times.append(time.process_time() - begun)
 work, size = r.report.evaluations, n * n"""
     + REPORT
 )
@@ -54,9 +54,9 @@ solve_differential_deflection(**case)
     + """
 times = []
 for _ in range(5):
-    begun = time.perf_counter()
+    begun = time.process_time()
     r = solve_differential_deflection(**case, nodes=nodes, tolerance=0.1, raise_on_failure=False)
-    times.append(time.perf_counter() - begun)
+    times.append(time.process_time() - begun)
 work, size = r.report.iterations, nodes"""
     + REPORT
 )
@@ -83,9 +83,9 @@ solve(48)
 n = int(sys.argv[1])
 times = []
 for _ in range(5 if n < 1600 else 1):
-    begun = time.perf_counter()
+    begun = time.process_time()
     solution = solve(n)
-    times.append(time.perf_counter() - begun)
+    times.append(time.process_time() - begun)
 work, size = len(solution.history) - 1, n"""
     + REPORT
 )
@@ -102,16 +102,16 @@ lubfric.stribeck(model, [0.1])
     + BEFORE
     + """
 n = int(sys.argv[1])
-begun = time.perf_counter()
+begun = time.process_time()
 r = lubfric.stribeck(model, np.geomspace(1e-4, 1.0, n))
-times = [time.perf_counter() - begun]
+times = [time.process_time() - begun]
 work, size = n, n"""
     + REPORT
 )
 
 
 def rough(n: int) -> np.ndarray:
-    """Heights [m] of the same statistics at any size, in single-precision noise: cheap enough for 4096²."""
+    """Heights [m] of the same statistics at any size, from noise that is cheap enough for 4096²."""
     k = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(n)) * 2 * np.pi * 17
     z = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * (1 + k * k) ** -0.75, s=(n, n))
     return (z - z.mean()) * (240e-9 / z.std())
@@ -135,7 +135,7 @@ def newton_problem():
 
 
 def points(level: str) -> Iterator[Check]:
-    """Each size in a process of its own, whose peak memory is its own."""
+    """Each size is solved in a process of its own, so that the peak memory is that of this size alone."""
     quick = level == "quick"
     for label, code, sizes in (
         ("contact", CONTACT, (128, 256) if quick else (128, 256, 512, 1024, 2048, 4096)),
@@ -169,8 +169,10 @@ def measured(code: str, size: int) -> dict:
 
 
 def exponent(points: list[Check], quantity: str) -> float:
-    """Least-squares slope of log(quantity) over log(size), the larger half of the sizes; quantity: "memory", "work", or
-    "seconds"."""
+    """Least-squares slope of the logarithm of a quantity over that of the size, for the larger half of the sizes.
+
+    ``quantity`` is "memory", "work" or "seconds".
+    """
     pairs = sorted((p.number("size"), p.duration if quantity == "seconds" else p.number(quantity)) for p in points)
     pairs = [(size, value) for size, value in pairs if value > 0]
     pairs = pairs[len(pairs) // 2 - 1 :] if len(pairs) > 3 else pairs

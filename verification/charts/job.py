@@ -1,4 +1,4 @@
-"""The whole job: error in the friction coefficient against time per point of a Stribeck curve."""
+"""The chart of the whole job: error of the friction coefficient against time per point of a Stribeck curve."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DEFAULT = 0.01
 
 
 def points(level: str) -> Iterator[Check]:
-    """Tolerances and closures on one grid; then grids at one tolerance."""
+    """Tolerances and closures on one grid, then grids at one tolerance."""
     quick = level == "quick"
     n = 48 if quick else 200
     speeds = SPEEDS[::4] if quick else SPEEDS
@@ -65,8 +65,8 @@ def coefficients(pair, speeds) -> np.ndarray:
 
 
 def per_speed(panel: str, method: str, setting: str, found: tuple, seconds: Quartiles, **at) -> Check:
-    """Largest relative deviation over the speeds of ``found`` = (f, exact f); seconds per speed, preparation
-    included."""
+    """The largest relative deviation over the speeds of ``found`` = (f, exact f), and the seconds for each speed,
+    preparation included."""
     f, exact = found
     off = float(np.nanmax(np.abs(f / exact - 1)))
     return point(panel, method, setting, off, tuple(s / f.size for s in seconds), **at)

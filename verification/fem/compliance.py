@@ -1,8 +1,7 @@
 """Exact compliance of an elastic layer bonded to a rigid base, wave by wave, and how it nears the half-space.
 
-A frictionless pressure ``p cos(k x)`` on the surface of a layer of thickness d moves it down by ``C(k) p
-cos(k x)``. Two waves in x and y are one wave along (kx, ky), so the same C(|k|) serves plane strain and three
-dimensions.
+A frictionless pressure ``p cos(k x)`` on the surface of a layer of thickness d moves it down by ``C(k) p cos(k x)``.
+Two waves in x and y are one wave along (kx, ky). So the same C(|k|) serves plane strain and three dimensions.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ class Elastic:
 
     @property
     def oedometric(self) -> float:
-        """Stiffness in Pa against compression without lateral strain, ``E (1 - nu)/((1 + nu)(1 - 2 nu))``."""
+        """Stiffness [Pa] against compression without lateral strain, ``E (1 - nu)/((1 + nu)(1 - 2 nu))``."""
         return self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
 
 
@@ -76,29 +75,28 @@ def layer_compliance(k, thickness: float, body: Elastic):
 
 
 def sinh_excess(x):
-    """``sinh(x) - x`` for x up to 1, without cancellation: five terms, relative error below 1e-11."""
+    """``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
     y = np.asarray(x) ** 2
     return x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))))
 
 
 def missing(s: float, poisson: float) -> float:
-    """``1 - C_layer/C_half-space`` at s = k d: how much stiffer the layer is; near ``q(s) exp(-2 s)`` for
-    large s with
+    """``1 - C_layer/C_half-space`` at s = k d, which is how much stiffer the layer is.
 
-    ``q = (4 s^2 + 4 s + 2 (5 - 12 nu + 8 nu^2))/(3 - 4 nu)``."""
+    For large s it is near ``q(s) exp(-2 s)`` with ``q = (4 s^2 + 4 s + 2 (5 - 12 nu + 8 nu^2))/(3 - 4 nu)``.
+    """
     t, kappa = np.exp(-2 * s), 3 - 4 * poisson
     square = 2 * s**2 + 5 - 12 * poisson + 8 * poisson**2
     return float(t * (kappa * t + square + 2 * s) / (kappa * (1 + t**2) / 2 + square * t))
 
 
 def curvature_number(poisson: float) -> float:
-    """``J = integral of s missing(s) ds`` over s > 0, which bends the surface of a layer next to a narrow
-    load.
+    """``J = integral of s missing(s) ds`` over s > 0, which bends the surface of a layer next to a narrow load.
 
-    Under a line load w the displacement differences of layer and half-space differ by
-    ``(w/pi) integral (C_half-space - C_layer)(1 - cos k x) dk``; for x << d this is ``(2 w J/(pi E'))
-    (x/d)^2``. A Hertz contact of half-width b so sees a curvature that is larger by the fraction ``J b^2/(2
-    d^2)``: its peak pressure rises by half of that. (Derived here; checked by quadrature in the tests.)
+    Under a line load w the displacement differences of layer and half-space differ by ``(w/pi) integral (C_half-space -
+    C_layer)(1 - cos k x) dk``. For x << d this is ``(2 w J/(pi E')) (x/d)^2``. So a Hertz contact of half-width b sees
+    a curvature that is larger by the fraction ``J b^2/(2 d^2)``, and its peak pressure rises by half of that. (Derived
+    here, and checked by quadrature in the tests.)
     """
     return quad(lambda s: s * missing(s, poisson), 0, FAR, epsabs=1e-12, epsrel=1e-10, limit=200)[0]
 

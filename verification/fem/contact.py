@@ -1,7 +1,7 @@
-"""Frictionless contact with a rigid counterface by primal-dual active set, on any finite-element compliance.
+"""Frictionless contact with a rigid counterface by a primal-dual active set, on any finite-element compliance.
 
-Unknown are the nodal forces f and the approach delta. With u = C f and g = gap0 - delta + u, each node is one
-of: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = limit, g <= 0).
+The unknowns are the nodal forces f and the approach delta. With u = C f and g = gap0 - delta + u, each node is one of
+three: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = limit, g <= 0).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Problem:
-    """Checked input of `solve_contact`; ``limit`` is the nodal force limit (inf without a cap)."""
+    """Checked input of `solve_contact`. ``limit`` is the limit of the nodal forces (inf without a cap)."""
 
     displacement: Callable[[np.ndarray], np.ndarray]
     weights: np.ndarray
@@ -133,7 +133,7 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
 
 
 def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
-    """(force, (iterations, applications, history, status)); forces may pull or exceed the limit slightly."""
+    """(force, (iterations, applications, history, status)). Forces may pull or exceed the limit slightly."""
     history, applications, fewest, patience = [], 0, force.size + 1, PATIENCE
     for iteration in range(1, max_iterations + 1):
         force, gap, used = equilibrium(problem, force, touching, saturated)
@@ -165,7 +165,7 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
 
 
 def limited(problem: Problem, force, saturated):
-    """``saturated`` and, hardest pressed first, nodes above the limit while others have load enough left."""
+    """``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
     spare = problem.load - problem.limit[saturated].sum()
@@ -179,7 +179,7 @@ def limited(problem: Problem, force, saturated):
 
 
 def enough(problem: Problem, gap, touching, saturated):
-    """``touching`` and, nearest first, nodes off, until these can carry what the saturated ones do not."""
+    """``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
         return touching
@@ -194,8 +194,8 @@ def enough(problem: Problem, gap, touching, saturated):
 def equilibrium(problem: Problem, force, touching, saturated):
     """Forces with gap zero at the touching nodes, the gap everywhere, and the number of applications of C.
 
-    Unknown y = f/sqrt(w), so that nodes of unequal weight are alike; steps stay orthogonal to sqrt(w), which
-    keeps the load, and the part of the misfit along it is the approach.
+    The unknown is y = f/sqrt(w), so that nodes of unequal weight are alike. Steps stay orthogonal to sqrt(w), which
+    keeps the load. The part of the misfit along sqrt(w) is the approach.
     """
     root = np.sqrt(problem.weights) * touching
     root2 = root @ root

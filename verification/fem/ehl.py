@@ -1,10 +1,10 @@
 """Full-system finite-element solution of the elastohydrodynamic line contact.
 
-Displacement of an elastic body, pressure on a part of its surface and the approach are the unknowns of one
-Newton iteration on one sparse system (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008,
-doi:10.1115/1.2842246); `ehl_body`, `ehl_film` and `ehl_newton` hold the parts. Hertz variables throughout: X
-= x/b, P = p/p_h, H = h R/b^2. Nested meshes: on the coarsest a first-order upwind solution comes first, from
-a Hertz pressure; every solution, film included, starts the next finer one.
+Displacement of an elastic body, pressure on a part of its surface and the approach are the unknowns of one Newton
+iteration on one sparse system (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246). `ehl_body`,
+`ehl_film` and `ehl_newton` hold the parts. All is in Hertz variables: X = x/b, P = p/p_h, H = h R/b^2. Meshes are
+nested. On the coarsest one a first-order upwind solution comes first, from a Hertz pressure. Every solution, film
+included, starts the next finer one.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ RAISING = (0.25, 0.5, 0.75, 1.0)  # shares of ln(eta/eta0)
 
 @dataclass(frozen=True)
 class LineContact:
-    """What is solved, SI units.
+    """What is solved, in SI units.
 
     Attributes
     ----------
@@ -100,8 +100,8 @@ class LineContact:
 
 @dataclass(frozen=True)
 class Solution:
-    """A film and how it was found. Arrays on the line are at its degrees of freedom ``body.x``, not in
-    ascending order.
+    """A film and how it was found. Arrays on the line stand at its degrees of freedom ``body.x``, not in ascending
+    order.
 
     Attributes
     ----------
@@ -125,7 +125,7 @@ class Solution:
 
     @property
     def min_film(self) -> float:
-        """Smallest film, m: that of the parabolas in the cells."""
+        """Smallest film [m], that of the parabolas in the cells."""
         left, right, middle = self.H[self.body.line.element_dofs]
         slope, bend = (right - left) / 2, (left + right) / 2 - middle
         lowest = np.clip(-slope / np.where(bend > 0, 2 * bend, 1.0), -1, 1)
@@ -214,8 +214,10 @@ def solve_ehl(
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
-    """Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l exceeds b many
-    times."""
+    """The layout of the mesh.
+
+    Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l is many times b.
+    """
     film = film_estimate(contact.load_number, contact.material_number) * contact.moes_film / contact.film_unit
     l = math.sqrt(2 * film)
     edge = math.hypot(1, 0.475 * l)
@@ -245,10 +247,10 @@ def film_estimate(M: float, L: float) -> float:
 
 
 def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: int) -> Iterate:
-    """First-order upwind solution; if Newton does not find it from a Hertz pressure, by raising the viscosity
-    in steps.
+    """A first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity is
+    raised in steps.
 
-    It need not have converged: whether the solution that starts from it has, is what counts.
+    It need not have converged. What counts is whether the solution that starts from it has.
     """
     for shares in ((1.0,), RAISING):
         guess = hertz_start(contact, body, shares[0])
@@ -270,7 +272,7 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
 
 
 def refined(coarse: Solution, body: Body) -> Iterate:
-    """A solution on the next finer mesh, film included: that of the interpolated pressure would be
-    rougher."""
+    """A solution taken to the next finer mesh, film included: the film of the interpolated pressure would
+    be rougher."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

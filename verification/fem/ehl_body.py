@@ -1,12 +1,12 @@
-"""The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the
-film.
+"""The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the film.
 
-One body stands for both: plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of
-E' (2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R,
-stresses in p_h; in these units E' is 4. A square below the contact, bottom fixed and sides free, stands for
-the half-space (Habchi, Eyheramendy, Vergne & Morales-Espejel 2008, doi:10.1115/1.2842246); against a
-half-space its surface is bent by a part that falls like (b/D)^2 with its side D, besides a constant that the
-approach takes up.
+One body stands for both. It is in plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of
+E' (2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R, stresses in p_h.
+In these units E' is 4.
+
+A square below the contact stands for the half-space, its bottom fixed and its sides free (Habchi, Eyheramendy, Vergne &
+Morales-Espejel 2008, doi:10.1115/1.2842246). Against a half-space its surface is bent by a part that falls like (b/D)^2
+with its side D. It is also moved by a constant, which the approach takes up.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the mesh is fine; lengths in b.
+    """Where the mesh is fine. Lengths are in b.
 
     Attributes
     ----------
@@ -51,10 +51,9 @@ class Layout:
 
 
 def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
-    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth *
-    distance)``.
+    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``.
 
-    The layout that comes back has the ends of the film moved outwards to vertices.
+    The layout that is returned has the ends of the film moved outwards to vertices.
     """
     half = layout.side / 2
     mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
@@ -110,7 +109,7 @@ class Body:
         return np.argsort(self.factors.perm_c)
 
     def displacement(self, pressure: np.ndarray) -> np.ndarray:
-        """Under a pressure on the line, at the free degrees of freedom."""
+        """Displacement at the free degrees of freedom of the body under a pressure on the line."""
         return -self.factors.solve(self.traction @ pressure)
 
     def everywhere(self, displacement: np.ndarray) -> np.ndarray:

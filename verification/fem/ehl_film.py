@@ -2,17 +2,15 @@
 
     d/dX( rho H - m dP/dX ) = 0,   m = rho H^3/(eta lambda),   lambda = 12 eta0 U R^2/(b^3 p_h)
 
-with rho and eta relative to their values at p = 0. Weakly ``-(q, v') - q_in v(inlet)``, q = rho H - m P' the
-flux. Far upstream the gap is a parabola and the oil Newtonian, so that P falls like |X|^-3:
-there ``P' = 3 P/|X|``.
+rho and eta are relative to their values at p = 0. The weak form is ``-(q, v') - q_in v(inlet)`` with the flux q = rho H
+- m P'. Far upstream the gap is a parabola and the oil is Newtonian, so P falls like |X|^-3. There ``P' = 3 P/|X|``.
 
-Under high pressure m vanishes and ``(rho H)'`` is left, a Hilbert transform of the pressure that Galerkin
-sees no better than convection: it rings. Interior penalty (Burman & Hansbo 2004,
-doi:10.1016/j.cma.2003.12.032) charges the jumps of slope between cells, ``sum gamma size^2 [(rho H)'][v']``
-over the vertices. For P2 the term is of higher order than the element's own error, and no viscosity is in it.
-A residual-based (SUPG) form holds viscosity, and was found to have several solutions where the pressure spike
-is not resolved. First-order upwinding, ``(size/2) ((rho H)', v')``, serves first guesses. Both fade where
-pressure diffuses in less than a cell.
+Under high pressure m vanishes, and ``(rho H)'`` is left. It is a Hilbert transform of the pressure, which Galerkin sees
+no better than convection: it rings. Interior penalty (Burman & Hansbo 2004, doi:10.1016/j.cma.2003.12.032) charges the
+jumps of slope between cells, ``sum gamma size^2 [(rho H)'][v']`` over the vertices. For P2 this term is of higher order
+than the element's own error, and it holds no viscosity. A residual-based (SUPG) form does hold viscosity, and was found
+to have several solutions where the pressure spike is not resolved. First-order upwinding, ``(size/2) ((rho H)', v')``,
+serves first guesses. Both fade where pressure diffuses in less than a cell.
 """
 
 from __future__ import annotations
@@ -54,15 +52,15 @@ class Film:
     piezo: float = 1.0
 
     def log_viscosity(self, P):
-        """ln(eta/eta0); below zero, where only iterates are, the tangent at zero."""
+        """ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
         return self.piezo * extended(self.fluid.log_viscosity, P * self.hertz_pressure)
 
     def density(self, P):
-        """rho/rho0, likewise."""
+        """rho/rho0, which also goes on by its tangent below zero."""
         return extended(self.fluid.rho, P * self.hertz_pressure)
 
     def mobility(self, P, H):
-        """m."""
+        """The mobility m."""
         return self.density(P) * H**3 * np.exp(-self.log_viscosity(P)) / self.speed_parameter
 
     def wave(self, P, H):
@@ -74,8 +72,10 @@ class Film:
         return 1 / np.sqrt(1 + (6 * self.mobility(P, H) / size / (1 + self.wave(P, H))) ** 2)
 
     def flux(self, P, P1, H, H1, size):
-        """q, with upwinding, from P and H and their slopes P1 and H1 in a cell of length ``size``; real or
-        complex."""
+        """The flux q, with upwinding, real or complex.
+
+        P and H have the slopes P1 and H1 in a cell of length ``size``.
+        """
         rho = self.density(P)
         q = rho * H - self.mobility(P, H) * P1
         if self.upwind:
@@ -87,7 +87,7 @@ class Film:
         return self.penalty * size**2 * self.carried(P, H, size) * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
 
     def inflow(self, P, H, inlet: float):
-        """q at the inlet."""
+        """The flux q at the inlet."""
         return self.density(P) * H - self.mobility(P, H) * 3 * P / abs(inlet)
 
 
@@ -106,8 +106,8 @@ def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]
 
 
 def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
-    """Degrees of freedom at inner vertices, mean length of the cells there, and the matrix that takes a
-    function to its jumps of slope there."""
+    """Degrees of freedom at inner vertices, mean length of the cells there, and the matrix of the jumps of
+    slope there."""
     mesh = line.mesh
     size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
     slopes_inwards = np.array([[-3.0, -1.0, 4.0], [-1.0, -3.0, 4.0]])  # at either end, times size
@@ -131,14 +131,13 @@ def flux_form(v, w):
 
 @BilinearForm
 def flux_tangent(u, v, w):
-    """Its derivative."""
+    """The derivative of `flux_form`."""
     return -(w.by_value * u + w.by_slope * u.grad[0]) * v.grad[0]
 
 
 @dataclass(frozen=True)
 class Flow:
-    """Weak residual on the line (flow lost at a degree of freedom), its derivatives, and the flux that
-    enters."""
+    """The weak residual on the line (flow lost at a degree of freedom), its derivatives, and the flux that enters."""
 
     residual: np.ndarray
     by_P: sp.csr_matrix

@@ -4,8 +4,8 @@
     Reynolds     r(P, H) = 0 where P > 0, P = 0 where r > 0 (Swift-Stieber outlet; primal-dual active set)
     load         integral P + |X_in| P_in/2 = pi/2, the second term the tail upstream of the inlet
 
-for u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it is factorised by sparse LU in every step;
-the order of elimination comes from the stiffness once a mesh.
+The unknowns are u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it is factorised by sparse LU in every
+step. The order of elimination comes from the stiffness, once for a mesh.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SMALLEST_SHARE = 0.3  # of the film at any point that one step leaves
 
 @dataclass(frozen=True)
 class Iterate:
-    """Displacement, pressure, approach; ``held`` are the degrees of freedom that were set to P = 0."""
+    """Displacement, pressure and approach. ``held`` are the degrees of freedom that were set to P = 0."""
 
     u: np.ndarray
     P: np.ndarray
@@ -39,7 +39,7 @@ class Iterate:
 
 @dataclass(frozen=True)
 class Imbalance:
-    """Residuals of an iterate: forces on the body, flow on the line, relative load."""
+    """Residuals of an iterate: forces on the body, flow on the line, and relative load."""
 
     H: np.ndarray
     force: np.ndarray
@@ -108,9 +108,12 @@ def imbalance(body: Body, film: Film, it: Iterate, weights: np.ndarray) -> Imbal
 def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
     """What the stopping test looks at, each without dimension.
 
-    elasticity: largest force out of balance at a node, in loads; load: relative; mass: flow lost on the way
-    to the rupture point (sum over nodes of |r|), in q; tension: largest -P in largest P; suction: flow that
-    appears from nothing at nodes held at P = 0, in q; overlap: largest -H, in q.
+    - elasticity: largest force out of balance at a node, in loads
+    - load: relative
+    - mass: flow lost on the way to the rupture point (sum over nodes of |r|), in q
+    - tension: largest -P in largest P
+    - suction: flow that appears from nothing at nodes held at P = 0, in q
+    - overlap: largest -H, in q
     """
     r, scale = at.flow.residual, abs(at.flow.inflow)
     inner = it.held & (body.x < body.x.max())
@@ -164,8 +167,7 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
 
 
 def step_length(film: Film, P, dP, H, dH) -> float:
-    """Share of a step after which no viscosity has changed and no film has shrunk by more than the limits
-    say."""
+    """The share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
     return min(

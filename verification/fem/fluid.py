@@ -1,8 +1,8 @@
 """Viscosity and density laws for the finite-element side, written for real and complex pressures.
 
-Complex, because the tangent of a weak form is taken by a complex step: ``Im f(p + i e)/e`` is the
-derivative to rounding (Squire & Trapp 1998, doi:10.1137/S003614459631241X), so no law needs a second one
-for its derivative.
+They take complex pressures because the tangent of a weak form is found by a complex step: ``Im f(p + i e)/e`` is the
+derivative to rounding (Squire & Trapp 1998, doi:10.1137/S003614459631241X). So no law needs a second one for its
+derivative.
 """
 
 from __future__ import annotations
@@ -105,5 +105,5 @@ class Fluid:
 
 
 def slope(law, p):
-    """Derivative of one of the laws, by a complex step; itself differentiable only on the real axis."""
+    """The derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
     return np.imag(law(np.real(p) + 1j * STEP)) / STEP

@@ -1,15 +1,13 @@
-"""Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along
-y.
+"""Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along y.
 
-For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``, and
-elasticity in three dimensions becomes one problem in the section for each wavenumber k, with the three
-amplitudes for unknowns and k in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element
-Method, 3rd ed. 1977). P2 triangles on a square of side D, bottom fixed and sides free, stand for the
-half-space: k = 0 misses it by a constant and a part that falls like 1/D^2, every other k by exp(-k D/2).
+For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``. So elasticity in three
+dimensions becomes one problem in the section for each wavenumber k. Its unknowns are the three amplitudes, and k stands
+in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element Method, 3rd ed. 1977). P2 triangles on a
+square of side D, its bottom fixed and its sides free, stand for the half-space. k = 0 misses it by a constant and a
+part that falls like 1/D^2, every other k by exp(-k D/2).
 
-Pressure is constant on the cells of a patch along x; the compliance gives mean displacements of the cells, so
-it is symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier
-transforms.
+Pressure is constant on the cells of a patch along x, and the compliance gives mean displacements of the cells. So it is
+symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
 """
 
 from __future__ import annotations
@@ -28,11 +26,14 @@ from .report import InputError
 
 @dataclass(frozen=True)
 class Strip:
-    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, nx even, centred on x = 0, repeated
-    along y.
+    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y.
+    nx is even.
 
-    side : of the square body is dx 2^side; fineness : each cell along x is 2^fineness facets; growth : cell
-    length per distance from the patch.
+    Attributes
+    ----------
+    side : that of the square body is dx 2^side
+    fineness : each cell along x is 2^fineness facets
+    growth : cell length per distance from the patch
     """
 
     shape: tuple[int, int]
@@ -61,7 +62,8 @@ class Strip:
 class Compliance:
     """Mean displacements of cells (m, downwards) per pressure (Pa).
 
-    harmonics (ny//2 + 1, nx, nx): for each wave along y; unknowns: of each of the systems solved for them.
+    ``harmonics`` (ny//2 + 1, nx, nx) has one for each wave along y. ``unknowns`` are those of each system that was
+    solved.
     """
 
     strip: Strip
@@ -100,9 +102,8 @@ def factorised(matrix):
 
 
 def graded_mesh(strip: Strip) -> MeshTri:
-    """Triangles split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
-    patch)``.
-    """
+    """Triangles, split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
+    patch)``."""
     dx = strip.spacing[0]
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))

@@ -1,7 +1,7 @@
 """Plane-strain elastic layer bonded to a rigid base: mesh, stiffness, and the compliance of its surface.
 
-The layer fills ``-width/2 <= x <= width/2``, ``-thickness <= z <= 0`` and is either periodic in x or has free
-sides. Forces and displacements of the surface count positive downwards, into the layer.
+The layer fills ``-width/2 <= x <= width/2``, ``-thickness <= z <= 0``. It is periodic in x, or has free sides. Forces
+and displacements of the surface count positive downwards, into the layer.
 """
 
 from __future__ import annotations
@@ -92,10 +92,10 @@ class Layer:
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
-    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <=
-    strip``.
+    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x|
+    <= strip``.
 
-    Mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
+    The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """
     if not (0 < fine < strip <= width / 2 and thickness > 0 and growth > 0):
         raise InputError(

@@ -1,10 +1,9 @@
-"""Three-dimensional elastic layer, periodic in x and y and bonded to a rigid base, of hexahedra in equal
-columns.
+"""Three-dimensional elastic layer, periodic in x and y and bonded to a rigid base, of hexahedra in equal columns.
 
-Nodes form a grid: ``shape`` = (nx, ny) of them on the surface, and levels graded in depth. Every column of
-elements is the same, so the element matrices of one column, made by scikit-fem, give the whole stiffness.
-Here it is assembled and solved by conjugate gradients with smoothed aggregation; `layer_waves` solves the
-same discrete layer wave by wave. Forces and displacements of the surface count positive downwards.
+Nodes form a grid: ``shape`` = (nx, ny) of them on the surface, and levels graded in depth. Every column of elements is
+the same, so the element matrices of one column, made by scikit-fem, give the whole stiffness. Here it is assembled and
+solved by conjugate gradients with smoothed aggregation. `layer_waves` solves the same discrete layer wave by wave.
+Forces and displacements of the surface count positive downwards.
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ class Layer3D:
 
     @property
     def thickness(self) -> float:
-        """m."""
+        """Thickness of the layer [m]."""
         return -float(self.levels[0])
 
     @property
@@ -93,12 +92,12 @@ class Layer3D:
 
     @property
     def planes(self) -> int:
-        """Planes of nodes that can move."""
+        """Number of planes of nodes that can move."""
         return self.degree * (self.levels.size - 1)
 
     @property
     def unknowns(self) -> int:
-        """Degrees of freedom of the assembled layer."""
+        """Number of degrees of freedom of the assembled layer."""
         return 3 * self.shape[0] * self.shape[1] * self.planes
 
     @cached_property
@@ -128,8 +127,10 @@ class Layer3D:
 
 
 def graded_levels(thickness: float, layers: int, ratio: float) -> np.ndarray:
-    """Levels from -thickness to 0 whose ``layers`` heights grow geometrically downwards, the last about
-    ``ratio`` times the first; twice the layers at the same ratio halve every height."""
+    """Levels from -thickness to 0, with ``layers`` heights that grow geometrically downwards.
+
+    The last height is about ``ratio`` times the first. Twice the layers at the same ratio halve every height.
+    """
     if not (thickness > 0 and layers >= 1 and ratio >= 1):
         raise InputError(f"thickness {thickness}, layers {layers}, ratio {ratio}; allowed: > 0, >= 1, >= 1")
     xi = np.linspace(1, 0, layers + 1)
@@ -155,10 +156,9 @@ def stiffness(layer: Layer3D) -> sp.bsr_matrix:
 
 
 def rigid_body_modes(layer: Layer3D) -> np.ndarray:
-    """(unknowns, 6) three translations and three rotations about the middle of the layer, each of unit
-    length.
+    """(unknowns, 6): three translations and three rotations about the middle of the layer, each of unit length.
 
-    A rotation does not fit together across the period; each aggregate of nodes needs it only locally.
+    A rotation does not fit together across the period. But each aggregate of nodes needs it only locally.
     """
     x, y = layer.x
     z = np.array(
@@ -184,7 +184,7 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Solved:
-    """``displacement`` (planes from the base up, nx, ny, 3) in m, z upwards; ``report`` a `SolveReport`."""
+    """``displacement`` (planes from the base up, nx, ny, 3) in m, with z upwards, and ``report``, a `SolveReport`."""
 
     displacement: np.ndarray
     report: SolveReport
@@ -197,7 +197,7 @@ class Solved:
 
 @dataclass(frozen=True)
 class Multigrid:
-    """The assembled layer and its hierarchy, to be used for several loads."""
+    """The assembled layer and its hierarchy, which can be used for several loads."""
 
     layer: Layer3D
     matrix: sp.bsr_matrix

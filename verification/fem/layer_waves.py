@@ -1,7 +1,7 @@
 """The three-dimensional layer wave by wave: what repeats from cell to cell is diagonal in Fourier space.
 
-The same discrete layer as `layer3d` assembles, element for element; only the order of elimination differs. So
-the two agree to the tolerance of the iteration there, and one application here costs two transforms.
+It is the same discrete layer that `layer3d` assembles, element for element. Only the order of elimination differs. So
+the two agree to the tolerance of the iteration there, and one application costs two transforms here.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class FourierCompliance:
     symbol: np.ndarray
 
     def displacement(self, force) -> np.ndarray:
-        """m, of nodal forces in N; (nx, ny) or flattened, and so is the result."""
+        """Displacement [m] of nodal forces [N], (nx, ny) or flattened, in the shape of the forces."""
         force = np.asarray(force, dtype=float)
         (cx, cy), q = self.layer.cells, self.layer.degree
         waves = scipy.fft.rfft2(force.reshape(cx, q, cy, q).transpose(0, 2, 1, 3).reshape(cx, cy, q * q), axes=(0, 1))

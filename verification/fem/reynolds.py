@@ -1,12 +1,12 @@
-"""Reynolds equation by finite elements, on lines, triangles and quadrilaterals, for a given film.
+"""Reynolds' equation by finite elements, on lines, triangles and quadrilaterals, for a given film.
 
     - div( rho h^3/(12 eta) grad p ) + d(rho U h)/dx = f,   p = 0 on the boundary,
 
-weakly: ``(rho h^3/(12 eta) grad p, grad v) - (rho U h, dv/dx) = (f, v)``, with U the entrainment speed
-(mean of the two surface speeds). Where cavitation is asked for, with Reynolds' (Swift-Stieber) outlet:
-``p >= 0``, weak residual ``>= 0``, product 0, node by node. One loop does both: Newton on the free nodes,
-each step with the active set of the primal-dual method (Hintermueller, Ito & Kunisch 2002,
-doi:10.1137/S1052623401383558). The weak form is written once; its tangent is taken by a complex step.
+The weak form is ``(rho h^3/(12 eta) grad p, grad v) - (rho U h, dv/dx) = (f, v)``, with U the entrainment speed (mean
+of the two surface speeds). Where cavitation is asked for, Reynolds' (Swift-Stieber) outlet holds: ``p >= 0``, weak
+residual ``>= 0``, product 0, node by node. One loop does both. It is Newton's method on the free nodes, with each
+step's active set from the primal-dual method (Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). The
+weak form is written once, and its tangent is taken by a complex step.
 """
 
 from __future__ import annotations
@@ -177,7 +177,7 @@ def residual(v, w):
 
 @BilinearForm
 def tangent(u, v, w):
-    """Its derivative, from the derivatives of (a, b) by p and by each component of its gradient."""
+    """The derivative of `residual`, from the derivatives of (a, b) by p and by each component of its gradient."""
     a = w.a_p * u + dot(w.a_g, grad(u))
     b = w.b_p * u + sum(slope * du for slope, du in zip(w.b_g, grad(u), strict=True))
     return a * v + dot(b, grad(v))
@@ -366,8 +366,8 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
 
 
 def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
-    """Step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, none on held ones, shortened where viscosity would
-    run away."""
+    """The step to ``r = 0`` on free nodes and to ``p = 0`` on cavitated ones, with none on held ones. It is shortened
+    where the viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

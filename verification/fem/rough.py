@@ -3,10 +3,10 @@
     u = C p,   g = g0 - delta + u,   0 <= p <= H,
     g = 0 where 0 < p < H,   g >= 0 where p = 0,   g <= 0 where p = H
 
-for a given load. In each step the cells of the set are in contact, the others are not or have yielded; one
-dense linear system gives their pressures and delta; the signs of pressures and gaps give the next set
-(Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). The set repeats itself at the solution,
-which is then exact up to rounding.
+The load is given. In each step the cells of the set are in contact, and the others are not, or have yielded. One dense
+linear system gives their pressures and delta. The signs of pressures and gaps give the next set (Hintermueller, Ito &
+Kunisch 2002, doi:10.1137/S1052623401383558). At the solution the set repeats itself, and the solution is then exact up
+to rounding.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ FIRST = 0.15  # share of the cells, those of least gap, in the first set
 
 @dataclass(frozen=True)
 class Pressed:
-    """pressure (Pa), gap (m), both (nx, ny), approach (m) and a report."""
+    """Pressure (Pa) and gap (m), both (nx, ny), the approach (m), and a report."""
 
     pressure: np.ndarray
     gap: np.ndarray
@@ -44,10 +44,10 @@ def press(
     max_iterations: int = 100,
     raise_on_failure: bool = True,
 ) -> Pressed:
-    """Press the strip with ``load_per_width`` (N/m) against an undeformed gap (m), known up to a constant.
+    """Press the strip with ``load_per_width`` (N/m) against an undeformed gap (m) that is known up to a constant.
 
-    ``start``: an earlier result, for its set. Residuals: tension and penetration (largest -p and -g in
-    largest p and approach span of g0), load (relative). Raises `SolveError` when the largest is above
+    ``start`` is an earlier result, of which the set is used. The residuals are tension and penetration (largest -p and
+    -g, in largest p and in the approach span of g0) and load (relative). Raises `SolveError` when the largest is above
     ``tolerance``.
     """
     (nx, ny), (dx, _) = compliance.strip.shape, compliance.strip.spacing
@@ -93,9 +93,8 @@ def first_set(gap0: np.ndarray, start: Pressed | None) -> tuple[np.ndarray, np.n
 
 
 def next_set(pressure, gap, touching, yielded, hardness) -> tuple[np.ndarray, np.ndarray]:
-    """Cells under tension open, overlapping ones touch, those above the hardness yield, opened yielded ones
-    recover.
-    """
+    """The next set: cells under tension open, overlapping ones touch, those above the hardness yield, and yielded ones
+    that have opened recover."""
     free = ~touching & ~yielded
     overloaded = touching & (pressure > hardness)
     recovered = yielded & (gap > 0)

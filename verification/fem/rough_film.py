@@ -1,9 +1,9 @@
-"""The film in a rough gap that is given on cells: Reynolds by finite elements on triangles, fine where the gap is
+"""The film in a rough gap that is given on cells: Reynolds' equation on triangles, which are fine where the gap is
 narrow.
 
 The gap comes as numbers at the centres of cells (x along the motion, y periodic and symmetric about its ends and its
-middle), is linear between them, and goes on upstream as a parabola. Spots of contact may come with their pressure,
-which is then prescribed. Half of the period is meshed: no flow passes the planes of symmetry.
+middle). It is linear between them, and goes on upstream as a parabola. Spots of contact may come with their pressure,
+which is then prescribed. Half of the period is meshed, because no flow passes the planes of symmetry.
 """
 
 from __future__ import annotations
@@ -25,8 +25,15 @@ SYMMETRY = 1e-6
 
 @dataclass(frozen=True)
 class GivenGap:
-    """x (nx,) [m], spacing dy [m], gap and pressure (nx, ny) [m], [Pa]; contact (nx, ny): where the pressure is
-    prescribed; radius [m] and log [m]: of h = h_first + (x² - x_first²)/(2R) - log ln(x/x_first) upstream."""
+    """A gap that is given on cells.
+
+    Attributes
+    ----------
+    x, spacing : (nx,) [m] centres of the cells; dy [m]
+    gap, pressure : (nx, ny) [m], [Pa]
+    contact : (nx, ny) where the pressure is prescribed
+    radius, log : [m] of h = h_first + (x² - x_first²)/(2R) - log ln(x/x_first) upstream
+    """
 
     x: np.ndarray
     dy: float
@@ -59,7 +66,7 @@ class GivenGap:
         )
 
     def prescribed(self, points) -> np.ndarray:
-        """The same on the spots of contact, NaN elsewhere."""
+        """The pressure that came with the gap [Pa] on the spots of contact, NaN elsewhere."""
         step = self.x[1] - self.x[0]
         i = np.clip(np.rint((points[0] - self.x[0]) / step).astype(int), 0, self.x.size - 1)
         j = np.clip((points[1] / self.dy).astype(int), 0, self.gap.shape[1] - 1)
@@ -77,8 +84,11 @@ class GivenGap:
 
 
 def mesh_of(given: GivenGap, cells: int, refinements: int) -> skfem.MeshTri:
-    """Triangles of about the period over ``cells`` across; where the gap is narrower than half its mean over the
-    section, or the pressure above a tenth of its largest, halved ``refinements`` times."""
+    """Triangles with about ``cells`` of them across the period.
+
+    Where the gap is narrower than half its mean over the section, or the pressure above a tenth of its largest, they
+    are halved ``refinements`` times.
+    """
     step = 2 * given.width / cells
     first, last = given.x[0], given.x[-1]
     inner = np.linspace(first, last, int(round((last - first) / step)) + 1)
@@ -96,8 +106,11 @@ def mesh_of(given: GivenGap, cells: int, refinements: int) -> skfem.MeshTri:
 
 @dataclass(frozen=True)
 class RoughFilm:
-    """The finite-element film: load upstream of the given cells [N/m] and flow [m²/s], per width; pressure [Pa] (nx,
-    ny/2) at the centres of the given cells in the half that was meshed; and the solution."""
+    """The finite-element film.
+
+    It has the load [N/m] and the flow [m²/s], per width, upstream of the given cells; the pressure [Pa] (nx, ny/2) at
+    the centres of the given cells in the half that was meshed; and the solution.
+    """
 
     upstream: float
     flow: float
@@ -106,7 +119,7 @@ class RoughFilm:
 
 
 def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int, refinements: int, degree=1) -> RoughFilm:
-    """Solve for the pressure in ``given`` at the entrainment ``speed`` [m/s], ruptured where it would pull."""
+    """Solve for the pressure in ``given`` at the entrainment ``speed`` [m/s]. The film ruptures where it would pull."""
     width = given.width
     problem = Problem(
         mesh_of(given, cells, refinements),

@@ -1,9 +1,8 @@
 """Load sharing between a film and a rough contact, both by finite elements.
 
-A film that carries F_H (`ehl`, full system) is the shape under which the rough strip (`harmonic`) is pressed
-with F_C = F_T - F_H; the lubricant volume between the rough surfaces over the Hertz strip of the total load
-has to be that of the film (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z, Eqs. 8-12). One bracketed
-root in ln(F_H/F_C).
+A film that carries F_H (`ehl`, full system) is the shape under which the rough strip (`harmonic`) is pressed with F_C =
+F_T - F_H. The lubricant volume between the rough surfaces, over the Hertz strip of the total load, has to be that of
+the film (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z, Eqs. 8-12). This is one bracketed root in ln(F_H/F_C).
 """
 
 from __future__ import annotations
@@ -28,10 +27,11 @@ WIDEST = 30.0  # largest |ln(F_H/F_C)| looked at
 
 @dataclass(frozen=True)
 class Bodies:
-    """``contact`` is the line contact under the whole load F_T, on a line of length width (m).
+    """A rough strip under a cylinder.
 
-    heights (nx, ny) in m on the strip of ``compliance``; hardness in Pa (inf: elastic); boundary_friction
-    f_b; sliding u2 - u1 in m/s, the shear taken on the upper surface 2.
+    ``contact`` is the line contact under the whole load F_T, on a line of length width (m). heights (nx, ny) in m stand
+    on the strip of ``compliance``. hardness is in Pa (inf: elastic), boundary_friction is f_b, and sliding is u2 - u1
+    in m/s. The shear is taken on the upper surface 2.
     """
 
     contact: ehl.LineContact
@@ -69,9 +69,9 @@ class Bodies:
 
 @dataclass(frozen=True)
 class FlatBodies:
-    """The same with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
+    """As `Bodies`, with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
 
-    pressed(mean pressure in Pa) gives the mean gap (m) of a periodic patch and the share of it in contact.
+    pressed(mean pressure in Pa) gives the mean gap (m) of a periodic patch, and the share of it in contact.
     """
 
     contact: ehl.LineContact
@@ -93,19 +93,19 @@ class FlatBodies:
 
     @property
     def weight(self) -> np.ndarray:
-        """All of them count."""
+        """Weights of the cells: all of them count."""
         return np.ones(self.cells)
 
     def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
-        """The strip pressed with ``load`` (N); the film's shape does not matter."""
+        """The strip pressed with ``load`` (N), whatever the shape of the film."""
         gap, touching = self.pressed(load / (2 * self.contact.half_width * self.width))
         return Under(np.full(self.cells, gap), np.full(self.cells, touching), None)
 
 
 @dataclass(frozen=True)
 class Under:
-    """What a film leaves the contact: mean gap (m) and share in contact of the cells along x, and the strip as
-    pressed."""
+    """What a film leaves to the contact: mean gap (m), share in contact of the cells along x, and the strip
+    as pressed."""
 
     gap: np.ndarray
     touching: np.ndarray
@@ -114,8 +114,9 @@ class Under:
 
 @dataclass(frozen=True)
 class Shared:
-    """A division of the load. Forces in N; mean_gap, mean_film in m; area: share of the strip in contact;
-    coefficient f.
+    """A division of the load.
+
+    Forces are in N, mean_gap and mean_film in m. area is the share of the strip in contact, coefficient is f.
     """
 
     film_load: float
@@ -142,7 +143,7 @@ class Shared:
 
     @property
     def residual(self) -> float:
-        """(gap - film)/(gap + film), 0 in balance; grows with the load on the film."""
+        """(gap - film)/(gap + film), which is 0 in balance and grows with the load on the film."""
         return (self.mean_gap - self.mean_film) / (self.mean_gap + self.mean_film)
 
 
@@ -156,11 +157,10 @@ def share_load(
     max_evaluations: int = 40,
     raise_on_failure: bool = True,
 ) -> Shared:
-    """The division at which |residual| <= ``tolerance``; ``guess`` of ln(F_H/F_C), ``step`` first taken from
-    it, ``refinements`` of the film's mesh.
+    """The division of the load at which |residual| <= ``tolerance``.
 
-    Raises `SolveError` with report and last division when the root is not found, or what film and contact
-    raise.
+    ``guess`` is that of ln(F_H/F_C), ``step`` the first step from it, ``refinements`` those of the film's mesh. Raises
+    `SolveError` with report and last division when the root is not found, and whatever film and contact raise.
     """
     tried: dict[float, Shared] = {}
 
@@ -249,15 +249,16 @@ def divided(bodies: Bodies | FlatBodies, split: float, refinements: int, tried: 
 
 
 def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
-    """Mean film in cells, m."""
+    """Mean film [m] in each cell."""
     points = edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(POINTS) + 0.5) / POINTS
     return film.at(points.ravel())[1].reshape(points.shape).mean(axis=1)
 
 
 def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
-    """(Couette, rolling) force on the upper surface in N/m: integrals of eta sliding/h and of (h/2) dp/dx,
-    each times the lubricated share ``wet`` of the cells between ``edges`` (1 outside); the first up to
-    rupture, where the film is that of the flow; both from far upstream, where the gap is a parabola.
+    """(Couette, rolling) force on the upper surface in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
+
+    Each is taken times the lubricated share ``wet`` of the cells between ``edges`` (1 outside). The first goes up to
+    the rupture, where the film is that of the flow. Both come from far upstream, where the gap is a parabola.
     """
     c, dofs = film.contact, film.body.line.doflocs[0]
     start, end = dofs.min() * c.half_width, rupture(film)
@@ -284,7 +285,7 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
 
 
 def upstream(t: float, n: int, floor: float, radius: float) -> float:
-    """Integrand of 1/h^n over x to -infinity in t = -1/x, h = floor + x^2/2R."""
+    """Integrand of 1/h^n over x to -infinity, in t = -1/x, with h = floor + x^2/2R."""
     return t ** (2 * n - 2) / (floor * t**2 + 1 / (2 * radius)) ** n
 
 

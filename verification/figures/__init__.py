@@ -1,9 +1,9 @@
 """``python -m verification figures``: Figs. 2 to 10 of the paper, each as data, picture and a verdict.
 
-Paper: A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribol. Lett. 59:19 (2015),
-doi:10.1007/s11249-015-0536-z. A figure is a function ``name(quick)`` that returns a `PaperFigure`; its
-verdict is written from the numbers of the run. ``--quick`` takes smaller grids and fewer cases, to see that
-all works. (fig4 draws Figs. 3 and 4.)
+The paper is A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribol. Lett. 59:19 (2015),
+doi:10.1007/s11249-015-0536-z. A figure is a function ``name(quick)`` that returns a `PaperFigure`. Its verdict is
+written from the numbers of the run. ``--quick`` takes smaller grids and fewer cases, to see that all works. (fig4 draws
+Figs. 3 and 4.)
 """
 
 from __future__ import annotations

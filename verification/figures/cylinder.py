@@ -1,4 +1,4 @@
-"""Figs. 8, 9 and 10: the cylinder of Tables 1 and 2 on an ensemble of surfaces, and on a real ground one."""
+"""Figs. 8, 9 and 10: the cylinder of Tables 1 and 2, on an ensemble of surfaces and on a real ground one."""
 
 from __future__ import annotations
 
@@ -34,14 +34,13 @@ REAL = "ground-77nm.x3p"
 
 
 def scene_of(acf="gaussian", length=8e-6, seed=1):
-    """The paper's cylinder on a generated surface; lengths that do not fit 90 um are cut from a longer
-    map."""
+    """The paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
     return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
 
 
 def real_surface() -> Path | None:
-    """The measured ground surface, from LUBFRIC_SURFACES or ../shared/surfaces; None where it is not."""
+    """The measured ground surface, from LUBFRIC_SURFACES or ../shared/surfaces; None where it is not there."""
     root = Path(__file__).resolve().parents[2]
     folders = [os.environ.get("LUBFRIC_SURFACES"), root.parent / "shared" / "surfaces"]
     found = [Path(f) / REAL for f in folders if f and (Path(f) / REAL).is_file()]
@@ -55,13 +54,12 @@ def ensemble_member(acf, length, seed, speeds) -> list[np.ndarray]:
 
 
 def film_load(acf, length, seed) -> float:
-    """F_H [N] at 0.001 m/s."""
+    """F_H [N] at 0.001 m/s on one generated surface."""
     return lubfric.friction(scene_of(acf, length, seed), 0.001).film_load
 
 
 def real_curves(axis, speeds) -> list[np.ndarray]:
-    """As `ensemble_member`, on the ground surface scaled to 100 nm; ``axis`` of the file lies along the
-    motion."""
+    """As `ensemble_member`, on the ground surface scaled to 100 nm. The ``axis`` of the file lies along the motion."""
     scene = PAPER.with_(
         surface=lubfric.scene.Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis),
         contact={"shape": None, "spacing": None},
@@ -70,8 +68,8 @@ def real_curves(axis, speeds) -> list[np.ndarray]:
 
 
 def stribeck_curves(quick: bool) -> PaperFigure:
-    """Fig. 8: three models, ensemble mean and band; the real surface; F_H at 0.001 m/s over correlation
-    length."""
+    """Fig. 8: three models with ensemble mean and band, the real surface, and F_H at 0.001 m/s over
+    correlation length."""
     speeds = np.geomspace(1e-3, 1.0, 5 if quick else 11)
     seeds = range(1, 3 if quick else 9)
     kinds = (("gaussian", 8e-6), ("exponential", 8e-6))
@@ -224,7 +222,7 @@ def _real_words(speeds, real) -> str:
 
 
 def pressure_map(quick: bool) -> PaperFigure:
-    """Fig. 9: contact pressure at 0.001 m/s, elastic-plastic, F_C and F_H."""
+    """Fig. 9: the elastic-plastic contact pressure at 0.001 m/s, with F_C and F_H."""
     canvas, panels = axes(1, 2, width=9.4, height=4.2)
     rows, found = [], []
     hardness = parts.the(PAPER.bodies.hardness, "hardness")

@@ -1,5 +1,5 @@
-"""Figs. 5 and 6: friction of independent asperities against the half-space, and their largest difference d,
-Eq. (13)."""
+"""Figs. 5 and 6: friction of independent asperities against the half-space, and d, their largest
+difference, Eq. (13)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ BOUNDARY = SCENE.bodies.boundary_friction_coefficient
 
 @dataclass(frozen=True)
 class Curves:
-    """Contact curves of one surface (`GapTable`): of the half-space, and of every (definition, separation) of
+    """Contact curves of one surface (`GapTable`): that of the half-space, and one for every (definition, separation) of
     an asperity."""
 
     half_space: object
@@ -41,7 +41,7 @@ class Curves:
 
 
 def curves_of(acf, length, decay_level=INVERSE_E, seed=1, quick=False, models=ASPERITIES) -> Curves:
-    """Everything that is computed for one surface; it serves every load, speed and lubricant."""
+    """All that is computed for one surface. It serves every load, speed and lubricant."""
     heights = rough(length, acf, seed, 400 if quick else 816, decay_level).heights
     e_prime, heaviest = SCENE.bodies.e_prime, max(LOADS)
     half_space = tabulated(contact_curve(heights, SPACING, e_prime, heaviest=heaviest, tolerance=1e-4))
@@ -76,7 +76,7 @@ def signed_deviation(asperity, half_space) -> tuple[float, int]:
 
 
 def friction_curves(quick: bool) -> PaperFigure:
-    """Fig. 5: friction over speed at 200 MPa, both lengths, and the share of the load that is in contact."""
+    """Fig. 5: friction over speed at 200 MPa for both lengths, and the share of the load that the contact carries."""
     load, model = 200e6, ("summits", "volume")
     speeds = np.geomspace(1e-3, 10.0, 9 if quick else 25)
     tables = films((load,), speeds)[load, "Newtonian"]
@@ -204,7 +204,7 @@ def deviation_map(quick: bool) -> PaperFigure:
 
 
 def pick(rows, length, **reading) -> list[float]:
-    """d [%] over load of one reading: ``BASE`` but for what is given."""
+    """d [%] over load of one reading of the paper: ``BASE``, but for what is given."""
     r = BASE | reading
     return [row[8] for row in rows if row[:6] == (r["acf"], r["level"], *r["model"], r["law"], length)]
 

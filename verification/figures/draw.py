@@ -27,7 +27,7 @@ def png(canvas) -> bytes:
 
 
 def image(canvas, ax, field, extent, label, **options):
-    """A map (nx, ny) with x to the right, its colour bar labelled."""
+    """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
     ax.grid(False)
     canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)

@@ -1,8 +1,8 @@
-"""Load sharing of nominally flat surfaces from tables: films once per load, contact curves once per surface.
+"""Load sharing of nominally flat surfaces from tables: films once for each load, contact curves once for
+each surface.
 
-Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films, so a map of d costs no
-more than its films and its contact curves. `lubfric.friction` does the same without tables; the figure
-compares some points.
+Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films. So a map of d costs no more than
+its films and its contact curves. `lubfric.friction` does the same without tables, and the figure compares some points.
 """
 
 from __future__ import annotations
@@ -25,8 +25,11 @@ FINE = 600
 
 @dataclass(frozen=True)
 class FilmTable:
-    """One load and one speed: mean film over the Hertz strip [m], shear force F_sh/F_T without contact, and
-    the part of it inside the strip, at the film shares ``SHARES``; read off a fine table."""
+    """Films at one load and one speed, by the film shares ``SHARES``.
+
+    They are the mean film over the Hertz strip [m], the shear force F_sh/F_T without contact, and the part of it inside
+    the strip. Values in between are read off a fine table.
+    """
 
     film: np.ndarray
     shear: np.ndarray
@@ -34,7 +37,7 @@ class FilmTable:
 
     @cached_property
     def fine(self) -> tuple[np.ndarray, np.ndarray]:
-        """ln(F_H/F_T), and ln film, ln shear, strip part of the shear there: cubic between the nodes."""
+        """ln(F_H/F_T), and there ln film, ln shear and the strip's part of the shear, interpolated by cubics."""
         from scipy.interpolate import PchipInterpolator
 
         x = np.linspace(np.log(SHARES[0]), 0.0, FINE)
@@ -47,7 +50,7 @@ class FilmTable:
         return math.exp(np.interp(math.log(share), x, values[0]))
 
     def shear_at(self, share: float, contact_fraction: float) -> float:
-        """F_sh/F_T when ``contact_fraction`` of the strip is in contact: linear in that fraction."""
+        """F_sh/F_T when ``contact_fraction`` of the strip is in contact. It is linear in that fraction."""
         x, values = self.fine
         whole, inside = (np.interp(math.log(share), x, v) for v in values[1:])
         return math.exp(whole) * (1 - contact_fraction * inside)
@@ -55,7 +58,8 @@ class FilmTable:
 
 @dataclass(frozen=True)
 class GapTable:
-    """A contact curve read off a fine table: ``most`` [Pa] it carries, ``touching_gap`` [m]."""
+    """A contact curve that is read off a fine table. ``most`` [Pa] is what it carries, ``touching_gap`` [m] where it
+    begins."""
 
     log_pressure: np.ndarray
     gap: np.ndarray
@@ -64,7 +68,7 @@ class GapTable:
     most: float
 
     def at(self, pressure: float) -> tuple[float, float]:
-        """Mean gap [m] and contact area fraction; linear in the pressure below the table."""
+        """Mean gap [m] and contact area fraction. Below the table they are linear in the pressure."""
         x = math.log(max(pressure, 1e-300))
         if x >= self.log_pressure[0]:
             return float(np.interp(x, self.log_pressure, self.gap)), float(np.interp(x, self.log_pressure, self.area))
@@ -73,7 +77,7 @@ class GapTable:
 
 
 def tabulated(curve: ContactCurve) -> GapTable:
-    """`GapTable` of a contact curve, from 1e-7 of the heaviest pressure up."""
+    """The `GapTable` of a contact curve, from 1e-7 of the heaviest pressure up."""
     most = float(curve.mean_pressure[0])
     x = np.linspace(math.log(1e-7 * most), math.log(most) - 1e-12, FINE // 3)
     gap, area, _ = np.array([curve.at(math.exp(v)) for v in x]).T
@@ -89,9 +93,9 @@ def at_mean_pressure(scene: Scene, mean_pressure: float) -> Scene:
 
 
 def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmTable]:
-    """A `FilmTable` for each shear law (a dict of `lubfric.lubricant.Lubricant` fields) from the same films.
+    """A `FilmTable` for each shear law (a dict of `lubfric.lubricant.Lubricant` fields), all from the same films.
 
-    ``scaled``: with Johnson's modulus E' F_H/F_T.
+    ``scaled`` takes Johnson's modulus E' F_H/F_T.
     """
     b, lubricant = scene.bodies, scene.lubricant
     half = b.half_width
@@ -137,8 +141,8 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
 
 @dataclass(frozen=True)
 class Shared:
-    """One balanced point: friction coefficient, film share F_H/F_T, contact area fraction; NaN: cannot be
-    carried."""
+    """One balanced point: friction coefficient, film share F_H/F_T and contact area fraction, NaN where the load cannot
+    be carried."""
 
     coefficient: float
     film_share: float
@@ -146,8 +150,10 @@ class Shared:
 
 
 def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_friction: float) -> Shared:
-    """Balance of load and volume: mean gap of the contact curve = mean film, contact pressure = total - film
-    share."""
+    """Balance load and volume.
+
+    The mean gap of the contact curve is the mean film, and the contact pressure is the total less the film's share.
+    """
     from scipy.optimize import brentq
 
     if table.film_at(1.0) >= curve.touching_gap:
@@ -169,7 +175,7 @@ def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_fric
 
 
 def deviation(asperity, half_space) -> tuple[float, int]:
-    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed; (NaN, -1) without
+    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed. (NaN, -1) where there are no
     points."""
     difference = np.abs(np.asarray(asperity) - np.asarray(half_space))
     if not np.isfinite(difference).any():

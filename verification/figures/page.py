@@ -23,9 +23,13 @@ verdict. `--only fig6` makes one of them, `--quick` takes small grids. The same 
 class PaperFigure:
     """What a figure hands over.
 
-    name: stem of its files; title; agrees, differs: what does and what does not agree with the paper, and
-    why; picture: bytes of a PNG; tables: {stem: (headings with units, rows)}, each written as a CSV file; checks: what
-    has to hold whatever the paper shows.
+    Attributes
+    ----------
+    name, title : stem of its files, and its heading
+    agrees, differs : what agrees with the paper; what does not, and why
+    picture : bytes of a PNG
+    tables : {stem: (headings with units, rows)}, each written as a CSV file
+    checks : what has to hold whatever the paper shows
     """
 
     name: str
@@ -38,17 +42,17 @@ class PaperFigure:
 
 
 def write_document(folder: Path, sections: dict[str, str], pictures: dict[str, bytes]) -> None:
-    """figures.md from its ``sections``, with the pictures in images/, for the documents of the project."""
+    """Write figures.md from its ``sections``, with the pictures in images/, into the documents of the project."""
     images = folder / "images"
     images.mkdir(parents=True, exist_ok=True)
     for name, picture in pictures.items():
         (images / f"{name}.png").write_bytes(picture)
-    told = source("figures --docs docs")
+    told = source("python -m verification figures --docs docs")
     (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()) + f"\n{told}\n", encoding="utf-8")
 
 
 def markdown(figure: PaperFigure, images: str = "images/") -> str:
-    """The section of one figure; ``images``: folder of the picture."""
+    """The section of one figure; ``images`` is the folder of the picture."""
     data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
     return (
         f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n"

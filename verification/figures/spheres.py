@@ -1,4 +1,4 @@
-"""Figs. 3 and 4: a square array of spherical asperities against a flat, load per asperity over separation."""
+"""Figs. 3 and 4: a square array of spherical asperities against a flat. Load per asperity over separation."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a squ
 
 
 def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
-    """Heights [m] of one period around one sphere, on an even number of cells of about ``cell``; their length
-    [m]."""
+    """Heights [m] of one period around one sphere, on an even number of cells of about ``cell``, and the length of
+    these [m]."""
     count = 2 * round(distance / cell / 2)
     step = distance / count
     x = (np.arange(count) - count // 2) * step
@@ -31,8 +31,11 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
 
 
 def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
-    """Approach [m] below first touch at each load per asperity [N], between planes whose mean deflection is
-    left out, and kept (that of the paper's box)."""
+    """Approach [m] below first touch at each load per asperity [N], once with the mean deflection left out and once
+    kept.
+
+    The kept one is that of the paper's box.
+    """
     heights, step = unit_cell(distance, cell)
     free, start = [], None
     for load in loads:
@@ -49,7 +52,7 @@ def hertz_load(approach):
 
 
 def sphere_array(quick: bool) -> PaperFigure:
-    """Load per asperity against the approach below first touch, both models, both gauges."""
+    """Load per asperity against the approach below first touch, by both models and with both conventions."""
     loads = np.geomspace(5e-4, 2e-2, 4 if quick else 9)
     cell = 4 * CELL if quick else CELL
     canvas, grid = axes(2, 2, width=9.0, height=7.6)

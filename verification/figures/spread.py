@@ -10,9 +10,10 @@ from ..parent import end_with_parent
 
 
 def spread(function, cases, quick: bool) -> list:
-    """``[function(*case) for case in cases]``, a process a core (one when ``quick``).
+    """``[function(*case) for case in cases]`` on a process for each core (one when ``quick``).
 
-    Fresh processes with one thread each: linear algebra on all cores in each of them would fight for the cores.
+    The processes are fresh and have one thread each. With linear algebra on all cores in each of them they would fight
+    for the cores.
     """
     cores = 1 if quick else os.cpu_count() or 1
     if cores == 1:

@@ -29,8 +29,7 @@ def rough(
 
 
 def generated_surfaces(quick: bool) -> PaperFigure:
-    """Both lengths with both autocorrelation functions, what the maps have, and what they were asked to
-    have."""
+    """Both lengths with both autocorrelation functions: what was asked of the maps, and what they have."""
     count = 400 if quick else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
     rows, shown = [], min(count, 256)

@@ -1,4 +1,4 @@
-"""Calls of the public functions with one argument, or two, that they cannot take."""
+"""Calls of the public functions with one argument that they cannot take, or two."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Target:
 
 @cache
 def scene() -> lubfric.Scene:
-    """A scene that takes no time."""
+    """A scene that is solved in no time."""
     return lubfric.load_scene("flat").with_(contact={"shape": (64, 64)}, surface={"correlation_length": 8e-6})
 
 
@@ -221,7 +221,7 @@ def singles() -> list[tuple[Target, str, object]]:
 
 
 def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
-    """At least ``count`` calls: every bad argument alone, then random pairs of one function."""
+    """At least ``count`` calls: every bad argument alone, and then random pairs of one function."""
     single = singles()
     for target, name, value in single:
         yield _case(target, {name: value})

@@ -20,9 +20,10 @@ GOOD = (REFUSED, PASSED)
 
 @dataclass(frozen=True)
 class Case:
-    """``run(folder)`` hands the bad input to the library; ``folder`` is empty and its own.
+    """``run(folder)`` hands the bad input to the library. ``folder`` is empty and belongs to the case.
 
-    may_pass: damage done at random, which can leave a good file: then an answer is right too, another exception never.
+    may_pass : the damage was done at random and can leave a good file. Then an answer is right too, but never another
+        exception.
     """
 
     group: str
@@ -33,7 +34,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a case ended: one of the verdicts above, in how many seconds, with which words."""
+    """How a case ended: one of the verdicts above, after how many seconds, and in which words."""
 
     case: Case
     verdict: str
@@ -60,7 +61,7 @@ def resident_memory() -> int:
 
 
 def judge(case: Case, folder: Path) -> Outcome:
-    """Run one case. Only `lubfric.LubfricError` is a refusal; its words must be one short paragraph."""
+    """Run one case. Only `lubfric.LubfricError` is a refusal, and its words must be one short paragraph."""
     before, begun = peak_memory(), time.process_time()
     try:
         with warnings.catch_warnings():

@@ -29,7 +29,7 @@ def cases(seed: int, share: float = 1.0, groups: Sequence[str] = tuple(GROUPS)) 
 
 
 def outcomes(seed: int, share: float = 1.0, groups: Sequence[str] = tuple(GROUPS)) -> Iterator[Outcome]:
-    """Each case in a folder of its own."""
+    """The outcome of each case, run in a folder of its own."""
     for case in cases(seed, share, groups):
         with tempfile.TemporaryDirectory() as folder:
             yield judge(case, Path(folder))

@@ -1,4 +1,4 @@
-"""Files that lie or are damaged: height maps of every kind, histories, results to be drawn again."""
+"""Files that lie or are damaged: height maps of every kind, histories, and results to be drawn again."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def archive(**members: str) -> bytes:
 
 
 def x3p(size: str = "24", points: bytes | None = None, changes: Mapping[str, str] = MappingProxyType({})) -> bytes:
-    """The bytes of an X3P file; ``changes``: text in main.xml replaced."""
+    """The bytes of an X3P file; ``changes`` replaces text in its main.xml."""
     axis = "<{0}><AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment></{0}>"
     document = (
         "<p:ISO5436_2 xmlns:p='http://www.opengps.eu/2008/ISO5436_2'><Record1><FeatureType>SUR</FeatureType><Axes>"

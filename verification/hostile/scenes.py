@@ -1,4 +1,4 @@
-"""Scenes that ask for something impossible: one wrong value, key or table in an otherwise good scene, or two."""
+"""Scenes that ask for something impossible: a good scene with one wrong value, key or table, or two."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def text_of(tables: Tables) -> str:
 
 
 def changed(tables: Tables, section: str, key: str, value: str | None) -> Tables:
-    """A copy with one key set, or removed where ``value`` is None; what a [transient] needs beside it is there."""
+    """A copy with one key set, or removed where ``value`` is None. What a [transient] needs beside it is added."""
     new = {name: dict(keys) for name, keys in tables.items()}
     if section == "transient":
         new.setdefault("transient", {"duration": "1.0"})

@@ -1,7 +1,7 @@
 """Thousands of friction calls over random scenes, each answer closed again by an independent judge.
 
-They come in chunks of scenes that hang on nothing but their number: a chunk that is done is a file in the folder given,
-and a run that was stopped goes on behind the last of them.
+They come in chunks of scenes that depend on nothing but their number. A chunk that is done is a file in the folder
+given, and a run that was stopped goes on behind the last of them.
 """
 
 from __future__ import annotations
@@ -31,8 +31,11 @@ WORDS = 60  # of why a scene was refused
 
 @dataclass
 class Chunk:
-    """What became of the calls: numbers of them; the scenes answered wrongly; the worst error over what is allowed; why
-    scenes were refused; which features they had. memory [MiB], resident at its end, of ``process``."""
+    """What became of a chunk of calls.
+
+    It has the numbers of calls, the scenes that were answered wrongly, the worst error over what is allowed, why scenes
+    were refused, which features they had, and the resident memory [MiB] of ``process`` at its end.
+    """
 
     number: int
     answered: int = 0
@@ -60,7 +63,7 @@ def soak(count: int, seed: int, folder: Path | None = None, workers: int = 1) ->
 
 
 def chunk(number: int, count: int, seed: int, folder: Path | None) -> Chunk:
-    """Scenes ``number`` x `CHUNK` and on; read from ``folder`` where they were done before."""
+    """Scenes from number ``number`` x `CHUNK` on, read from ``folder`` where they were done before."""
     path = None if folder is None else folder / f"seed-{seed}-chunk-{number:04d}.json"
     if path is not None and path.exists():
         return Chunk(**json.loads(path.read_text(encoding="utf-8")))
@@ -110,7 +113,7 @@ def _count(counts: dict[str, int], word: str) -> None:
 
 
 def _features(prepared, result) -> Iterator[str]:
-    """What a soak should have had of everything, by name."""
+    """Names of what a soak should have had some of, as far as this scene has it."""
     scene, share = prepared.scene, result.contact_load / prepared.scene.bodies.load
     yield scene.contact.geometry
     yield "line" if prepared.lines is not None else "patch"

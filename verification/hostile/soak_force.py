@@ -1,4 +1,5 @@
-"""The friction force as the judge of the soak sums it: trapezes over the film, every shear law, heat."""
+"""The friction force as the judge of the soak sums it: by the trapezoidal rule over the film, with every shear law and
+heat."""
 
 from __future__ import annotations
 
@@ -14,9 +15,12 @@ HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
 def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float, float]:
-    """f_b F_C + F_sh [N] of ``sides`` (film, x and share in contact), along the sliding, the far inlet in closed form;
-    the size [N] of the parts of the film's share, of which f may be a small difference; and what its stress sums to
-    less [N] on half of the nodes: a pressure spike that they do not hold."""
+    """The friction force f_b F_C + F_sh [N] along the sliding, and how well it is known.
+
+    ``sides`` has the film, x and the share in contact. The far inlet is in closed form. Returned are the force, the
+    size [N] of the parts of the film's share (of which f may be a small difference), and how much less [N] its stress
+    sums to on half of the nodes, which tells a pressure spike that they do not hold.
+    """
     bodies, oil, ratio, film = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -45,8 +49,10 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[flo
 
 
 def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
-    """½∫h dp before the first node [N/m], where Reynolds' equation has dp = 12 eta U (h - h*)/h³ dx and h is a
-    parabola."""
+    """½∫h dp before the first node [N/m].
+
+    Reynolds' equation has dp = 12 eta U (h - h*)/h³ dx there, and h is a parabola.
+    """
     share = np.linspace(0, 1, 4001)[1:]  # x0/x
     gap = h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)
     rate = (1 - film.flow_film / gap) / gap * abs(x0) / share**2
@@ -54,7 +60,7 @@ def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
 
 
 def _touched(x, sides) -> np.ndarray:
-    """Share of the width in contact over each cell between neighbouring ``x``, of columns that are even inside."""
+    """Share of the width in contact over each cell between neighbouring ``x``; columns are even inside."""
     step = sides.x[1] - sides.x[0]
     edges = np.concatenate([sides.x - step / 2, sides.x[-1:] + step / 2])
     return np.diff(np.interp(x, edges, np.concatenate([[0.0], step * np.cumsum(sides.touching)]))) / np.diff(x)
@@ -66,7 +72,7 @@ def _inside(x, half) -> np.ndarray:
 
 
 def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
-    """Couette force over the film per width [N/m]; that of a film that heats itself from fewer nodes."""
+    """Couette force over the film per width [N/m]. That of a film that heats itself is taken from fewer nodes."""
     oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
     log_ratio = viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
     eta = oil.viscosity * np.exp(log_ratio)
@@ -89,7 +95,7 @@ def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
 
 
 def _where_it_varies(tau) -> np.ndarray:
-    """Indices of `HEATED` nodes at most, half of them spread evenly and half where the stress changes."""
+    """Indices of at most `HEATED` nodes, half of them spread evenly and half where the stress changes."""
     steps = np.abs(np.diff(np.log(np.maximum(tau, 1e-300))))
     measure = np.concatenate([[0.0], np.cumsum(1 / steps.size + steps / max(steps.sum(), 1e-300))])
     return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))

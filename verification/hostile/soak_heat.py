@@ -1,7 +1,7 @@
-"""Heat as the judge of the soak has it: the same physics by other numerics than `lubfric.heat`.
+"""Heat as the judge of the soak has it: the physics of `lubfric.heat` by other numerics.
 
-The temperature across the film comes from its double integral on a grid, fixed point, and not in closed form; surfaces
-from heat that is constant in each cell; the inlet from Moes' film and bisection.
+The temperature across the film comes from its double integral on a grid, by a fixed point, and not in closed form. That
+of the surfaces comes from heat that is constant in each cell, and that of the inlet from Moes' film and bisection.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 
 def heats(scene) -> bool:
-    """The lubricant says how its viscosity falls with the temperature, and something is to be heated."""
+    """Whether the lubricant says how its viscosity falls with the temperature, and something is to be heated."""
     return scene.numerics.heat != "off" and bool(scene.lubricant.temperature_coefficient)
 
 
@@ -52,10 +52,10 @@ def inlet_viscosity(scene, speed: float) -> float:
 
 
 def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.ndarray:
-    """Shear stress [Pa] at nodes running downstream, without sign, of film and surfaces that heat one another.
+    """Shear stress [Pa], without sign, at nodes running downstream, of film and surfaces that heat one another.
 
-    ``log_ratio``: ln(eta/eta0) at the nodes, at the temperature of the oil; ``free``: share of the width they have
-    film on.
+    ``log_ratio`` is ln(eta/eta0) at the nodes, at the temperature of the oil. ``free`` is the share of the width on
+    which they have film.
     """
     oil, bodies, k = scene.lubricant, scene.bodies, scene.lubricant.conductivity
     slide = abs(scene.motion.slide_roll_ratio * speed)
@@ -95,7 +95,8 @@ def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.nd
 
 
 def _twice_integrated(source, z) -> np.ndarray:
-    """Temperature between the wall, 0, and the middle, where its slope is 0, of -T'' = source, by trapezes."""
+    """Temperature of -T'' = source by the trapezoidal rule, between the wall, where it is 0, and the middle, where its
+    slope is 0."""
     step = z[1] - z[0]
     cells = 0.5 * (source[:, 1:] + source[:, :-1]) * step
     slope = np.concatenate([np.cumsum(cells[:, ::-1], axis=1)[:, ::-1], np.zeros((source.shape[0], 1))], axis=1)
@@ -104,7 +105,7 @@ def _twice_integrated(source, z) -> np.ndarray:
 
 
 def _viscosity(oil, log_ratio, temperature) -> tuple[np.ndarray, np.ndarray]:
-    """ln eta and -d ln(eta)/dT at temperatures [K]: Roelands' law, else exponential."""
+    """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law where it is asked for, else exponential."""
     t0, beta, cold = oil.temperature, oil.temperature_coefficient, math.log(oil.viscosity) + log_ratio
     if oil.viscosity_law != "roelands":
         return cold - beta * (temperature - t0), np.full(temperature.size, beta)

@@ -1,8 +1,9 @@
-"""Closes the balance of a result anew: another film solver, fresh dry contacts, its own sums of the friction forces.
+"""Closes the balance of a result anew: with another film solver, fresh dry contacts, and its own sums of friction
+forces.
 
-Nothing of `lubfric` is used but the surface, the dry contact of one pressed map and the film by differential
-deflection; what they are joined by is written here. Two divisions of the load, the result's own and one beside it, give
-the one that balances by a secant; where that is far off, a bracketed root does.
+Nothing of `lubfric` is used but the surface, the dry contact of one pressed map, and the film by differential
+deflection. What joins them is written here. Two divisions of the load, the result's own and one beside it, give the one
+that balances by a secant. Where that is far off, a bracketed root does.
 """
 
 from __future__ import annotations
@@ -20,22 +21,18 @@ from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
-SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of all lines and one of each may differ
+SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of joined lines and one of each differ
 LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
 
 
 @dataclass(frozen=True)
 class Strip:
-    """Heights [m] of a piece of the surface, less their mean, its spacing and x [m], its length [m] along y."""
+    """Heights [m] of a piece of the surface, less their mean, with its spacing and x [m]."""
 
     heights: np.ndarray
     spacing: tuple[float, float]
     x: np.ndarray
-
-    @property
-    def length(self) -> float:
-        return self.heights.shape[1] * self.spacing[1]
 
 
 @dataclass(frozen=True)
@@ -51,13 +48,16 @@ class Sides:
 
 @dataclass(frozen=True)
 class Judge:
-    """A prepared scene at one speed [m/s], its film deflected by its own pressure or, ``scaled``, by the whole load;
-    its strips, and pairs of fine and coarse ones whose difference is added."""
+    """A prepared scene at one speed [m/s].
+
+    The film is deflected by its own pressure or, ``scaled``, by the whole load. ``strip`` is all lines joined to one.
+    There are pairs of fine and coarse strips besides, whose difference is added.
+    """
 
     prepared: Prepared
     speed: float
     scaled: bool
-    strips: tuple[Strip, ...]
+    strip: Strip
     pairs: tuple[tuple[Strip, Strip], ...] = ()
     film_tolerance: float = LOOSE
 
@@ -66,17 +66,14 @@ class Judge:
         load = self.prepared.scene.bodies.load
         film_load = load / (1 + math.exp(-split))
         film = self.film(film_load, film_load / load if self.scaled else 1.0)
-        found = [self.pressed(strip, film, load - film_load) for strip in self.strips]
-        share = np.array([strip.length for strip in self.strips]) / sum(strip.length for strip in self.strips)
-        gap = float(share @ [gap for gap, _, _ in found])
+        gap, mean_film, touching = self.pressed(self.strip, film, load - film_load)
         for fine, coarse in self.pairs:
             change = self.pressed(fine, film, load - film_load)[0] - self.pressed(coarse, film, load - film_load)[0]
             gap += change / len(self.pairs)
-        touching = sum(s * touched for s, (_, _, touched) in zip(share, found))
-        return Sides(film, gap, found[0][1], self.strips[0].x, touching)
+        return Sides(film, gap, mean_film, self.strip.x, touching)
 
     def film(self, film_load: float, modulus: float):
-        """By differential deflection, or if that does not converge by the tightest Newton solution."""
+        """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
         bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
         case: dict[str, Any] = {
             "load_per_width": film_load / bodies.width,
@@ -148,15 +145,16 @@ def judge_of(prepared: Prepared, result) -> Judge:
     newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
     tolerance = TIGHT if cancels or newtonian or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
     if prepared.lines is None:
-        return Judge(prepared, result.speed, scaled, (_strip(prepared.surface, x),), (), tolerance)
+        return Judge(prepared, result.speed, scaled, _strip([prepared.surface], x), (), tolerance)
     more = [prepared.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]
-    strips = tuple(_strip(surface, x) for surface in (prepared.surface, *more))
     pairs = tuple(_pair(prepared.lines, i) for i in range(len(result.line.grid)))
-    return Judge(prepared, result.speed, scaled, strips, pairs, tolerance)
+    return Judge(prepared, result.speed, scaled, _strip([prepared.surface, *more], x), pairs, tolerance)
 
 
-def _strip(surface, x) -> Strip:
-    return Strip(surface.heights - surface.heights.mean(), surface.spacing, x)
+def _strip(surfaces, x) -> Strip:
+    """The ``surfaces``, each less its mean, one behind the other along y."""
+    joined = np.concatenate([surface.heights - surface.heights.mean() for surface in surfaces], axis=1)
+    return Strip(joined, surfaces[0].spacing, x)
 
 
 def _pair(lines, index: int) -> tuple[Strip, Strip]:

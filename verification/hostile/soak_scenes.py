@@ -28,8 +28,12 @@ WARM = {"temperature": 350.0, "temperature_coefficient": 0.035}
 
 
 def random_scene(rng: np.random.Generator) -> lubfric.Scene:
-    """Flat or under a cylinder on a line or a patch, elastic or with a plastic limit, a height map or asperities, one
-    rough body or two; an oil or numbers, with and without its heat; every shear law, all slide-roll ratios."""
+    """A random scene.
+
+    It is flat, or under a cylinder on a line or a patch; elastic or with a plastic limit; a height map or asperities;
+    with one rough body or two; with an oil or with numbers, with and without its heat; with any shear law and
+    slide-roll ratio.
+    """
     v = {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in RANGES.items()}
     flat, line = bool(rng.random() < 0.5), bool(rng.random() < LINES)
     scene = lubfric.load_scene("flat" if flat else "paper").with_(

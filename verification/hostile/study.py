@@ -16,8 +16,8 @@ BAD = (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
 
 
 def bad_inputs(level: str) -> Iterator[Item]:
-    """Bad scenes, files, calls and command lines from a seeded generator: each is refused in words by
-    `lubfric.LubfricError`, within 8 s and 2 GB."""
+    """Bad scenes, files, calls and command lines from a seeded generator. `lubfric.LubfricError` refuses each in words,
+    within 8 s and 2 GB."""
     found = list(outcomes(SEED, 0.1 if level == "quick" else 1.0))
     for group in GROUPS:
         for verdict in BAD:
@@ -30,10 +30,12 @@ def bad_inputs(level: str) -> Iterator[Item]:
 
 
 def soak(level: str, folder: Path | None = None, workers: int = 1) -> Iterator[Item]:
-    """Friction of random scenes one after the other in one process: each answered, or refused in words; each answer
-    closed again by a judge that shares neither film solver nor root finder nor sums; memory flat.
+    """Friction of random scenes one after the other in one process.
 
-    ``folder`` keeps every fifty scenes that are done, so that a run that was stopped goes on."""
+    Each is answered, or refused in words. Each answer is closed again by a judge that shares neither film solver nor
+    root finder nor sums. The memory does not grow. ``folder`` keeps every fifty scenes that are done, so that a run
+    that was stopped goes on.
+    """
     count = 100 if level == "quick" else 10_000
     chunks = soaking.soak(count, SEED, folder, workers)
     wrong, raw = [w for c in chunks for w in c.wrong], sum(c.raw for c in chunks)

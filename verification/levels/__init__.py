@@ -1,6 +1,7 @@
 """``python -m verification levels``: is the coefficient within the tolerance, and what does that save?
 
-Exit code 1: less than 99 % of the scenes within a tolerance, one beyond three times it, or a switch that shows.
+The exit code is 1 when less than 99 % of the scenes are within a tolerance, when one is beyond three times it, or when
+a switch between levels shows.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def main(argv: list[str]) -> int:
 def scenes_beside_full(level: str, out: str, seed: int) -> Iterator[Item]:
     """Scenes over the whole range that a user may ask for, each at three tolerances beside everything modelled tightly.
 
-    What is solved is kept in the folder, a line a scene, and not solved again.
+    What is solved is kept in the folder, a line for each scene, and not solved again.
     """
     from . import charts, measure
 
@@ -63,7 +64,7 @@ def scenes_beside_full(level: str, out: str, seed: int) -> Iterator[Item]:
 
 
 def speeds_through_switches(level: str) -> Iterator[Item]:
-    """Fine steps of speed along three scenes, each beside the full model: no switch between levels shows."""
+    """Fine steps of speed along three scenes, each beside the full model. No switch between levels may show."""
     from . import charts
     from .switches import TOLERANCE, scan
 

@@ -11,7 +11,8 @@ LEAST = 1e-8  # errors below it are drawn there
 
 
 def error_against_saving(found: list[Check]) -> Figure:
-    """One panel a tolerance: |f - f_full|/f_full over the time of the full solve in that of the scene."""
+    """One panel for each tolerance: |f - f_full|/f_full over what was saved, the time of the full solve in that of the
+    scene."""
     figure, axes = plotting.axes(1, len(TOLERANCES), 12, 4.8, squeeze=False)
     for axis, tolerance in zip(axes[0], TOLERANCES):
         good = [c for c in found if c.number("asked") == tolerance and not c.refused]
@@ -33,7 +34,7 @@ def error_against_saving(found: list[Check]) -> Figure:
 
 
 def continuity(found: list[Check]) -> Figure:
-    """f over speed with each level in its colour, and below the deviation from the full model, the tolerance in
+    """f over speed with each level in its colour. Below is the deviation from the full model, with the tolerance in
     grey."""
     scenes = list(dict.fromkeys(c.word("scene") for c in found))
     levels = sorted({c.word("level") for c in found})

@@ -60,7 +60,7 @@ def row(index: int, values: dict) -> list[Check]:
 
 
 def compared(index: int, tolerance: float, found: dict, reference: dict, shared: dict) -> Check:
-    """f at one tolerance: allowed three times that, for the share within it is judged apart."""
+    """f at one tolerance. Three times that is allowed, because the share of scenes within it is judged apart."""
     failed = found.get("error") or ("error" in reference and f"reference: {reference['error']}") or ""
     return Check(
         f"scene {index} at {100 * tolerance:g} %",
@@ -81,10 +81,10 @@ def file_of(folder, seed: int) -> Path:
 
 
 def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = SEED) -> list[Check]:
-    """Checks of the scenes drawn from ``seed``, kept in ``file`` as they come (one scene a line): those found there are
-    not solved again.
+    """Checks of the scenes drawn from ``seed``. They are kept in ``file`` as they come, a line for each scene, and
+    those found there are not solved again.
 
-    ``part`` (k, n): every n-th scene from k, so that n processes share the work, a file each.
+    ``part`` (k, n) takes every n-th scene from k, so that n processes share the work, with a file each.
     """
     row(0, points(1)[0])  # imports are no part of any time
     found = [Check.from_dict(c) for line in kept.read(file) for c in line]

@@ -89,5 +89,5 @@ def table(count: int) -> list[Scene]:
 
 
 def cells(scene: Scene) -> int:
-    """Of the contact grid."""
+    """Number of cells of the contact grid."""
     return int(np.prod(the(scene.contact.shape, "shape")))

@@ -1,8 +1,8 @@
 """``python -m verification model``: what load sharing leaves out, measured against one gap with one pressure.
 
-The same surfaces, loads and fluids by Eq. (8) over the Hertz strip and over the box, by three deflections of the film,
-by the one-way closure, and by ``numerics.model = "deterministic"``, which is the reference. Exit code 1: a point of
-the reference failed, or the one-way closure is further off than it promises.
+The same surfaces, loads and fluids are solved by Eq. (8) over the Hertz strip and over the box, by three deflections of
+the film, by the one-way closure, and by ``numerics.model = "deterministic"``, which is the reference. The exit code is
+1 when a point of the reference failed, or when the one-way closure is further off than it promises.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def model_error(level: str, folder: Path | None = None) -> Iterator[Item]:
 
 
 def settings(level: str):
-    """Surfaces at the light load, both autocorrelations; fewer at heavy loads with a shear-limited fluid."""
+    """Surfaces at the light load with both autocorrelations, and fewer at heavy loads with a shear-limited fluid."""
     from .measure import Setting
 
     cells, light, heavy = CELLS[level], LIGHT_SURFACES[level], HEAVY_SURFACES[level]

@@ -12,7 +12,7 @@ from .summary import Deviation
 
 
 def over_speed(name: str, found: list[Deviation], caption: str) -> Figure:
-    """Mean and rms of the error of f over speed, a line a method."""
+    """Mean and rms of the error of f over speed, a line for each method."""
     canvas, (left, right) = plotting.axes(1, 2, width=9.2, height=3.6)
     for method in METHODS:
         mine = sorted((d for d in found if d.method == method), key=lambda d: d.speed)
@@ -47,7 +47,7 @@ def against_time(found: list[Deviation]) -> Figure:
 
 
 def fields(whole, shared, model, half_width: float) -> Figure:
-    """Gap and pressure of one gap with one pressure (above), gap and contact pressure of load sharing (below)."""
+    """Gap and pressure of one gap with one pressure above; gap and contact pressure of load sharing below."""
     canvas, axes = plotting.axes(2, 2, width=9.2, height=6.4)
     contact = shared.balance.contact.fields
     near = 3 * half_width

@@ -32,8 +32,11 @@ TOTAL_LEAST = 20.0  # N: below it the three deflections are the same within a po
 
 @dataclass(frozen=True)
 class Setting:
-    """What is solved: one surface (correlation length and Sq [m]), one load [N], one law of the fluid, speeds [m/s]
-    from the fastest down."""
+    """What is solved.
+
+    It is one surface (its correlation length and Sq [m]) at one load [N] with one law of the fluid, at speeds [m/s]
+    from the fastest down.
+    """
 
     seed: int
     acf: str
@@ -47,7 +50,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Point:
-    """One operating point by one method; a failure has NaN and its words."""
+    """One operating point by one method. A failure has NaN and its words."""
 
     setting: Setting
     speed: float
@@ -89,7 +92,7 @@ def scene_of(setting: Setting, method: str) -> Scene:
 
 
 def surface_of(setting: Setting):
-    """100 nm, 8 µm, made on 256 cells and taken to those of the setting, so that grids see one surface."""
+    """A surface made on 256 cells and taken to those of the setting, so that all grids see one surface."""
     fine = lubfric.generate_surface(
         (256, 256), WIDTH / 256, sq=setting.sq, correlation_length=setting.length, acf=setting.acf, seed=setting.seed
     )

@@ -13,9 +13,11 @@ from .measure import REFERENCE, Point
 
 @dataclass(frozen=True)
 class Deviation:
-    """Of one method at one load, fluid, autocorrelation and speed, over the surfaces: mean and rms of f/f_ref - 1 and
-    of the contact share, mean ratio of the gaps, median seconds; the reference's share and film ratio (means), the
-    method's own; how many surfaces, how many failures."""
+    """The deviation of one method at one load, fluid, autocorrelation and speed, over the surfaces.
+
+    It has mean and rms of f/f_ref - 1 and of the contact share, the mean ratio of the gaps, and the median of the
+    seconds; the reference's mean share and film ratio, and the method's own; the numbers of surfaces and of failures.
+    """
 
     load: float
     fluid: str
@@ -72,7 +74,7 @@ def _deviation(key, pairs) -> Deviation:
 
 
 def told(d: Deviation) -> float:
-    """What a result says of its model: at the mean share and film ratio that the method itself found."""
+    """What a result says of its model, at the mean share and film ratio that the method itself found."""
     return TOLD_BY[d.method](d)
 
 
@@ -83,7 +85,7 @@ TOLD_BY = {
 
 
 def rows(found: list[Deviation]) -> tuple[tuple, ...]:
-    """Of the table: load, speed, share of the spots, then mean and rms [%] of every method."""
+    """Rows of the table: load, speed and share of the spots, then mean and rms [%] of every method."""
     return tuple(
         (
             f"{d.load:g}",
@@ -105,7 +107,8 @@ def rows(found: list[Deviation]) -> tuple[tuple, ...]:
 
 
 def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
-    """Columns and rows of docs/model-error.md: mean / rms [%] of f a method; a row a load, acf and speed."""
+    """Columns and rows of docs/model-error.md: a row for each load, autocorrelation and speed, with mean / rms [%] of f
+    by every method."""
     methods = [m for m in dict.fromkeys(d.method for d in found) if m != REFERENCE]
     rows = []
     for key in dict.fromkeys((d.load, d.acf, d.speed) for d in found):

@@ -1,8 +1,8 @@
-"""``python -m verification sampling``: does the interval cover the friction of an endless line, and what does it
-cost?
+"""``python -m verification sampling``: does the interval cover the friction of an endless line, and what does it cost?
 
-Every case is solved many times with seeds of its own. Exit code 1: coverage, reported error over scatter or bias of a
-case out of its bounds (`verification.sampling.verdict`). What is solved is kept in the folder and not solved again.
+Every case is solved many times, with seeds of its own. The exit code is 1 when coverage, reported error over scatter,
+or bias of a case is out of its bounds (`verification.sampling.verdict`). What is solved is kept in the folder and not
+solved again.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ STUDIES = (
     Study("bias", "verification.sampling:bias", "Bias and scatter of one patch against its length", LONG),
     Study("cost", "verification.sampling:time_and_error", "Processor time against the error of f", LONG),
 )
-TRIALS = {"quick": 16, "default": 60, "full": 200}
-OTHERS = 100  # trials of other surfaces and loads, at most
+TRIALS = {"quick": 16, "default": 60, "full": 400}
+OTHERS = 200  # trials of other surfaces and loads, at most
 MAPS = {"default": 2, "full": 6}
 SCENES = {"default": 24, "full": 100}
 PATCHES = {"default": 8, "full": 24}
@@ -57,15 +57,17 @@ def coverage(level: str, out: Path, seed: int) -> Iterator[Item]:
 
 
 def map_in_pieces(level: str, out: Path, seed: int, scene=None, cuts=(2, 2)) -> Iterator[Item]:
-    """How often the interval of a piece holds the friction of the map that it was cut from: of generated maps, or of
-    the measured map of ``scene``."""
+    """How often the interval of a piece holds the friction of the map that it was cut from.
+
+    The maps are generated ones, or the measured map of ``scene``.
+    """
     from . import pieces, verdict
 
     yield verdict.of_pieces(pieces.measured(scene, cuts, out) if scene else pieces.run(MAPS[level], seed, out))
 
 
 def other_numbers(level: str, out: Path, seed: int) -> Iterator[Item]:
-    """Every reported number of random scenes within its stated error, beside everything modelled at 0.01 %."""
+    """Every reported number of random scenes beside everything modelled at 0.01 %: is it within its stated error?"""
     from . import quantities, verdict
 
     yield from verdict.of_quantities(quantities.counted(quantities.run(SCENES[level], quantities.SEED, out)))
@@ -81,7 +83,7 @@ def bias(level: str, out: Path, seed: int) -> Iterator[Item]:
 
 
 def time_and_error(level: str, out: Path, seed: int) -> Iterator[Item]:
-    """Processor seconds for every standard error asked, and the error of f that was made."""
+    """Processor seconds for every standard error asked, and the error of f that was really made."""
     from . import charts, cost
 
     found = cost.run(SURFACES[level], seed, _truths(out, seed))
@@ -90,7 +92,7 @@ def time_and_error(level: str, out: Path, seed: int) -> Iterator[Item]:
 
 
 def _truths(out: Path, seed: int) -> dict[float, float]:
-    """f of an endless line at every speed of the built-in scene; solved where ``out`` has it not."""
+    """f of an endless line at every speed of the built-in scene. It is solved where ``out`` does not have it."""
     from . import measure
 
     return {case.speed: measure.endless(case, seed, out)["f"] for case in SPEEDS}

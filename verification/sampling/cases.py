@@ -21,7 +21,7 @@ class Case:
     changes: dict = field(default_factory=dict)
 
     def scene(self, seed: int):
-        """With a surface of its own ``seed``."""
+        """The scene with a surface of its own ``seed``."""
         base = lubfric.load_scene("paper")
         changes = {section: dict(values) for section, values in self.changes.items()}
         changes["surface"] = {**changes.get("surface", {}), "seed": seed}

@@ -11,7 +11,7 @@ from .measure import Result
 
 
 def coverage(results: list[Result]) -> Figure:
-    """Every interval of every case over the truth, those that miss it in red."""
+    """Every interval of every case over the truth. Those that miss it are red."""
     canvas, grid = axes(-(-len(results) // 2), 2, 11, 2.6 * -(-len(results) // 2), squeeze=False)
     for axis, result in zip(grid.flat, results):
         order = np.argsort(result.column("f"))
@@ -30,7 +30,7 @@ def coverage(results: list[Result]) -> Figure:
 
 
 def bias(found: Found) -> Figure:
-    """Mean and scatter of f of one patch, over its length."""
+    """Mean and scatter of f of one patch over its length."""
     canvas, axis = axes(1, 1, 6.4, 4)
     for speed, (rows, truth) in found.items():
         length, mean, scatter, count = rows.T
@@ -52,13 +52,21 @@ def bias(found: Found) -> Figure:
 
 
 def cost(found: dict[str, np.ndarray]) -> Figure:
-    """Time against the error of f that was made, the surface in it."""
+    """Time against the error of f that was made by having a finite surface."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
     canvas, axis = axes(1, 1, 6.4, 4)
     for name, rows in found.items():
         asked, seconds, error = rows.T
         axis.loglog(100 * error, seconds, "o-", label=name)
-        for a, s, e in rows:
-            axis.annotate(f"{100 * a:g} %", (100 * e, s), xytext=(4, 4), textcoords="offset points", fontsize=8)
+        for e in np.unique(error):  # where the first line does for several of what was asked, one label for all
+            words = " and ".join(f"{100 * a:g} %" for a in asked[error == e])
+            at = 100 * e, seconds[error == e].max()
+            axis.annotate(words, at, xytext=(4, 4), textcoords="offset points", fontsize=8)
     axis.set(xlabel="root mean square error of f, surface included (%); labels: asked", ylabel="processor time (s)")
+    for direction in (axis.xaxis, axis.yaxis):
+        direction.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        direction.set_major_formatter(FormatStrFormatter("%g"))
+        direction.set_minor_formatter(NullFormatter())
     axis.legend(frameon=False)
     return finish("cost", canvas, "Processor time against the error of f", "png")

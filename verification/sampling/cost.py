@@ -14,8 +14,10 @@ ASKED = (0.05, 0.02, 0.01)
 
 
 def run(trials: int, seed: int, truths: dict[float, float]) -> dict[str, np.ndarray]:
-    """{case name: rows (asked, mean seconds, root mean square error of f)} on ``trials`` surfaces of each; ``truths``:
-    {speed [m/s]: f of an endless line}."""
+    """{case name: rows (asked, mean seconds, root mean square error of f)} on ``trials`` surfaces of each case.
+
+    ``truths`` is {speed [m/s]: f of an endless line}.
+    """
     found = {}
     for case in SPEEDS[1:]:
         rows = []
@@ -28,7 +30,7 @@ def run(trials: int, seed: int, truths: dict[float, float]) -> dict[str, np.ndar
 
 
 def checks(found: dict[str, np.ndarray]) -> Iterator[Check]:
-    """The error that was made for every one asked."""
+    """A check for every error asked, with the error that was made."""
     for name, rows in found.items():
         for asked, _, error in rows:
             words = f"{name}: rms error of f, asked {100 * asked:g} %"

@@ -17,8 +17,10 @@ Found = dict[float, tuple[np.ndarray, float]]
 
 
 def run(trials: int, seed: int, truths: dict[float, float]) -> Found:
-    """{speed: (rows of length [m], mean f, standard deviation, count; truth)} of ``trials`` patches of each length, on
-    cells of 1.8 µm; ``truths``: {speed [m/s]: f of an endless line}."""
+    """{speed: (rows of length [m], mean f, standard deviation, count; truth)}.
+
+    Each length has ``trials`` patches on cells of 1.8 µm. ``truths`` is {speed [m/s]: f of an endless line}.
+    """
     found: Found = {}
     for speed in SPEEDS:
         rows = []

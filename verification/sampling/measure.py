@@ -20,7 +20,7 @@ BESIDE = ("contact_load", "film_load", "shear_force", "mean_gap", "central_film"
 
 @dataclass(frozen=True)
 class Result:
-    """Rows of the trials of a case, and the truth with its relative standard error."""
+    """The rows of the trials of a case, and the truth with its relative standard error."""
 
     case: Case
     rows: list[dict]
@@ -33,7 +33,7 @@ class Result:
 
     @property
     def covered(self) -> np.ndarray:
-        """Which intervals hold the truth."""
+        """For each trial, whether its interval holds the truth."""
         return (self.column("low") <= self.truth) & (self.truth <= self.column("high"))
 
     @property
@@ -44,12 +44,12 @@ class Result:
 
     @property
     def bias(self) -> float:
-        """Of the mean of the trials, relative to the truth."""
+        """Deviation of the mean of the trials from the truth, relative to it."""
         return float(self.column("f").mean() / self.truth - 1)
 
 
 def solve(scene, speed: float, asked: float) -> dict:
-    """One point, in processor seconds."""
+    """One point, with its processor seconds."""
     begun = time.process_time()
     found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
     u = found.uncertainty
@@ -68,7 +68,7 @@ def solve(scene, speed: float, asked: float) -> dict:
 
 
 def found_before(case: Case, seed: int, out: Path) -> Result | None:
-    """What `run` left in ``out``; None where it has no truth or no trials."""
+    """What `run` left in ``out``, or None where it has no truth or no trials."""
     rows = kept.read(_file(case, seed, out))
     truths = [r for r in rows if r["kind"] == "truth"]
     trials = [r for r in rows if r["kind"] == "trial"]
@@ -80,19 +80,19 @@ def _file(case: Case, seed: int, out: Path) -> Path:
 
 
 def endless(case: Case, seed: int, out: Path) -> dict:
-    """The row of the truth of a case, kept in ``out``: f of an endless line and its relative standard error."""
+    """The row of the truth of a case, kept in ``out``: f of an endless line, and its relative standard error."""
     return _rows(case, [("truth", seed + REPORTED)], _file(case, seed, out))[0]
 
 
 def run(case: Case, trials: int, seed: int, out: Path) -> Result:
-    """Trials with seeds from ``seed`` on, and the truth; rows kept in ``out`` as they come are not solved again."""
+    """Trials with seeds from ``seed`` on, and the truth. Rows are kept in ``out`` as they come and not solved again."""
     wanted = [("truth", seed + REPORTED), *(("trial", seed + k) for k in range(trials))]
     truth, *rows = _rows(case, wanted, _file(case, seed, out))
     return Result(case, rows, truth["f"], truth["error"])
 
 
 def _rows(case: Case, wanted: list[tuple[str, int]], file: Path) -> list[dict]:
-    """The truth, or a trial, each on surfaces of a seed of its own; those missing in ``file`` are solved."""
+    """The truth or the trials, each on surfaces of a seed of its own. Those missing in ``file`` are solved."""
     found = {(row["kind"], row["seed"]): row for row in kept.read(file)}
     for kind, own in wanted:
         if (kind, own) not in found:

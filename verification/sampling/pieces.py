@@ -40,7 +40,7 @@ def measured(scene, cuts: tuple[int, int], out: Path) -> list[dict]:
 
 
 def cut(scene, speed: float, whole, cuts: tuple[int, int], name: str, out: Path) -> list[dict]:
-    """Friction of a surface and of its pieces, each kept in ``out`` when it is found and not solved again."""
+    """Friction of a surface and of its pieces. Each is kept in ``out`` when it is found, and not solved again."""
     file = out / f"pieces-{'-'.join(name.split())}.jsonl"
     rows = kept.read(file)
     places = [WHOLE, *([i, j] for i in range(cuts[0]) for j in range(cuts[1]))]

@@ -21,8 +21,10 @@ FLOOR = 1e-3  # of a quantity: what the reference itself may be off by
 
 
 def run(count: int, seed: int, out: Path) -> list[dict]:
-    """A row for each of ``count`` scenes, kept in ``out`` as they come: {name: (value, stated relative error, value of
-    the reference)}."""
+    """A row for each of ``count`` scenes, kept in ``out`` as they come.
+
+    A row is {name: (value, stated relative error, value of the reference)}.
+    """
     file = out / f"quantities-{seed}.jsonl"
     rows = kept.read(file)
     known = {row["index"] for row in rows}
@@ -52,7 +54,7 @@ def row_of(index: int, values: dict) -> dict:
 
 
 def within(row: dict) -> dict[str, bool | None]:
-    """By quantity: within its stated error (or `FLOOR`), None where none is stated."""
+    """For each quantity, whether it is within its stated error (or `FLOOR`); None where no error is stated."""
     result: dict[str, bool | None] = {}
     for name, (value, error, reference, reason) in row.get("beside", {}).items():
         if error is None or not math.isfinite(error):

@@ -1,8 +1,8 @@
-"""The friction of an endless line, by plain balances of long patches: no sampling, no correction of the library's own.
+"""The friction of an endless line, by plain balances of long patches, with none of the library's own corrections.
 
-Patches of 1,900 correlation lengths, each with a balance of its own (at this length its bias is below 0.1 %), on cells
-of a quarter of the correlation length; what these cells change, from shorter patches on the scene's own cells and on
-every so-manieth of them.
+The patches are 1,900 correlation lengths long, each with a balance of its own. At this length its bias is below 0.1 %.
+Their cells are a quarter of the correlation length. What these cells change is found on shorter patches, on the scene's
+own cells and on every so-manieth of them.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ import numpy as np
 import lubfric
 from lubfric.lines.make import lines_of
 
-LINES, FEWEST = 32, 16  # patches, at most and at least: few tell no error of their mean
+LINES, FEWEST = 160, 16  # patches, at most and at least: few tell no error of their mean
 LENGTHS = 1900  # of a patch, in correlation lengths along y
-PIECES, PIECE = 4, 90  # patches on the scene's own cells, and their length
-CLOSE = 0.2  # of the standard error asked: of the truth
+PIECES, PIECE = 8, 90  # patches on the scene's own cells, and their length
+CLOSE = 0.1  # of the standard error asked: of the truth
 
 
 @dataclass(frozen=True)
 class Truth:
-    """f of an endless line, its relative standard error, what the cells changed, and the length [m] solved."""
+    """f of an endless line, its relative standard error, what the cells changed, and the length [m] that was solved."""
 
     f: float
     error: float
@@ -32,7 +32,8 @@ class Truth:
 
 
 def truth(scene, speed: float, seed: int, asked: float) -> Truth:
-    """Patches with seeds from ``seed`` on, until their mean is known to a fifth of ``asked``, or thirty-two of them."""
+    """The mean of patches with seeds from ``seed`` on, until it is known to a fifth of ``asked``, or of thirty-two
+    patches."""
     cells, along = lines_of(scene).cells, lines_of(scene).lengths[1]
     columns = 64 * round(LENGTHS * along / cells.coarse[1] / 64)
     change, own = _cells(scene, speed, seed + 500, cells, along)

@@ -20,8 +20,10 @@ COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean len
 
 
 def checks(result: Result) -> Iterator[Check]:
-    """Coverage, reported error over observed scatter, bias against the truth. The coverage of a case of which most
-    trials say that the map is too small decides nothing."""
+    """Coverage, reported error over observed scatter, and bias against the truth.
+
+    The coverage decides nothing in a case of which most trials say that the map is too small.
+    """
     case, n = result.case, len(result.rows)
     decides = float(result.column("told").mean()) <= 0.5
     coverage = float(result.covered.mean())
@@ -33,7 +35,7 @@ def checks(result: Result) -> Iterator[Check]:
 
 
 def row(result: Result) -> tuple[str, ...]:
-    """The same as cells of a table (`COLUMNS`)."""
+    """The same numbers as cells of a table (`COLUMNS`)."""
     return (
         f"{result.case.name}, asked {100 * result.case.asked:g} %",
         str(len(result.rows)),
@@ -62,14 +64,14 @@ def of_quantities(counted: list[tuple[str, int, float, float]]) -> Iterator[Chec
 def _share(
     name: str, found: float, trials: int, bounds: tuple[float, float], source: str, decides: bool = True
 ) -> Check:
-    """A share of trials between two bounds, and what chance does to it."""
+    """A check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds
     tolerance = (high - low) / 2 + _chance(trials)
     return Check(name, found, (high + low) / 2, tolerance, source, ABSOLUTE, decisive=decides)
 
 
 def _chance(trials: int) -> float:
-    """What is granted of a share of 95 % for few trials."""
+    """How much less than 95 % is granted to a share of few trials."""
     return CHANCE * math.sqrt(0.05 * 0.95 / trials)
 
 

@@ -1,7 +1,7 @@
 """``python -m verification stability``: map where methods fail, and prove that the default ones say so.
 
-Exit code 1: a cell of a default method is silently wrong, one inside the promised range failed, a bad input was not
-refused in words, or one of many random scenes was answered wrongly.
+The exit code is 1 when a cell of a default method is silently wrong, when one inside the promised range failed, when a
+bad input was not refused in words, or when one of many random scenes was answered wrongly.
 """
 
 from __future__ import annotations

@@ -18,8 +18,10 @@ SOURCE = "the judge beside this map"
 
 @dataclass(frozen=True)
 class Condition:
-    """Where a cell lies: map and panel it is drawn on, x and y on its axes; inside: it lies within the range in which
-    the method that users get unasked promises to answer."""
+    """Where a cell lies: the map and panel that it is drawn on, and x and y on their axes.
+
+    ``inside`` says that it lies within the range in which the method that users get unasked promises to answer.
+    """
 
     map: str
     panel: str
@@ -34,12 +36,13 @@ def verdict(cell: Check) -> str:
 
 
 def judged(condition: Condition, method: str, solve: Callable, check: Callable, default: bool = True) -> Check:
-    """Run ``solve()``; a result is handed to ``check``, which returns {name: deviation/allowed}: the worst is measured.
+    """Run ``solve()`` and hand a result to ``check``, which returns {name: deviation/allowed}. The worst one is
+    measured.
 
-    `lubfric.ConvergenceError` and `lubfric.InputError` are reported failures, and so is the analogue of another
-    package (an exception whose class is named like it). Any other exception is a defect and ends the map.
-    A ratio above 1 or not a number makes the cell silently wrong. What decides are the cells of the ``default`` method
-    (that users get unasked): none may be silently wrong, none inside its promise may fail.
+    `lubfric.ConvergenceError` and `lubfric.InputError` are reported failures, and so is the analogue of another package
+    (an exception whose class is named like it). Any other exception is a defect and ends the map. A ratio that is above
+    1, or not a number, makes the cell silently wrong. What decides are the cells of the ``default`` method, which users
+    get unasked: none may be silently wrong, and none inside its promise may fail.
     """
     begun = time.perf_counter()
     try:

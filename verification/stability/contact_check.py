@@ -1,4 +1,4 @@
-"""Is this pressure a contact? Deflection, complementarity, load and gap written anew, in double precision."""
+"""Is this pressure a contact? Deflection, complementarity, load and gap are written anew, in double precision."""
 
 from __future__ import annotations
 
@@ -13,8 +13,12 @@ import lubfric.halfspace
 def deflection(
     pressure: np.ndarray, spacing: tuple[float, float], e_prime: float, boundary: tuple[str, str]
 ) -> np.ndarray:
-    """u = K p [m]: periodic by the full complex transform; free by sums of Love's cells over all pairs; mixed by the
-    library's operator, which its own tests hold against quadrature and image sums."""
+    """u = K p [m].
+
+    Where the contact is periodic it comes from the full complex transform, where it is free from sums of Love's cells
+    over all pairs. Where it is mixed it comes from the library's operator, which its own tests hold against quadrature
+    and image sums.
+    """
     if boundary == ("periodic", "periodic"):
         kx, ky = (2 * np.pi * fft.fftfreq(n, d) for n, d in zip(pressure.shape, spacing))
         k = np.hypot(kx[:, None], ky[None, :])
@@ -49,12 +53,16 @@ def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
 def contact_deviations(
     result, gap0, spacing, e_prime, boundary, hardness=None, mean_pressure=None, mean_gap=None
 ) -> dict[str, float]:
-    """Deviations of a `ContactResult`, dimensionless.
+    """Deviations of a `ContactResult`, without dimension.
 
-    Lengths are measured by sum(p u')/sum(p), u' = u less its least value under the contact, plus the mean gap: what is
-    indented and what is left open. ``complementarity``: load-weighted |gap| (only openings where yielded);
-    ``penetration``: deepest overlap of cells that have not yielded; ``sign``: tension, or excess over the hardness;
-    ``fields``: gap against gap0 - approach + K p; ``load`` or ``volume``: against what was prescribed.
+    Lengths are measured by sum(p u')/sum(p), with u' = u less its least value under the contact, plus the mean gap.
+    That is what is indented, and what is left open.
+
+    - complementarity: load-weighted |gap| (only openings where yielded)
+    - penetration: deepest overlap of cells that have not yielded
+    - sign: tension, or excess over the hardness
+    - fields: gap against gap0 - approach + K p
+    - load or volume: against what was prescribed
     """
     p, limit = result.pressure, math.inf if hardness is None else hardness
     spacing = (spacing, spacing) if np.ndim(spacing) == 0 else spacing

@@ -1,4 +1,4 @@
-"""Dry rough contact: load, hardness, size, aspect ratio, mean gap, tilt, precision."""
+"""Maps of the dry rough contact: load, hardness, size, aspect ratio, mean gap, tilt, precision."""
 
 from __future__ import annotations
 
@@ -79,7 +79,8 @@ def cells(level: str) -> Iterator[Check]:
 
 
 def solved(here: Condition, gap0, spacing, boundary, second=False, solver=solve_contact, **control) -> Check:
-    """One cell of the default solver. ``second``: also against plain Polonsky-Keer, where that converges."""
+    """One cell of the default solver. With ``second`` it is also held against plain Polonsky-Keer, where that
+    converges."""
     tolerance = control.pop("tolerance", 1e-6)
     physical = {k: v for k, v in control.items() if k in ("mean_pressure", "mean_gap", "hardness")}
     ease = max(1.0, tolerance / 1e-6)
@@ -112,14 +113,14 @@ def _second(result, gap0, spacing, physical) -> dict[str, float]:
 
 
 def full_contact(heights, spacing: float) -> float:
-    """Pressure [Pa] that would flatten the heights if it could pull as well: the largest tension needed."""
+    """Pressure [Pa] that would flatten the heights if it could pull as well. It is the largest tension needed."""
     kx, ky = (2 * np.pi * fft.fftfreq(n, spacing) for n in heights.shape)
     k = np.hypot(kx[:, None], ky)
     return float(-(fft.ifft2(fft.fft2(heights) * E_PRIME * k / 4).real).min())
 
 
 def loads(quick: bool) -> Iterator[Check]:
-    """From one touching cell to full contact and beyond, by surface, for each boundary."""
+    """From one touching cell to full contact and beyond, for every surface and boundary."""
     n = 24 if quick else 48
     shares = (
         (1e-9, 1e-2, 1.5)
@@ -141,7 +142,7 @@ def loads(quick: bool) -> Iterator[Check]:
 
 
 def hardnesses(quick: bool) -> Iterator[Check]:
-    """Elastic to fully plastic: hardness over E', load over hardness up to the whole area yielding."""
+    """Elastic to fully plastic: hardness over E', by load over hardness up to the whole area yielding."""
     n = 24 if quick else 48
     for kind in ("exponential",) if quick else ("exponential", "gaussian", "sine"):
         for label, boundary in list(BOUNDARIES.items())[: 1 if quick else 3]:
@@ -160,7 +161,7 @@ def hardnesses(quick: bool) -> Iterator[Check]:
 
 
 def sizes(quick: bool) -> Iterator[Check]:
-    """Odd and prime sizes down to one cell, cells up to 50 times as long as wide."""
+    """Odd and prime sizes down to one cell, and cells up to 50 times as long as wide."""
     shapes = (
         ((1, 1), (2, 3), (31, 17), (64, 1), (36, 60))
         if quick
@@ -195,7 +196,7 @@ def sizes(quick: bool) -> Iterator[Check]:
 
 
 def gaps(quick: bool) -> Iterator[Check]:
-    """The mean gap prescribed, from a millionth of the roughness to almost no touch."""
+    """A prescribed mean gap, from a millionth of the roughness to almost no touch."""
     n = 24 if quick else 48
     kinds = SURFACES[:3] if quick else SURFACES
     for label, boundary in BOUNDARIES.items():
@@ -217,7 +218,7 @@ def gaps(quick: bool) -> Iterator[Check]:
 
 
 def slopes(quick: bool) -> Iterator[Check]:
-    """Roughness from a picometre to slopes far beyond small-slope theory (which the equations do not know)."""
+    """Roughness from a picometre to slopes far beyond small-slope theory, which the equations do not know of."""
     for kind in ("exponential",) if quick else ("exponential", "noise", "gaussian"):
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10):
             z = surface(kind, 40, 40, float(sigma))
@@ -233,7 +234,7 @@ def slopes(quick: bool) -> Iterator[Check]:
 
 
 def tilts(quick: bool) -> Iterator[Check]:
-    """Maps that do not close on themselves: a tilt of so many roughness heights, an offset of a metre."""
+    """Maps that do not close on themselves: tilted by so many roughness heights, and offset by a metre."""
     n = 24 if quick else 45
     z = surface("exponential", n, n)
     ramp = np.linspace(-0.5, 0.5, n)
@@ -253,7 +254,7 @@ def tilts(quick: bool) -> Iterator[Check]:
 
 
 def precisions(quick: bool) -> Iterator[Check]:
-    """Heights in single and double precision, tolerance 1e-1 to 1e-12, good and absurd starts."""
+    """Heights in single and double precision, tolerances from 1e-1 to 1e-12, good and absurd starts."""
     z = surface("exponential", 48, 48)
     absurd = np.zeros_like(z)
     absurd[5, 7] = 1e14

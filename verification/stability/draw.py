@@ -1,4 +1,4 @@
-"""Maps and their counts."""
+"""Draws and counts the maps."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
 
 
 def table(kind: str, cells: list[Check]) -> Table:
-    """Verdicts by map and method; a star marks the methods that users get unasked."""
+    """Verdicts by map and method. A star marks the methods that users get unasked."""
     rows = [
         (name, method + (" *" if default else ""), *(found[v] for v in VERDICTS))
         for (name, method, default), found in counts(cells).items()
@@ -69,7 +69,7 @@ def table(kind: str, cells: list[Check]) -> Table:
 
 
 def draw(kind: str, cells: list[Check]) -> Figure:
-    """One panel for each map and method; cells that share a place show the worst verdict."""
+    """One panel for each map and method. Cells that share a place show the worst verdict."""
     panels = list(dict.fromkeys((c.word("map"), c.word("method")) for c in cells))
     columns = min(3, len(panels))
     rows = -(-len(panels) // columns)

@@ -1,8 +1,8 @@
-"""Is this film a solution? Written from the equations, without a line of the solvers it judges.
+"""Is this film a solution? The check is written from the equations, without a line of the solvers that it judges.
 
 The pressure is read as piecewise linear between the nodes of the result. From it alone come the film in the middle of
 every cell (the logarithmic kernel integrated in closed form), the flow through the cell (the fluidity 1/eta averaged
-over the cell by Gauss points, exact pressure gradient), the load, and the sign conditions of cavitation.
+over the cell by Gauss points, with the exact pressure gradient), the load, and the sign conditions of cavitation.
 """
 
 from __future__ import annotations
@@ -48,8 +48,11 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
 def film_deviations(result, case: dict) -> dict[str, float]:
     """Deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
 
-    ``elastic``: film at the nodes; ``load``; ``tension``: -p/p_max; ``gap``: film deficit behind the rupture point;
-    ``flow``: root mean square over the cells before rupture of (flow - q)/max(film, q), q the flow at rupture.
+    - elastic: film at the nodes
+    - load: relative
+    - tension: -p/p_max
+    - gap: film deficit behind the rupture point
+    - flow: root mean square over the cells before rupture of (flow - q)/max(film, q), q the flow at rupture
     """
     law = case.get("viscosity_law", "roelands")
     sign = math.copysign(1.0, case["entrainment_speed"])

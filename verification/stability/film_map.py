@@ -1,4 +1,4 @@
-"""Smooth line contacts: load, material, speed, laws, tolerance, poor starts, starvation."""
+"""Maps of smooth line contacts: load, material, speed, laws, tolerance, poor starts, starvation."""
 
 from __future__ import annotations
 
@@ -38,7 +38,8 @@ def cells(level: str) -> Iterator[Check]:
 
 @lru_cache(maxsize=4096)
 def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
-    """(min_film, flow_film, method): another discretisation, else the tightest Newton solution that there is."""
+    """(min_film, flow_film, method) by another discretisation, or else by the tightest Newton solution that
+    there is."""
     case = dict(items)
     ways: tuple[tuple[Callable[..., EHLResult], str, dict[str, Any]], ...] = (
         (
@@ -60,18 +61,18 @@ def _judge(items: tuple, tolerance: float) -> tuple[float, float, str]:
 
 @lru_cache(maxsize=4096)
 def _tight(items: tuple) -> tuple[float, float]:
-    """Films [m] of the default at a tenth of its tolerance: a step further costs seconds at ten gigapascals."""
+    """Films [m] of the default at a tenth of its tolerance. A step further costs seconds at ten gigapascals."""
     film = solve_ehl(**dict(items), tolerance=0.1 * TOLERANCE)
     return film.min_film, film.flow_film
 
 
 def reference(case: dict, tolerance: float = TOLERANCE) -> tuple[float, float, str]:
-    """Films [m] to judge by, without trust in the solver at hand."""
+    """Films [m] to judge by, found without trust in the solver at hand."""
     return _judge(tuple(sorted(case.items())), tolerance)
 
 
 def checked(case: dict, tolerance: float = TOLERANCE, judge=None):
-    """check(result) for `judged`: own residuals, and both films against ``judge`` (default: `reference`)."""
+    """check(result) for `judged`: the own residuals, and both films against ``judge`` (default: `reference`)."""
 
     def check(film) -> dict[str, float]:
         smallest, flow, _ = judge or reference(case, tolerance)
@@ -87,12 +88,12 @@ def checked(case: dict, tolerance: float = TOLERANCE, judge=None):
 
 
 def promised(M: float, L: float) -> bool:
-    """Within the range that the default answers for."""
+    """Whether M and L lie within the range that the default answers for."""
     return 0.99e-3 <= M <= 1001 and L <= 20.01
 
 
 def load_and_material(quick: bool) -> Iterator[Check]:
-    """M by L for each law; all methods and the formula where the law is Roelands' at constant density."""
+    """M by L for each law. Where the law is Roelands' at constant density, all methods and the formula are tried."""
     loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), (3e3, 1e4))
     materials = (0.0, 5.0, 20.0) if quick else (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
     for law, density in LAWS:
@@ -124,7 +125,7 @@ def other_methods(here: Condition, case: dict, M: float, L: float) -> Iterator[C
 
 
 def speeds(quick: bool) -> Iterator[Check]:
-    """The paper's steel cylinder: speeds from 1e-8 m/s, either way, by load."""
+    """The paper's steel cylinder at speeds from 1e-8 m/s, either way, by load."""
     for speed in np.geomspace(1e-8, 10, 3 if quick else 10):
         for load in np.geomspace(1e-2, 1e4, 2 if quick else 7):
             sign = -1.0 if round(math.log10(load)) % 2 else 1.0
@@ -140,7 +141,7 @@ def speeds(quick: bool) -> Iterator[Check]:
 
 
 def tolerances(quick: bool) -> Iterator[Check]:
-    """From one tenth, where grids are far too coarse, to 1e-4: the error has to be what was asked for."""
+    """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be what was asked for."""
     points = (
         ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
         if quick
@@ -175,7 +176,7 @@ def tolerances(quick: bool) -> Iterator[Check]:
 
 
 def starts(quick: bool) -> Iterator[Check]:
-    """Started from the solution of a contact that may be a million times lighter, or of another lubricant."""
+    """Solves that start from the solution of a contact that may be a million times lighter, or of another lubricant."""
     points = (
         ((1e-2, 5), (10, 5), (1000, 20))
         if quick
@@ -201,7 +202,7 @@ def starts(quick: bool) -> Iterator[Check]:
 
 
 def starved(quick: bool) -> Iterator[Check]:
-    """The lubricant begins at a distance of the dry contact (in half-widths plus inlet lengths)."""
+    """Lubricant that begins at a distance of the dry contact (in half-widths plus inlet lengths)."""
     for M in (0.1, 10, 1000) if quick else (1e-3, 1e-2, 0.1, 1, 3, 10, 30, 100, 300, 1000):
         for share in (0.5, 5) if quick else (0.3, 0.5, 1, 2, 5, 20):
             case = case_of(M, 10)

@@ -1,8 +1,9 @@
-"""Load sharing: film to roughness ratio, roughness from 1 nm to 2 um, share of the contact, entrainment of any sign.
+"""Maps of load sharing: film over roughness, roughness from 1 nm to 2 µm, share of the contact, entrainment of any
+sign.
 
-The judge closes load and volume anew, with the film of the differential deflection, dry contacts solved afresh, a
-root finder from elsewhere and its own sum of the friction forces. Allowed: twice the tolerance on friction that the
-scene asks for (1 %), on the coefficient and on F_C/F_T.
+The judge closes load and volume anew, with the film of the differential deflection, dry contacts solved afresh, a root
+finder from elsewhere, and its own sum of the friction forces. Allowed is twice the tolerance on friction that the scene
+asks for (1 %), on the coefficient and on F_C/F_T.
 """
 
 from __future__ import annotations
@@ -40,7 +41,8 @@ def cells(level: str) -> Iterator[Check]:
 
 
 def model_of(name: str, sq: float, shape: int, **sections) -> Prepared:
-    """A built-in scene with another roughness on a small grid. The solver is what is tried: any slope is accepted."""
+    """A built-in scene with another roughness on a small grid. Any slope is accepted, because the solver is what is
+    tried."""
     scene = load_scene(name)
     if name == "flat":
         roughness = {"sq": sq, "correlation_length": 0.08e-6 * shape}
@@ -53,7 +55,7 @@ def model_of(name: str, sq: float, shape: int, **sections) -> Prepared:
 
 
 def speed_for(scene, film_thickness: float) -> float:
-    """Entrainment speed [m/s] at which the smooth film of the whole load has about that thickness: bisection."""
+    """Entrainment speed [m/s] at which the smooth film of the whole load has about that thickness, by bisection."""
     low, high = math.log(1e-12), math.log(1e4)
     for _ in range(14):
         middle = 0.5 * (low + high)
@@ -103,7 +105,8 @@ def checked(model: Prepared, speed: float):
 
 
 def judge(model: Prepared, result, speed: float) -> tuple[float, float]:
-    """(friction coefficient, F_C/F_T) from another film solver and fresh dry contacts: the split closed again."""
+    """(friction coefficient, F_C/F_T) from another film solver and fresh dry contacts, with the division of the load
+    closed again."""
     from scipy.optimize import brentq
 
     scene, total = model.scene, model.scene.bodies.load
@@ -145,7 +148,7 @@ class Sides:
 
 
 def judge_film(scene, load: float, speed: float):
-    """By differential deflection, or if that does not converge by the tightest Newton solution."""
+    """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
     case = film_case(scene, load, speed)
     try:
         return solve_differential_deflection(**case, tolerance=2e-3)
@@ -185,8 +188,10 @@ def judge_contact(model: Prepared, load: float, film) -> Sides:
 
 
 def own_friction(scene, film, contact: Sides, contact_load: float, speed: float) -> float:
-    """(f_b F_C + F_sh)/F_T by the trapezoidal rule over a Newtonian or Ree-Eyring film before rupture, the far inlet in
-    closed form."""
+    """(f_b F_C + F_sh)/F_T by the trapezoidal rule.
+
+    The film before rupture is Newtonian or Ree-Eyring, and the far inlet is in closed form.
+    """
     bodies, oil, ratio = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -218,7 +223,8 @@ def _log_mean(eta) -> np.ndarray:
 
 
 def curves(name: str, quick: bool) -> Iterator[Check]:
-    """Lambda 0.01 to 10 by roughness 1 nm to 2 um, both closures; the paper's closure is not the default."""
+    """Film over roughness from 0.01 to 10, by roughness from 1 nm to 2 µm, with both closures. The paper's closure is
+    not the default."""
     roughness = [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5)
     ratios = np.geomspace(0.01, 10, 3 if quick else 10)
     for sq in roughness:
@@ -239,7 +245,7 @@ def curves(name: str, quick: bool) -> Iterator[Check]:
 
 
 def special_speeds(quick: bool) -> Iterator[Check]:
-    """Nearly all film, nearly all contact, no entrainment, reversed entrainment."""
+    """Nearly all film, nearly all contact, no entrainment, and reversed entrainment."""
     for column, name in enumerate(("flat", "paper")):
         model = model_of(name, 100e-9, 32 if quick else 64)
         for speed in (
@@ -256,7 +262,7 @@ def special_speeds(quick: bool) -> Iterator[Check]:
 
 
 def shares(model: Prepared, name: str, quick: bool) -> Iterator[Check]:
-    """F_C/F_T from 1e-6 to 1 - 1e-6: speeds found by bisection, then a map over the share."""
+    """F_C/F_T from 1e-6 to 1 - 1e-6: speeds are found by bisection, and a map is made over the share."""
     total = model.scene.bodies.load
     for share in (
         (0.5,) if quick else (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 0.9, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6)

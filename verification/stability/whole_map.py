@@ -1,8 +1,9 @@
-"""One gap, one pressure: load by speed by roughness, a bearing of 10 mm radius with a shear-limited compressible oil.
+"""Maps of one gap with one pressure: load by speed by roughness.
 
-The judge looks at the fields alone: load and elastic gap are summed anew, pressure and gap keep their signs, and the
-flow through every section before the first touching cell, ruptured film and all, by second-order upwind differences and
-quadratures of the laws and of 1/h³ between cells, is the same.
+The contact is a bearing of 10 mm radius with a shear-limited compressible oil. The judge looks at the fields alone.
+Load and elastic gap are summed anew. Pressure and gap keep their signs. The flow is the same through every section
+before the first touching cell, ruptured film and all, by second-order upwind differences and by quadratures of the laws
+and of 1/h³ between cells.
 """
 
 from __future__ import annotations

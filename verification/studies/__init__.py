@@ -1,9 +1,9 @@
-"""The list of studies of the plain command. A study is named here and imported only when it runs.
+"""The list of studies of the plain command. A study is named here, and imported only when it runs.
 
-A study is a function ``name(level)`` with ``level`` one of "quick", "default", "full". It either yields
-`Check`, `Table`, `Figure` and `Field` objects as it goes (then each check is timed, and what was yielded
-before a failure is kept) or returns a `StudyResult`. Its docstring is the text of its section in the
-report. To add one: put the function in a module of this package and add a line below.
+A study is a function ``name(level)`` with ``level`` one of "quick", "default", "full". It may yield `Check`, `Table`,
+`Figure` and `Field` objects as it goes. Then each check is timed, and what was yielded before a failure is kept. Or it
+returns a `StudyResult`. Its docstring is the text of its section in the report. To add one, put the function in a
+module of this package and add a line below.
 """
 
 from __future__ import annotations
@@ -15,8 +15,14 @@ from ..check import LEVELS, file_name
 
 @dataclass(frozen=True)
 class Study:
-    """Where a study is: ``target`` is "package.module:function"; ``levels`` are those it runs at; ``options``: keywords
-    of the function beside the level."""
+    """Where a study is.
+
+    Attributes
+    ----------
+    target : "package.module:function"
+    levels : those that it runs at
+    options : keywords of the function beside the level
+    """
 
     name: str
     target: str

@@ -26,16 +26,16 @@ DRY = "lubfric.solve_contact"
 def contact(level: str):
     """A cylinder pressed on the elastic layer, against Hertz and against `lubfric.solve_contact`.
 
-    The finite elements bring their own elasticity (plane strain, a layer, no kernel) and their own contact
-    algorithm (a node is off, touching or at the cap; each step solves the touching ones exactly). The layer is 40
-    half-widths thick, which raises the peak pressure by J b²/(4 d²) = 0.02 %; a study of the thickness shows it.
+    The finite elements bring their own elasticity (plane strain, a layer, no kernel) and their own contact algorithm: a
+    node is off, touching or at the cap, and each step solves the touching ones exactly. The layer is 40 half-widths
+    thick, which raises the peak pressure by J b²/(4 d²) = 0.02 %. A study of the thickness shows it.
     """
     yield from hertz(level)
     yield from thickness()
 
 
 def hertz_layer(depth: float, fine: float, degree: int) -> Layer:
-    """A layer ``depth`` half-widths thick with cells of ``fine`` half-widths below the contact."""
+    """A layer that is ``depth`` half-widths thick, with cells of ``fine`` half-widths below the contact."""
     mesh = graded_mesh(8 * depth * B, depth * B, 1.5 * B, fine * B, growth=4 * fine)
     return make_layer(mesh, BODY, degree=degree, strip=1.5 * B)
 
@@ -54,13 +54,13 @@ def norm(found: Layer, values) -> float:
 
 
 def hertz_pressure(x, load: float):
-    """Pa, of the cylinder on the half-space."""
+    """Hertz pressure [Pa] of the cylinder on the half-space."""
     b = B * np.sqrt(load / LINE_LOAD)
     return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
 
 
 def line_contact(cells: int, limit: float | None = None):
-    """(x, result) of `lubfric` with so many cells across the Hertz width, in a box of twice that."""
+    """(x, result) of `lubfric` with ``cells`` cells across the Hertz width, in a box of twice that width."""
     step = 2 * B / cells
     x = (np.arange(2 * cells) - cells + 0.5) * step
     gap0 = np.repeat((x**2 / (2 * RADIUS))[:, None], 2, axis=1)
@@ -71,14 +71,14 @@ def line_contact(cells: int, limit: float | None = None):
 
 
 def half_width(x, pressure) -> float:
-    """Where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
+    """Half-width where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
     high = pressure > 0.3 * pressure.max()
     slope, top = np.polyfit(x[high] ** 2, pressure[high] ** 2, 1)
     return float(np.sqrt(-top / slope))
 
 
 def hertz(level: str):
-    """Hertz pressure: orders, and the finest mesh against the closed form and `lubfric`."""
+    """Hertz pressure: the orders, and the finest mesh against the closed form and `lubfric`."""
     fines = 0.4 / 2.0 ** np.arange({"quick": 3, "default": 4, "full": 5}[level])
     rows, series = [], {}
     x, smooth = line_contact(400)
@@ -130,7 +130,8 @@ def hertz(level: str):
 
 
 def edge_mean_error(found: Layer, fine: float) -> float:
-    """Relative L2 error of the pressure, root mean square over loads that move the edge through one cell."""
+    """Relative L2 error of the pressure, as root mean square over loads that move the edge of the contact through one
+    cell."""
     errors = []
     for shift in np.arange(5) / 5:
         load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2
@@ -140,7 +141,7 @@ def edge_mean_error(found: Layer, fine: float) -> float:
 
 
 def hertz_checks(found: Layer, p: Contact, x, smooth, off, level: str):
-    """The finest P2 mesh."""
+    """Checks of the finest P2 mesh."""
     wide = 3 if level == "quick" else 1
     yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
     yield Check("Hertz line P2: half-width", half_width(found.x, p.pressure), B, 5e-3, HERTZ, unit="m")

@@ -1,6 +1,4 @@
-"""Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary
-conditions.
-"""
+"""Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary conditions."""
 
 from __future__ import annotations
 
@@ -26,13 +24,13 @@ REASONS = {
 
 
 def contact_grid(level: str):
-    """`lubfric.solve_contact` on smooth shapes with closed forms; errors against the cells in the contact.
+    """`lubfric.solve_contact` on smooth shapes with closed forms. Errors are shown against the cells in the contact.
 
-    A cylinder (free along x, periodic along y), a sphere (free both ways), a wave (periodic both ways), and a
-    row of spheres so far apart that each is alone (free along x, periodic along y: only the waves along y
-    tell it from a cylinder). Where in its cell the edge of the contact lies is chance, so errors are root
-    mean squares over six places. Contact is all or nothing in a cell, so area is of first order; pressure and
-    gap are smoother. Contact size is taken from the second moment of the pressure.
+    The shapes are a cylinder (free along x, periodic along y), a sphere (free both ways), a wave (periodic both ways),
+    and a row of spheres so far apart that each is alone (free along x, periodic along y: only the waves along y tell it
+    from a cylinder). It is chance where in its cell the edge of the contact lies, so errors are root mean squares over
+    six places. Contact is all or nothing in a cell, so area is of first order. Pressure and gap are smoother. The
+    contact size is taken from the second moment of the pressure.
     """
     yield from family(
         "cylinder",
@@ -78,8 +76,9 @@ def contact_grid(level: str):
 
 
 def family(name: str, solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]]):
-    """Errors of one shape on all grids; ``allowed`` is the bound with ``at`` cells and the order by which it
-    falls.
+    """Errors of one shape on all grids.
+
+    ``allowed`` is the bound with ``at`` cells, and the order by which it falls.
     """
     errors = np.array(
         [np.sqrt(np.mean([np.square(solve(n, place / PLACES)) for place in range(PLACES)], axis=0)) for n in cells]
@@ -112,9 +111,7 @@ def family(name: str, solve, cells: tuple[int, ...], size: str, at: int, allowed
 
 
 def cylinder(cells: int, place: float) -> tuple[float, ...]:
-    """Errors with ``cells + place`` cells in the half-width; the patch is four half-widths wide, four cells
-    long.
-    """
+    """Errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells long."""
     across = cells + place
     exact, dx = Line(E_PRIME, RADIUS, SIZE), SIZE / across
     n = 2 * int(2 * across)
@@ -167,7 +164,7 @@ def sphere(cells: int, place: float) -> tuple[float, ...]:
 
 
 def wave(cells: int, place: float) -> tuple[float, ...]:
-    """Errors with four times ``cells`` cells in the wave; ``place`` shifts the crest and changes the load."""
+    """Errors with four times ``cells`` cells in the wave. ``place`` shifts the crest and changes the load."""
     n = 4 * cells
     exact = Wave(E_PRIME, 100e-9, 45e-6, 0.2 + 0.3 * place)
     x = (np.arange(n) + 0.5 + place) * exact.length / n
@@ -189,9 +186,9 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
 
 
 def row_of_spheres(cells: int):
-    """Spheres in a row, 24 radii apart: the semi-periodic operator has to let each be a point contact.
+    """Spheres in a row, 24 radii apart. The semi-periodic operator has to let each be a point contact.
 
-    The others press it down by ``(2/(pi E')) F sum 2/(n s)``, a constant and a curvature; the latter widens
+    The others press it down by ``(2/(pi E')) F sum 2/(n s)``, which is a constant and a curvature. The curvature widens
     the contact by less than 1e-4 at this distance.
     """
     exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / cells

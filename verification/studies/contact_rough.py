@@ -30,11 +30,11 @@ REFERENCE = {"quick": 256, "default": 512, "full": 1024}
 def contact_rough(level: str):
     """A rough periodic patch pressed on a layer of bricks, against `lubfric.solve_contact`.
 
-    A box of 50 µm with waves down to a quarter of it, on a layer of 1.25 boxes, whose longest wave is too stiff
-    by 2e-5; the approach to the half-space with the thickness is shown. The contact is solved wave by wave, and
-    its pressure then put as a load on the assembled layer, where multigrid has to find the same gap. Contact
-    areas are counts of nodes, too large by a part of a node along every edge; both sides are corrected alike by
-    the length of the edges (Yastrebov, Anciaux & Molinari 2017, doi:10.1016/j.triboint.2017.04.023).
+    It is a box of 50 µm with waves down to a quarter of it. The layer is 1.25 boxes thick, and its longest wave is too
+    stiff by 2e-5. How it nears the half-space with the thickness is shown. The contact is solved wave by wave. Its
+    pressure is then put as a load on the assembled layer, where multigrid has to find the same gap. Contact areas are
+    counts of nodes, which are too large by a part of a node along every edge. Both sides are corrected alike, by the
+    length of the edges (Yastrebov, Anciaux & Molinari 2017, doi:10.1016/j.triboint.2017.04.023).
     """
     yield from rough(level)
     yield from thickness(level)
@@ -42,7 +42,8 @@ def contact_rough(level: str):
 
 
 def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
-    """Heights in m, root mean square SQ: waves of random phase, 1 to ``waves`` per box, amplitude |n|^slope."""
+    """Heights [m] with root mean square SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude
+    |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
     total, power = np.zeros(np.broadcast_shapes(x.shape, y.shape)), 0.0
     for i in range(waves + 1):
@@ -76,12 +77,12 @@ class Patch:
 
     @property
     def plastic_area(self) -> float:
-        """Share of the nodes at the cap; pressure reaches it with a kink, and no correction is known."""
+        """Share of the nodes at the cap. The pressure reaches it with a kink, for which no correction is known."""
         return float(np.mean(self.pressure >= (1 - 1e-9) * self.limit))
 
     @property
     def mean_gap(self) -> float:
-        """Volume between the bodies over the area of the box, m."""
+        """Volume between the bodies over the area of the box [m]."""
         return float(np.sum(self.weights * np.maximum(self.gap, 0)) / np.sum(self.weights))
 
 
@@ -98,7 +99,7 @@ def layer_of(nodes: int, degree: int, depth: float = THICKNESS, layers: int | No
 
 
 def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
-    """The rough patch on the layer."""
+    """The rough patch pressed on the layer."""
     weights = grid.weights
     found = solve_contact(
         fourier_compliance(grid).displacement,
@@ -116,7 +117,7 @@ def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
 
 
 def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
-    """The same by `lubfric`."""
+    """The same patch by `lubfric`."""
     x = np.arange(nodes) * BOX / nodes
     found = lubfric.solve_contact(
         -roughness(x[:, None], x[None]),
@@ -130,7 +131,7 @@ def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
 
 
 def rough(level: str):
-    """Rough patch, elastic and capped, on several grids."""
+    """The rough patch, elastic and capped, on several grids."""
     rows = []
     for name, limit in (("elastic", None), ("capped", CAP)):
         best = half_space_patch(REFERENCE[level], limit)
@@ -283,7 +284,7 @@ def thickness(level: str):
 
 
 def certified(level: str):
-    """The contact solved wave by wave, put as a load on the assembled layer: does it hold there as well?"""
+    """The contact that was solved wave by wave, as a load on the assembled layer: does it hold there as well?"""
     nodes = 32 if level == "quick" else 64
     degree = 2 if level == "full" else 1
     grid = layer_of(nodes, degree, layers=nodes // 4)

@@ -30,13 +30,13 @@ CASES = {  # cells over 90 µm and speeds [m/s]
 
 
 def deterministic(level: str):
-    """One pressure for film and contact: the smooth film of `solve_ehl`, the dry contact of `solve_contact`, and the
-    film in the rough gap by finite elements.
+    """One pressure for film and contact, held against the smooth film, the dry contact, and finite elements.
 
-    The gap of a deterministic solution is handed to a finite-element Reynolds solver on triangles, with the pressure of
-    the spots above 100 MPa, as what one would call contact; flow and load of the film around them must come out again.
-    In a thin film under such pressures the gap does not determine the pressure well enough to be given. The surface
-    is its own mirror image, so that half of it can be meshed.
+    The smooth film is that of `solve_ehl`, the dry contact that of `solve_contact`. The gap of a deterministic solution
+    is handed to a finite-element Reynolds solver on triangles, with the pressure of the spots above 100 MPa as that of
+    what one would call contact. Flow and load of the film around them must come out again. In a thin film under such
+    pressures the gap does not determine the pressure well enough to be given. The surface is its own mirror image, so
+    that half of it can be meshed.
     """
     yield from smooth()
     yield from dry()
@@ -53,7 +53,7 @@ def contact(speed: float, load: float = LOAD, lubricant: Lubricant | None = None
 
 
 def surface(cells: int, seed: int = 1) -> Surface:
-    """100 nm, Gaussian, 8 µm, over 90 by 70 µm, its own mirror image along y."""
+    """A Gaussian surface of 100 nm and 8 µm, over 90 by 70 µm, which is its own mirror image along y."""
     fine = lubfric.generate_surface(
         (256, 128), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed
     )
@@ -93,7 +93,7 @@ def smooth():
 
 
 def dry():
-    """At 2 µm/s the fluid carries nothing."""
+    """At 2 µm/s the fluid carries nothing, and the dry contact is left."""
     case = problem(64, 2e-6)
     found, exact = solve_point(case).pressure, dry_contact(case, tolerance=1e-8).pressure
     difference = np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2))

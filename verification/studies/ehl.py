@@ -40,15 +40,14 @@ SOLVER = "lubfric.solve_ehl, tolerance 3e-5"
 
 
 def ehl(level: str):
-    """Full-system finite elements (elastic body, Reynolds on its surface and load in one Newton) beside
+    """Full-system finite elements (elastic body, Reynolds on its surface and load in one Newton iteration) beside
     `lubfric`.
 
-    The two share the differential equations and nothing else: a square elastic body meshed with P2 triangles
-    against the logarithmic kernel of a half-space, a weak form against fluxes through faces, pressure >= 0
-    node by node on a fixed mesh against a grid that hangs on the rupture point. Contacts run from rigid (M =
-    0.05, film thirty times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the
-    finite-element mesh is refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5)
-    begin to show.
+    The two share the differential equations and nothing else. A square elastic body meshed with P2 triangles stands
+    against the logarithmic kernel of a half-space, a weak form against fluxes through faces, and pressure >= 0 node by
+    node on a fixed mesh against a grid that hangs on the rupture point. Contacts run from rigid (M = 0.05, film thirty
+    times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the finite-element mesh is
+    refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show.
     """
     pairs = []
     for point in QUICK if level == "quick" else POINTS:
@@ -147,7 +146,7 @@ def ringing():
 
 
 def finite_body():
-    """What a body of side D instead of a half-space costs: the same mesh near the contact, D doubled."""
+    """What a body of side D costs against a half-space: the same mesh near the contact, with D doubled."""
     sides = np.array([60.0, 120.0, 240.0, 480.0])
     contact = make_contact(20, 5)
     films = np.array(

@@ -35,13 +35,12 @@ INLETS = (1.5, 3.0, 6.0, 12.0, 24.0)
 
 
 def ehl_grid(level: str):
-    """`lubfric.solve_ehl` on its nested grids and with inlets ever farther away.
+    """`lubfric.solve_ehl` on its nested grids, and with inlets ever farther away.
 
-    Its one knob is ``tolerance``; grids are doubled until the estimated error is below it. Films are held
-    against a table made by another program, and against the closed form of the rigid isoviscous cylinder, to
-    which a light load leads; there the error itself can be seen falling with the grid, and with the distance
-    of a starved inlet. The estimate has to cover the error. (Finite elements against this solver: study
-    "ehl".)
+    Its one knob is ``tolerance``: grids are doubled until the estimated error is below it. Films are held against a
+    table made by another program, and against the closed form of the rigid isoviscous cylinder, to which a light load
+    leads. There the error itself can be seen falling with the grid, and with the distance of a starved inlet. The
+    estimate has to cover the error. (Finite elements against this solver: study "ehl".)
     """
     yield from table()
     yield from rigid(level)
@@ -50,7 +49,7 @@ def ehl_grid(level: str):
 
 
 def film(M: float, L: float, tolerance: float, law: str = "roelands", **options) -> lubfric.EHLResult:
-    """A film with Moes' numbers M and L; L sets the speed where the law is "constant", too."""
+    """A film with Moes' numbers M and L. L sets the speed also where the law is "constant"."""
     number = (L / (ALPHA * E_PRIME)) ** 4
     return lubfric.solve_ehl(
         load_per_width=M * math.sqrt(number) * E_PRIME * RADIUS,
@@ -82,8 +81,8 @@ def table():
 def rigid(level: str):
     """Light load: smallest film 2.447484/M and flow film 3.000000/M of the rigid isoviscous cylinder.
 
-    What is left on fine grids is the finite inlet, which is estimated apart: the order is that of the changes from grid
-    to grid.
+    What is left on fine grids is the finite inlet, which is estimated apart. So the order is that of the changes from
+    grid to grid.
     """
     cells, errors, estimates, films = CELLS[level], [], [], []
     for n in cells:
@@ -168,7 +167,7 @@ def elastic(level: str):
 
 
 def starved():
-    """A starved inlet at light load: load of the closed form with the same inlet."""
+    """A starved inlet at light load: the load of the closed form with the same inlet."""
     distances, losses = [], []
     flooded = film(RIGID_LOAD, 5.0, 1e-4, "constant")
     for inlet in INLETS:

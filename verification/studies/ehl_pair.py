@@ -29,18 +29,21 @@ class Pair:
 
     @property
     def finest(self) -> Solution:
-        """On the finest mesh."""
+        """The solution on the finest mesh."""
         return self.solutions[-1]
 
     @property
     def label(self) -> str:
-        """M, L, and the density law if it matters."""
+        """M, L, and the density law if it matters, in words."""
         M, L, density = self.point
         return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
 
     def differences(self, s: Solution) -> tuple[float, float, float]:
-        """Relative differences of flow film and smallest film, and the root mean square over the contact of
-        that of the film in flow films; the contact is |x| < 1.2 times where pressure is of order p_h."""
+        """Relative differences of flow film and smallest film, and the root mean square of that of the film over the
+        contact, in flow films.
+
+        The contact reaches here to 1.2 times the place where the film is expected to rupture.
+        """
         width = 1.2 * s.layout.edges[1] * s.contact.half_width
         x = np.linspace(-width, width, 2001)
         off = s.at(x)[1] - self.line.film_at(x)

@@ -11,7 +11,7 @@ from .ehl_pair import Pair
 
 
 def summary(pairs: list[Pair]) -> Table:
-    """Every contact on every mesh."""
+    """The table of every contact on every mesh."""
     rows: list[tuple] = []
     for pair in pairs:
         k = pair.finest.contact.moes_film
@@ -70,7 +70,7 @@ def summary(pairs: list[Pair]) -> Table:
 
 
 def profiles(pairs: list[Pair]):
-    """Pressure and film of both solvers, one panel a contact."""
+    """Pressure and film of both solvers, one panel for each contact."""
     columns = min(3, len(pairs))
     rows = -(-len(pairs) // columns)
     canvas, grid = plotting.axes(rows, columns, width=3.4 * columns, height=2.9 * rows, squeeze=False)
@@ -108,7 +108,7 @@ def profiles(pairs: list[Pair]):
 
 
 def fields(pair: Pair):
-    """VTU of the body and of both solutions on the line, and a picture of the stress."""
+    """VTU files of the body and of both solutions on the line, and a picture of the stress."""
     s, c = pair.finest, pair.finest.contact
     mesh = s.body.basis.mesh
     xx, zz, xz = s.body.stress(s.displacement) * c.hertz_pressure

@@ -32,7 +32,7 @@ MUST_AGREE = ("single loop", "alternating, root")
 
 
 class Case:
-    """A rough contact solved at a given load; its volume over the area A is then given instead."""
+    """A rough contact that is solved at a given load. Its volume over the area A is then given instead."""
 
     def __init__(self, shape: str, hardness: float | None, count: int):
         self.name = f"{shape}, {'elastic' if hardness is None else 'plastic'}"
@@ -76,13 +76,12 @@ class Case:
 
 
 def formulations(level: str):
-    """The same contacts solved for a given load, and for the volume that solution holds, by the methods of
-    the paper.
+    """The same contacts solved for a given load, and by the paper's methods for the volume that this solution holds.
 
-    Three boundary conditions, elastic and with a plastic limit, cold starts, tolerance 1e-6 on the residuals
-    of the returned pressure. The printed algorithm and the test of Eq. (23) are tabulated with what they
-    reach: "converged" is said only of residuals computed from the returned pressure. The cylinder is then
-    closed both ways: contact solved at F_T - F_H and volume balanced, or film imposed and loads balanced.
+    There are three boundary conditions, elastic and with a plastic limit, cold starts, and a tolerance of 1e-6 on the
+    residuals of the returned pressure. The printed algorithm and the test of Eq. (23) are tabulated with what they
+    reach: "converged" is said only of residuals computed from the returned pressure. The cylinder is then closed both
+    ways: contact solved at F_T - F_H and volume balanced, or film imposed and loads balanced.
     """
     rows = []
     for shape in BOUNDARIES:

@@ -36,10 +36,10 @@ def friction(level: str):
     """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8
     µm at 1/e).
 
-    Full film has a closed form for its friction. Running backwards over the mirrored surface must change
-    nothing: a film or a strip off by half a cell would. A sweep starts each speed from its neighbour and has
-    to give what each speed gives alone. Then the numerical choices: the tolerance of the whole job, the cells
-    per correlation length, and the area A of the volume balance, Eq. (8), in a box ever wider.
+    Full film has a closed form for its friction. Running backwards over the mirrored surface must change nothing: a
+    film or a strip off by half a cell would. A sweep starts each speed from its neighbour, and has to give what each
+    speed gives alone. Then come the numerical choices: the tolerance of the whole job, the cells per correlation
+    length, and the area A of the volume balance, Eq. (8), in a box ever wider.
     """
     yield from full_film()
     yield from mirrored()
@@ -52,7 +52,7 @@ def friction(level: str):
 
 
 def scene(region: str, **numerics) -> lubfric.Scene:
-    """The paper's cylinder, everything modelled on the grid given, tightly, unless ``numerics`` say otherwise."""
+    """The paper's cylinder, everything modelled tightly on the grid given, unless ``numerics`` say otherwise."""
     return lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
 
 
@@ -67,13 +67,13 @@ def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics
 
 
 def blocks(heights: np.ndarray, cells: int) -> np.ndarray:
-    """Means in square blocks, so many along x."""
+    """Means of the heights in square blocks, so many along x."""
     k = heights.shape[0] // cells
     return heights.reshape(cells, k, -1, k).mean(axis=(1, 3))
 
 
 def full_film():
-    """Constant viscosity at high speed: a rigid isoviscous film, its friction in closed form."""
+    """Constant viscosity at high speed: a rigid isoviscous film, whose friction has a closed form."""
     made = model(np.zeros((16, 16)), 1e-6)
     made = replace(made, scene=made.scene.with_(lubricant={"viscosity_law": "constant"}))
     point = lubfric.friction(made, 20.0, fields=True)
@@ -109,7 +109,7 @@ def mirrored():
 
 
 def sweep():
-    """A Stribeck curve against its points one by one."""
+    """A Stribeck curve against its points solved one by one."""
     made = model(blocks(surface((64, 64), PATCH / 64), 32), PATCH / 32)
     curve = lubfric.stribeck(made, SPEEDS)
     for speed, f, load in zip(SPEEDS, curve.coefficient, curve.film_load, strict=True):
@@ -133,9 +133,7 @@ def sweep():
 
 
 def contact_cells(finest: int):
-    """One surface averaged in ever larger blocks: errors against the finest grid, by cells per correlation
-    length.
-    """
+    """One surface averaged in ever larger blocks: errors against the finest grid, by cells per correlation length."""
     heights = surface((finest, finest), PATCH / finest)
     grids = [n for n in (32, 64, 128, 256) if n < finest]
     reference = [lubfric.friction(model(heights, PATCH / finest), speed) for speed in SPEEDS]
@@ -223,7 +221,7 @@ def tolerance_of_the_job():
 
 
 def area_of_the_balance():
-    """Strip or box: F_H at the paper's speed against the width of the patch, one surface cut to it."""
+    """Strip or box: F_H at the paper's speed against the width of the patch. One surface is cut to all widths."""
     spacing, cells = 0.9375e-6, 192
     heights = surface((cells, cells), spacing)[:, :96]
     heights = lubfric.Surface(heights, (spacing, spacing)).periodic("mirror", axes=(False, True)).heights

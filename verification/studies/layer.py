@@ -34,12 +34,12 @@ HALF_WIDTH = 5e-6  # of the narrow load, m
 def layer(level: str):
     """An elastic layer on a rigid base by finite elements: does it give the compliance it should?
 
-    Two-dimensional (triangles, factorised) and three-dimensional (bricks; assembled and solved by multigrid,
-    and eliminated wave by wave), both against the exact compliance of a bonded layer, which the tests check
-    with an integration of the equations of elasticity through the depth. The energy of a wave converges at
-    twice the degree of the element. Then the approach to the half-space that `lubfric` assumes: exponential
-    for a wave, linear without bound for the mean (which a gap never sees, the approach takes it up), and with
-    1/d² for the shape under a narrow load, which decides how thick a layer has to be under a Hertz contact.
+    It is two-dimensional (triangles, factorised) and three-dimensional (bricks; assembled and solved by multigrid, and
+    eliminated wave by wave). Both are held against the exact compliance of a bonded layer, which the tests check with
+    an integration of the equations of elasticity through the depth. The energy of a wave converges at twice the degree
+    of the element. Then comes the approach to the half-space that `lubfric` assumes. It is exponential for a wave. It
+    is linear without bound for the mean, which a gap never sees because the approach takes it up. It goes with 1/d² for
+    the shape under a narrow load, which decides how thick a layer has to be under a Hertz contact.
     """
     yield from plane_orders(level)
     yield from plane_finite(level)
@@ -184,7 +184,7 @@ def brick_orders(level: str):
 
 
 def assembled(level: str):
-    """The assembled layer by multigrid against the same wave by wave; what the rigid-body modes are worth."""
+    """The assembled layer by multigrid against the same layer wave by wave, and what the rigid-body modes are worth."""
     n, rows = MULTIGRID[level], []
     for degree in (1, 2):
         grid = brick(n, degree, layers=n // (4 * degree))
@@ -279,10 +279,10 @@ def approach(level: str):
 
 
 def bending(found: Layer) -> float:
-    """Curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``: J (b/d)^2 for a thick layer.
+    """Curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J (b/d)^2.
 
-    The pressure is ``p0 (1 - X^2)^1.5``, X = x/b, for which a half-space sinks by ``(p0 b/E')(X^4 - 3 X^2)``
-    and a constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.
+    The pressure is ``p0 (1 - X^2)^1.5`` with X = x/b. A half-space sinks under it by ``(p0 b/E')(X^4 - 3 X^2)`` and a
+    constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.
     """
     big, b = found.x / HALF_WIDTH, HALF_WIDTH
     force = np.maximum(1 - big**2, 0) ** 1.5 * found.weights
@@ -293,7 +293,7 @@ def bending(found: Layer) -> float:
 
 
 def narrow(level: str):
-    """The shape of the surface under a narrow load: 1/d² and its coefficient; periodic and free sides."""
+    """The shape of the surface under a narrow load, with periodic and with free sides: 1/d² and its coefficient."""
     b = HALF_WIDTH
     depths = b * np.array([5, 10, 20] if level == "quick" else [5, 10, 20, 40])
     deepest, fine = 2 * depths[-1], b / 20

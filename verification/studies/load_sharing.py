@@ -1,6 +1,4 @@
-"""The whole model twice: film, rough contact and their load sharing by finite elements, beside
-`lubfric.friction`.
-"""
+"""The whole model twice: film, rough contact and their load sharing by finite elements, beside `lubfric.friction`."""
 
 from __future__ import annotations
 
@@ -41,8 +39,15 @@ SOURCE = "film and contact by finite elements, own root finder"
 
 @dataclass(frozen=True)
 class Level:
-    """grids: cells along a side; refinements of the film's mesh; fineness: facets per cell as a power of 2;
-    speeds: m/s."""
+    """What a level takes.
+
+    Attributes
+    ----------
+    grids : cells along a side
+    refinements : of the film's mesh
+    fineness : facets per cell as a power of 2
+    speeds : [m/s]
+    """
 
     grids: tuple[int, ...]
     refinements: int
@@ -62,14 +67,13 @@ TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 5e-3, 3e-3), "full
 def load_sharing(level: str):
     """Coefficient, contact load and film load of the paper's cylinder, computed twice with nothing in common.
 
-    Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4
-    µm), coarse enough for finite elements. *Film*: full-system finite elements (elastic body of 240
-    half-widths, Reynolds on its surface) against lubfric's half-space Newton. *Contact*: P2 elements in the
-    section with waves along the line, active set and dense algebra, against lubfric's Bessel kernel and
-    conjugate gradient. *Balance and friction*: own root finder, own integrals. Both sides get the same
-    heights on the same cells and the same meaning of a displacement, its mean over a cell: lubfric's own, at cell
-    centres, is averaged over parts of the cells by its own kernel (`cell_mean`). What is left is the error of the
-    finite elements.
+    It is Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4 µm),
+    coarse enough for finite elements. *Film*: full-system finite elements (elastic body of 240 half-widths, Reynolds on
+    its surface) against lubfric's half-space and Newton's method. *Contact*: P2 elements in the section with waves
+    along the line, active set and dense algebra, against lubfric's Bessel kernel and conjugate gradient. *Balance and
+    friction*: another root finder and other integrals. Both sides get the same heights on the same cells and the same
+    meaning of a displacement, its mean over a cell. lubfric's own is at cell centres, and is averaged over parts of the
+    cells by its own kernel (`cell_mean`). What is left is the error of the finite elements.
     """
     options, points = LEVELS[level], []
     for cells in options.grids:
@@ -87,7 +91,7 @@ def load_sharing(level: str):
 
 @dataclass(frozen=True)
 class Point:
-    """One operating point by both."""
+    """One operating point by both programs."""
 
     cells: int
     speed: float
@@ -95,7 +99,7 @@ class Point:
     main: lubfric.FrictionResult
 
     def differences(self) -> tuple[float, float, float]:
-        """Relative: coefficient, F_H, mean gap."""
+        """Relative differences of coefficient, F_H and mean gap."""
         main, fem = self.main, self.fem
         return (
             abs(main.coefficient / fem.coefficient - 1),
@@ -129,7 +133,7 @@ def rough(finest: int, cells: int) -> np.ndarray:
 
 
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) -> Point:
-    """One speed by both methods; the finite-element root starts from no knowledge of the other's."""
+    """One speed by both methods. The finite-element root starts from no knowledge of the other's."""
     s, cell = scene(), LENGTH / heights.shape[0]
     b, oil = s.bodies, s.lubricant
     fluid = Fluid(oil.viscosity, oil.viscosity_law, oil.pressure_viscosity_coefficient)
@@ -157,9 +161,11 @@ def averaged(model: Prepared) -> Prepared:
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """Displacements averaged over ``PARTS`` parts of each cell along x, under the same uniform pressure of cells:
-    lubfric's own coefficients on a grid of parts, summed over those of the source and averaged over those of the
-    target."""
+    """The operator with displacements averaged over ``PARTS`` parts of each cell along x.
+
+    The pressure is uniform in each cell as before. lubfric's own coefficients on a grid of parts are summed over the
+    parts of the source and averaged over those of the target.
+    """
     (nx, ny), (dx, dy) = operator.shape, operator.spacing
     parts = semiperiodic_coefficients((nx * PARTS, ny), (dx / PARTS, dy), operator.e_prime)
     away = np.arange(nx)[:, None] * PARTS + np.arange(1 - PARTS, PARTS)
@@ -171,7 +177,7 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
 
 
 def checks(points: list[Point], tolerance: tuple[float, float, float]):
-    """Side by side on the finest grid."""
+    """Both programs side by side on the finest grid."""
     for p in points:
         for name, unit, measured, expected, allowed in (
             ("coefficient", "1", p.main.coefficient, p.fem.coefficient, tolerance[0]),
@@ -198,7 +204,7 @@ def checks(points: list[Point], tolerance: tuple[float, float, float]):
 
 
 def side_by_side(points: list[Point]) -> Table:
-    """Everything, both ways."""
+    """Every number of both programs."""
     rows = []
     for p in points:
         f, m = p.fem, p.main

@@ -34,7 +34,7 @@ def reynolds(level: str):
 
 
 def slider(refinements: int):
-    """Plane slider: orders of P1 and P2, load and flow."""
+    """A plane slider: orders of P1 and P2, load and flow."""
     source = "closed form, Rayleigh 1918, doi:10.1080/14786440108635730"
     series = {}
     for degree in (1, 2):
@@ -78,16 +78,17 @@ def slider(refinements: int):
 
 
 def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0) -> skfem.MeshLine:
-    """Cells fine where the film is thin, inlet to X = 2; ``shift`` moves the nodes by a part of a cell."""
+    """Cells that are fine where the film is thin, with the inlet to X = 2. ``shift`` moves the nodes by a part of a
+    cell."""
     span = np.arcsinh(2) + np.arcsinh(-inlet)
     stretched = np.linspace(-np.arcsinh(-inlet), np.arcsinh(2) + shift * span / cells, cells + 1)
     return skfem.MeshLine(np.sinh(stretched) * PARABOLA.scale)
 
 
 def parabola(refinements: int):
-    """Parabolic film with a free rupture point: the constants of the rigid isoviscous cylinder.
+    """A parabolic film with a free rupture point: the constants of the rigid isoviscous cylinder.
 
-    Where in its cell the rupture point lies is chance; errors are root mean squares over shifted meshes.
+    It is chance where in its cell the rupture point lies, so errors are root mean squares over shifted meshes.
     """
     e, series = PARABOLA, {}
     rows: list[tuple] = []
@@ -203,7 +204,7 @@ def parabola_checks(finest: Solution, sizes, errors, degree: int):
 
 
 def parabola_figure():
-    """Pressure on a coarse and a fine mesh beside the closed form, and the rupture point enlarged."""
+    """Pressure on a coarse and a fine mesh beside the closed form, with the rupture point enlarged."""
     e = PARABOLA
     canvas, (wide, close) = plotting.axes(1, 2, width=7.2, height=3.4)
     x = np.linspace(-3, 2, 2001)[None] * e.scale
@@ -230,7 +231,7 @@ def parabola_figure():
 
 
 def piezoviscous(refinements: int):
-    """Barus and Roelands oils in the parabolic gap, exact through the reduced pressure."""
+    """Barus and Roelands oils in the parabolic gap, which are exact through the reduced pressure."""
     base = exact.Parabola(viscosity=0.04, speed=1.0, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     peak = base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
     alpha = 0.99 / peak

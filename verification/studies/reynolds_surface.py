@@ -24,11 +24,10 @@ VISCOSITY, SPEED, INLET, OUTLET = 0.1, 1.0, 2e-6, 1e-6
 def reynolds_surface(level: str):
     """The Reynolds solver on surfaces, triangles and quadrilaterals of first and second order.
 
-    A manufactured pressure in a compressible Roelands oil exercises every term of the weak form, and each
-    element must show its own order. A pad with an exponential film has an exact series for any width,
-    between the infinitely wide and the infinitely narrow pad. A parabolic film of infinite width must repeat
-    the line; one of finite width shows the rupture line bend. The last check solves on a mesh that went
-    through a Gmsh file.
+    A manufactured pressure in a compressible Roelands oil exercises every term of the weak form, and each element must
+    show its own order. A pad with an exponential film has an exact series for any width, between the infinitely wide
+    and the infinitely narrow pad. A parabolic film of infinite width must repeat the line, and one of finite width
+    shows the rupture line bend. The last check solves on a mesh that went through a Gmsh file.
     """
     yield from manufactured(REFINEMENTS[level])
     yield from finite_width(REFINEMENTS[level])
@@ -46,11 +45,11 @@ class Manufactured:
         self.wave = np.pi / np.array([LENGTH, WIDTH][:dimension])
 
     def film(self, x):
-        """Film in m, sloping in x and bent in y."""
+        """Film [m], sloping in x and bent in y."""
         return 1e-6 * (2 - x[0] / LENGTH + (0.3 * np.cos(2 * x[1] / WIDTH) if len(self.wave) > 1 else 0.0))
 
     def film_slope(self, x):
-        """Its gradient."""
+        """Gradient of the film."""
         along = -1e-6 / LENGTH + 0 * x[0]
         if len(self.wave) == 1:
             return np.array([along])
@@ -61,7 +60,7 @@ class Manufactured:
         return self.peak * np.prod([np.sin(k * a) for k, a in zip(self.wave, x, strict=True)], axis=0)
 
     def gradient(self, x):
-        """Its gradient, Pa/m."""
+        """Gradient of the pressure [Pa/m]."""
         shape = [
             [
                 (k * np.cos(k * a) if i == j else np.sin(k * a))
@@ -202,7 +201,7 @@ def finite_width(refinements: int):
 
 
 def exact_pad() -> exact.ExponentialPad:
-    """The pad that is as wide as long."""
+    """The exact pad that is as wide as it is long."""
     return exact.ExponentialPad(VISCOSITY, SPEED, LENGTH, LENGTH, INLET, OUTLET)
 
 

@@ -35,7 +35,8 @@ EYRING, LIMIT, OFFSET = 1e6, 0.02, 0.3e6  # Pa, 1, Pa: both cut the stress of a 
 
 @dataclass(frozen=True)
 class Case:
-    """Sections of the scene that are changed; the fluid that finite elements have instead; hardness (Pa)."""
+    """A case: the sections of the scene that are changed, the fluid that finite elements have instead, and the hardness
+    (Pa)."""
 
     name: str
     speed: float
@@ -71,9 +72,10 @@ CASES = (
 def sharing_cases(level: str):
     """What `load_sharing` does at one corner, at others: f, both loads, gap and shear force of `lubfric.friction`.
 
-    Eyring's law with a limiting shear stress, a compressible oil, Barus' law, nearly pure rolling and the other surface
-    sliding, a hardness at which cells do yield; then a measured map that has to be turned, scaled and mirrored, on
-    cells that are not square, and the nominally flat contact, whose patch is pressed on an elastic layer of bricks.
+    They are Eyring's law with a limiting shear stress, a compressible oil, Barus' law, nearly pure rolling and the
+    other surface sliding, and a hardness at which cells do yield. Then comes a measured map that has to be turned,
+    scaled and mirrored, on cells that are not square. Last is the nominally flat contact, whose patch is pressed on an
+    elastic layer of bricks.
     """
     asked, refinements = TOLERANCE[level], REFINEMENTS[level]
     body, heights = strip(LENGTH / CELLS), rough(CELLS, CELLS)
@@ -91,7 +93,7 @@ def sharing_cases(level: str):
 
 @lru_cache(maxsize=2)
 def strip(across: float) -> Compliance:
-    """Of the patch with cells ``across`` (m) long along y."""
+    """The strip of the patch, with cells ``across`` (m) long along y."""
     return compliance(Strip((CELLS, CELLS), (LENGTH / CELLS, across), elastic(), fineness=1))
 
 
@@ -106,7 +108,7 @@ def line_contact(model: Prepared, case: Case) -> LineContact:
 
 
 def cylinder(model: Prepared, body: Compliance, heights: np.ndarray, case: Case) -> Bodies:
-    """The same for the finite elements; nothing of ``model`` but numbers of its scene."""
+    """The same for the finite elements. They get nothing of ``model`` but numbers of its scene."""
     b = model.scene.bodies
     sliding = model.scene.motion.slide_roll_ratio * case.speed
     f_b = b.boundary_friction_coefficient
@@ -114,7 +116,7 @@ def cylinder(model: Prepared, body: Compliance, heights: np.ndarray, case: Case)
 
 
 def compared(name: str, found: Shared, main: lubfric.FrictionResult, allowed: tuple[float, float, float]):
-    """Side by side: loads to a part of the film's, which is what the balance finds."""
+    """Both side by side. Loads are compared as a part of the film's, which is what the balance finds."""
     rows = (
         ("coefficient", "1", main.coefficient, found.coefficient, allowed[0]),
         ("F_H", "N", main.film_load, found.film_load, allowed[1]),
@@ -135,8 +137,8 @@ def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model
 
 
 def measured_map(allowed, refinements: int):
-    """A ground surface in a file: lines of an axis that is not that of motion, other cells along it, tilted, too
-    rough."""
+    """A ground surface in a file: it lies along the other axis, has other cells along it, is tilted, and is
+    too rough."""
     across = 1.1e-6
     case = Case("measured map", 0.01)
     with tempfile.TemporaryDirectory() as folder:
@@ -153,7 +155,7 @@ def measured_map(allowed, refinements: int):
 
 
 def ground(across: float) -> np.ndarray:
-    """Heights (CELLS/2, CELLS) m, grooved and skewed: worn tops, deep scratches, on a tilted plane."""
+    """Heights (CELLS/2, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
     rng = np.random.default_rng(5)
     y, x = np.arange(CELLS // 2)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
     waves = sum(
@@ -165,7 +167,7 @@ def ground(across: float) -> np.ndarray:
 
 
 def levelled(z: np.ndarray) -> np.ndarray:
-    """Less its plane of least squares."""
+    """The heights less their plane of least squares."""
     i, j = np.indices(z.shape)
     terms = np.stack([np.ones(z.size), i.ravel(), j.ravel()], axis=1)
     return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
@@ -186,7 +188,8 @@ def flat(allowed, refinements: int):
 
 
 def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
-    """Mean gap (m) and share in contact of the periodic patch on a layer of bricks at a mean pressure (Pa)."""
+    """Mean gap (m) and share in contact of the periodic patch, pressed on a layer of bricks with a mean
+    pressure (Pa)."""
     grid = layer_of(nodes, 2)
     displacement, weights = fourier_compliance(grid).displacement, grid.weights.ravel()
     gap0 = -roughness(*grid.x).ravel()

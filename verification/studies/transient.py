@@ -57,12 +57,12 @@ MATRIX = {
 
 
 def transient(level: str):
-    """The squeeze term of Eq. (6), marched by BDF2, where something independent is known.
+    """The squeeze term of Eq. (6), taken through time by BDF2, where something independent is known.
 
-    A rigid cylinder that sinks into oil has a closed form. A contact whose speed is halved at once is
-    compared, time by time, with a table from a separate solver, by both methods of `lubfric`. A contact
-    that is stopped or reversed is left with squeeze alone. Last, speed and load jump tenfold up and down,
-    with first steps over four decades: every run must end at the steady state, or be reported as failed.
+    A rigid cylinder that sinks into oil has a closed form. A contact whose speed is halved at once is compared, time by
+    time, with a table from a separate solver, by both methods of `lubfric`. A contact that is stopped or reversed is
+    left with squeeze alone. Last, speed and load jump tenfold up and down, with first steps over four decades. Every
+    run must end at the steady state, or be reported as failed.
     """
     yield from squeeze(level)
     yield from halved()
@@ -91,7 +91,7 @@ def contact(M: float, L: float, density: str = "constant"):
 
 
 def step_history(value: float, factor: float, at: float = 0.0) -> History:
-    """A jump of a value by a factor."""
+    """A value that jumps by ``factor``."""
     before = () if at == 0.0 else (0.0,)
     return History(times=(*before, at, at, 1e3), values=(value,) * (len(before) + 1) + (factor * value,) * 2)
 
@@ -148,7 +148,7 @@ def setting(resolution: float):
 
 
 def marched(resolution: float, steps: int) -> float:
-    """Film after 0.3 of the squeeze in equal steps, in units of the start."""
+    """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     z = parabola(made, 1e-6)
     march = March((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
@@ -174,7 +174,7 @@ def one_step(resolution: float) -> float:
 
 
 def halved():
-    """Speed halved at once at M = 20, L = 5, both methods."""
+    """The speed halved at once at M = 20, L = 5, by both methods."""
     keywords, problem, unit = contact(20, 5, "dowson-higginson")
     b = problem.half_width * problem.length_unit
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.5)
@@ -210,7 +210,7 @@ def halved():
 
 
 def stopped():
-    """A contact brought to a stop: light loads follow the squeeze law, heavy ones trap their film."""
+    """A contact brought to a stop. Light loads follow the squeeze law, and heavy ones trap their film."""
     canvas, (left, right) = plotting.axes(1, 2, width=8.0, height=3.4)
     keywords, problem, unit = contact(0.05, 1)
     keywords |= {
@@ -296,7 +296,7 @@ def reversal():
 
 
 def jumps(level: str):
-    """Tenfold jumps and first steps over four decades: the steady state, or a reported failure."""
+    """Tenfold jumps, with first steps over four decades: the steady state, or a reported failure."""
     rows: list[tuple] = []
     wrong = failed = 0
     cases = [

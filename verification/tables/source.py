@@ -9,6 +9,6 @@ from lubfric.version import __version__
 
 
 def source(command: str) -> str:
-    """One line in italics: the command, the day, the version and the machine."""
+    """One line in italics: the command as it is typed, the day, the version and the machine."""
     day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
-    return f"*`python -m verification {command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"
+    return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable
 from functools import cache
 
+from .. import wording
+from ..check import Check
 from ..run import Outcome, quiet, run_one
 from ..stability.cell import VERDICTS
 from ..studies import STUDIES
@@ -28,7 +30,7 @@ def ran(name: str) -> Outcome:
 
 
 def copied(study: str, table: str, *formats: str) -> Callable[[], Cells]:
-    """A table of a study as it stands there; one format a column, the last for all that are left."""
+    """A table of a study as it stands there, with one format for each column, the last one for all that are left."""
 
     def make() -> Cells:
         found = next(t for t in ran(study).tables if t.name == table)
@@ -85,6 +87,20 @@ def tolerance_asked() -> Cells:
     return ["tolerance asked", "error of f"], rows
 
 
+def transient() -> Cells:
+    """What runs in time were held against: the worst check of every kind. Times are left out."""
+    worst: dict[str, tuple[float, Check]] = {}
+    for check in (
+        c for name in ("transient", "transient_mixed") for c in ran(name).checks if c.decisive and c.unit != "s"
+    ):
+        kind = re.split(r" at T = |: (?=smallest|central)", check.name)[0]
+        used = check.deviation / check.tolerance if check.tolerance else check.deviation
+        if kind not in worst or used > worst[kind][0]:
+            worst[kind] = used, check
+    rows = [[kind, wording.number(c.measured), wording.allowed(c), c.source] for kind, (_, c) in worst.items()]
+    return ["what", "found", "allowed", "by"], rows
+
+
 def formulations() -> Cells:
     """Convolutions and iterations of the paper's formulations beside the default."""
     found = next(t for t in ran("formulations").tables if t.name == "formulations")
@@ -134,6 +150,7 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "tolerance-asked": tolerance_asked,
     "area": copied("friction", "area", "g", ".4f"),
     "patch-length": copied("friction", "patch_size", "g", ".4f"),
+    "transient": transient,
     "formulations": formulations,
     "closures": closures,
     **{f"stability-{kind}": stability(kind) for kind in ("film", "contact", "sharing")},

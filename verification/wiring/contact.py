@@ -1,4 +1,4 @@
-"""Wiring of the rough contact: hardness, area, coarse grids, what part of the width is touched."""
+"""Wiring of the rough contact: hardness, area, coarse grids, and what part of the width is touched."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ STRIP = "pressures of the strip that was found, summed anew"
 def wiring_contact(level: str) -> Iterator[Check]:
     """At rest the contact carries everything, so that hardness and area can be seen on it alone.
 
-    The flat curve against one dry contact at its pressure, asperities that all yield against load over hardness, the
-    cylinder against its hardness; then coarse grids, and what part of the width is touched.
+    The flat curve is held against one dry contact at its pressure, asperities that all yield against load over
+    hardness, and the cylinder against its hardness. Coarse grids follow, and what part of the width is touched.
     """
     yield from flat()
     yield from asperities()
@@ -55,7 +55,7 @@ def flat() -> Iterator[Check]:
 
 
 def asperities() -> Iterator[Check]:
-    """Summits so soft that all yield carry the hardness on all that they touch."""
+    """Summits so soft that all of them yield carry the hardness on all that they touch."""
     z, pressure = heights(64, 64), 102e6
     for geometry, surface in (("flat", (64, 64)), ("cylinder", (64, 64))):
         s = lubfric.load_scene("paper").with_(
@@ -77,7 +77,7 @@ def asperities() -> Iterator[Check]:
 
 
 def cylinder() -> Iterator[Check]:
-    """No pressure above the hardness and the whole load on it; the area A as wide as asked."""
+    """No pressure is above the hardness, and the whole load is on it. The area A is as wide as asked."""
     z = heights(64, 32)
     for region in ("hertz", "box"):
         s = lubfric.load_scene("paper").with_(
@@ -110,7 +110,7 @@ def coarse() -> Iterator[Check]:
 
 
 def columns() -> Iterator[Check]:
-    """The share in contact of stretches of x: all of it, and about the right place."""
+    """The share in contact of stretches of x: it sums to all of it, and lies about the right place."""
     x, share = np.arange(-5.0, 6.0), np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
     state = ContactState(1.0, 1.0, x, share, 0.0, 0.0)
     edges = np.linspace(-6.0, 6.0, 481)

@@ -31,8 +31,11 @@ SHEARED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 
 
 def wiring_film(level: str) -> Iterator[Check]:
-    """Laws of the oil in the film of `friction`, against another discretisation called with plain numbers; its shear
-    force, with each law of shear, against an own integral with the columns in contact taken out."""
+    """Laws of the oil in the film of `friction`, against another discretisation that is called with plain numbers.
+
+    The shear force, with each law of shear, is held against an integral of its own with the columns in contact taken
+    out.
+    """
     for name, oil in LAWS.items():
         yield from film(name, oil)
     for name, (oil, motion) in SHEARED.items():
@@ -40,7 +43,7 @@ def wiring_film(level: str) -> Iterator[Check]:
 
 
 def smooth(oil: dict) -> lubfric.Scene:
-    """The paper's cylinder at 300 N without contact: a Hertz pressure of 960 MPa."""
+    """The paper's cylinder at 300 N without contact, which is a Hertz pressure of 960 MPa."""
     return lubfric.load_scene("paper").with_(
         bodies={"load": 300.0, "hardness": None},
         lubricant=oil,
@@ -106,7 +109,7 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
 
 
 def stress(oil: dict, p: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Of the paper's oil (Roelands) with the shear laws of ``oil``."""
+    """Shear stress of the paper's oil (Roelands) with the shear laws of ``oil``."""
     z = 25e-9 * 1.96e8 / (np.log(0.36) + 9.67)
     tau = 0.36 * np.exp((np.log(0.36) + 9.67) * ((1 + p / 1.96e8) ** z - 1)) * rate
     if "eyring_stress" in oil:
@@ -117,7 +120,7 @@ def stress(oil: dict, p: np.ndarray, rate: np.ndarray) -> np.ndarray:
 
 
 def upstream(line, radius: float) -> float:
-    """∫ dx/h before the first node, of a parabola."""
+    """∫ dx/h before the first node of a parabola."""
     a, h = -line.x[0], line.film_thickness[0]
     x = a * np.geomspace(1.0, 1e4, 4001)
     gap = h + (x**2 - a**2) / (2 * radius)

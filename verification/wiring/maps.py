@@ -25,8 +25,10 @@ PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})  # the
 
 
 def wiring_maps(level: str) -> Iterator[Check]:
-    """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy; of a
-    generated map its height and lengths."""
+    """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy.
+
+    Of a generated map, its height and its lengths.
+    """
     with tempfile.TemporaryDirectory() as folder:
         yield from measured(Path(folder))
     yield from generated()
@@ -43,19 +45,19 @@ def ground() -> np.ndarray:
 
 
 def planed(z: np.ndarray, order: int = 1) -> np.ndarray:
-    """Less its polynomial of least squares, of first or second order."""
+    """The map less its polynomial of least squares, of first or second order."""
     i, j = (a.ravel() / a.max() for a in np.indices(z.shape))
     terms = np.stack([i**p * j**q for p in range(order + 1) for q in range(order + 1 - p)], axis=1)
     return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
 
 
 def mirrored(z: np.ndarray) -> np.ndarray:
-    """And its image along y."""
+    """The map and its image along y."""
     return np.concatenate([z, z[:, ::-1]], axis=1)
 
 
 def measured(folder: Path) -> Iterator[Check]:
-    """The map that the contact gets, case by case: largest height error over Sq, and both cell lengths."""
+    """The map that the contact gets, case by case: the largest height error over Sq, and both cell lengths."""
     z = ground()
     np.save(folder / "z.npy", z)
     np.save(folder / "um.npy", 1e6 * z)
@@ -89,7 +91,7 @@ def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
 
 
 def generated() -> Iterator[Check]:
-    """Height, length at the level asked for along each axis, and another map for another seed."""
+    """Height, length at the level asked for along each axis, and that another seed gives another map."""
     maps = {}
     for seed in (1, 2):
         rough = Roughness(sq=80e-9, correlation_length=(3e-6, 6e-6), acf="gaussian", decay_level=0.2, seed=seed)

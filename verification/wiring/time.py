@@ -1,4 +1,4 @@
-"""Wiring of the transient: what does not change leaves the steady state alone, what changes ends in the new one."""
+"""Wiring of the transient: what does not change leaves the steady state alone, and what changes ends in the new one."""
 
 from __future__ import annotations
 
@@ -24,8 +24,11 @@ TIGHT = {"film_tolerance": 1e-3}
 
 
 def wiring_time(level: str) -> Iterator[Check]:
-    """A transient in which nothing changes, with each law of the oil, against the steady coefficient; and one in which
-    load, radius, viscosity, speed and sliding ramp at once, which ends in the steady state of the new values."""
+    """A transient in which nothing changes, with each law of the oil, against the steady coefficient.
+
+    In another one load, radius, viscosity, speed and sliding ramp at once. It ends in the steady state of the new
+    values.
+    """
     for name, oil in OILS.items():
         yield from unchanged(name, oil)
     yield from ramped()
@@ -62,7 +65,7 @@ def full_film(**changed) -> Scene:
 
 
 def ramped() -> Iterator[Check]:
-    """All histories at once; the film forgets within a few passages of the contact."""
+    """All histories at once. The film forgets within a few passages of the contact."""
     end = 2e-3
 
     def ramp(first: float, last: float) -> Ramp:

@@ -1,8 +1,8 @@
 """The film in time: `solve_transient_ehl`, and the steps that load sharing in time is made of.
 
-`fixed_grid`, `squeeze` (the equations of one implicit step), `tail` (the film beyond the grid), `active_set` (a step
-solved). `setting`: one contact with its histories, units, grid and first state, which `lubfric.march` marches; `solve`:
-the run.
+`fixed_grid` is the grid, `squeeze` has the equations of one implicit step, `tail` the film beyond the grid, and
+`active_set` solves a step. `setting` is one contact with its histories, units, grid and first state, which
+`lubfric.march` takes through time. `solve` is the run.
 """
 
 from .solve import solve_transient_ehl

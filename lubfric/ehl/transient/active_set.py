@@ -1,4 +1,4 @@
-"""Newton's method for one implicit step, with the cavitated nodes as a set that each step decides anew."""
+"""Newton's method for one implicit step. Each of its steps decides anew which nodes are cavitated."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 @dataclass(frozen=True)
 class StepSolution:
-    """Unknowns z with their `StepTerms`; cavitated (n + 1,): nodes held at P = 0; residuals: see
+    """The unknowns z with their `StepTerms`, the cavitated nodes (n + 1,), held at P = 0, and the residuals of
     `measure`."""
 
     z: np.ndarray
@@ -47,11 +47,12 @@ def solve_step(
     tolerance: float = 1e-7,
     max_steps: int = 25,
 ) -> StepSolution:
-    """Solve the complementarity equations of `squeeze` from z to max(residuals) <= tolerance.
+    """Solve the complementarity equations of `squeeze` from z until max(residuals) <= tolerance.
 
-    A node is taken as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is
-    negative (a primal-dual active set, that is a semismooth Newton method). Where that fails, the load is led
-    from what z carries to what is asked in stages (not with a spring, which needs no such help)."""
+    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This is a
+    primal-dual active set, which is a semismooth Newton method. Where that fails, the load is led in stages from what z
+    carries to what is asked. (Not with a spring, which needs no such help.)
+    """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         solution = _iterate(grid, problem, now, memory, spring, z, tolerance, max_steps)
         if solution.status != CONVERGED and spring is None and grid.weights @ z[:-1] > 0.0:
@@ -103,8 +104,12 @@ def _iterate(grid, problem, now, memory, spring, z, tolerance, max_steps) -> Ste
 
 
 def measure(grid: FixedGrid, now: Conditions, memory: Memory, t: StepTerms) -> dict[str, float]:
-    """Relative residuals: mass of the pressurised control volumes (of what they hold, per step or per
-    transit of their film), tension and lubricant made in the cavitated ones, load, pressure at the ends."""
+    """Relative residuals.
+
+    They are those of the mass of the pressurised control volumes (relative to what they hold, per step or per transit
+    of their film), of tension in the cavitated ones and of lubricant made there, of the load, and of the pressure at
+    the ends.
+    """
     scale = t.H * (memory.rate * grid.weights + abs(now.speed)) + 1e-300
     top = max(float(t.P.max()), 1e-300)
     mass = t.r[1:-1] / scale[1:-1]

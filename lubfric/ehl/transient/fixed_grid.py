@@ -1,8 +1,8 @@
-"""A graded grid that stays where it is and is the same on both sides of the line of centres.
+"""A graded grid that stays where it is, and is the same on both sides of the line of centres.
 
-Flow may reverse and the film may rupture on either side, on both or on none, so no node hangs on a
-rupture point. Cells are smallest at the edges of the Hertz contact on both sides (over the whole range
-that changing loads give them) and grow in proportion to the distance from there.
+Flow may reverse, and the film may rupture on either side, on both or on none. So no node hangs on a rupture point.
+Cells are smallest at the edges of the Hertz contact on both sides, over the whole range that changing loads give them.
+They grow in proportion to the distance from there.
 """
 
 from __future__ import annotations
@@ -22,8 +22,16 @@ FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 
 @dataclass(frozen=True)
 class FixedGrid:
-    """x: nodes (n + 1); cells (n,); weights (n + 1): of the pressure integral, and lengths of the control
-    volumes; kernel: pressure to film at the nodes; forward, backward, centred: see `Faces`."""
+    """The grid with its operators.
+
+    Attributes
+    ----------
+    x : (n + 1,) nodes
+    cells : (n,) lengths of the cells
+    weights : (n + 1,) of the integral of pressure; also the lengths of the control volumes
+    kernel : takes pressure to film at the nodes
+    forward, backward, centred : interpolations to the faces, see `Faces`
+    """
 
     x: np.ndarray
     cells: np.ndarray
@@ -39,14 +47,17 @@ class FixedGrid:
         return self.cells.size
 
     def upwind(self, speed: float) -> Faces:
-        """Interpolation that looks against the flow."""
+        """The interpolation that looks against the flow."""
         return self.forward if speed >= 0.0 else self.backward
 
 
 @dataclass(frozen=True)
 class Faces:
-    """Lagrange interpolation from nodes to the faces between them: at face i the nodes ``columns[i]`` with
-    ``values[i]``; kernel (n, n + 1): pressure to film at the faces."""
+    """Lagrange interpolation from nodes to the faces between them.
+
+    Face i takes the nodes ``columns[i]`` with the weights ``values[i]``. ``kernel`` (n, n + 1) takes pressure to film
+    at the faces.
+    """
 
     columns: np.ndarray
     values: np.ndarray
@@ -57,7 +68,7 @@ class Faces:
 
 
 def make_fixed_grid(x: np.ndarray) -> FixedGrid:
-    """The operators on increasing nodes ``x``."""
+    """The grid and its operators on increasing nodes ``x``."""
     cells = np.diff(x)
     kernel = hat_kernel(x, x)
     return FixedGrid(
@@ -88,11 +99,11 @@ def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces
 def symmetric_nodes(
     resolution: float, edges: tuple[float, float], films: tuple[float, float], reach: float = 0.0
 ) -> np.ndarray:
-    """Nodes symmetric about 0; their number is ``resolution`` times the size of the task.
+    """Nodes symmetric about 0. Their number is ``resolution`` times the size of the task.
 
-    ``edges``: smallest and largest Hertz half-width; ``films``: smallest and largest film, all in the units
-    x, h = x²/R. The cells resolve the smallest film's pressure rise at every edge; the domain reaches beyond
-    three half-widths by ``FAR`` sqrt(2 h) of the largest film, and at least to ``reach``.
+    ``edges`` are the smallest and the largest Hertz half-width, ``films`` the smallest and the largest film, all in the
+    units x and h = x²/R. The cells resolve the rise of the smallest film's pressure at every edge. The domain reaches
+    beyond three half-widths by ``FAR`` sqrt(2 h) of the largest film, and at least to ``reach``.
     """
     inner, outer = edges
     small, large = (math.sqrt(2.0 * h) for h in films)

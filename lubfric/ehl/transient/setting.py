@@ -35,8 +35,12 @@ LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, wh
 class ContactHistory:
     """A line contact in time: histories in SI units from t = 0 to ``duration`` [s].
 
-    load [N/m], radius [m], speed [m/s] (entrainment), viscosity [Pa s] (ambient; the pressure law stays);
-    initial_film [m]: flying height of the undeformed parabola at t = 0, or None: steady before t = 0.
+    Attributes
+    ----------
+    load, radius : [N/m], [m]
+    speed : [m/s], of entrainment
+    viscosity : [Pa s], ambient; the law of the pressure stays
+    initial_film : [m] flying height of the undeformed parabola at t = 0; None: steady before t = 0
     """
 
     load: History
@@ -49,7 +53,7 @@ class ContactHistory:
     initial_film: float | None = None
 
     def steady(self, load: float | None = None) -> LineContact:
-        """As it is just before t = 0 (there must be entrainment), or with another load [N/m]."""
+        """The steady contact just before t = 0 (there must be entrainment), or the same with another load [N/m]."""
         oil = replace(self.lubricant, viscosity=self.viscosity.before(0.0))
         return LineContact(
             load or self.load.before(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
@@ -66,11 +70,11 @@ class Setting:
 
     @property
     def time_unit(self) -> float:
-        """Unit of time [s]: the unit of x over the reference speed."""
+        """The unit of time [s]: the unit of x over the reference speed."""
         return self.problem.length_unit / self.problem.contact.entrainment_speed
 
     def conditions(self, time: float) -> Conditions:
-        """Just before ``time`` [s]."""
+        """Speed, load, curvature and viscosity just before ``time`` [s]."""
         c, p = self.contact, self.problem
         return Conditions(
             c.speed.before(time) / p.contact.entrainment_speed,
@@ -87,7 +91,7 @@ class Setting:
         spring: Spring | None = None,
         tolerance: float = 1e-7,
     ) -> StepSolution:
-        """Solve for ``time`` [s] with a memory whose rate is in 1/s."""
+        """Solve the step that ends at ``time`` [s], with a memory whose rate is in 1/s."""
         return solve_step(
             self.grid,
             self.problem,
@@ -103,7 +107,7 @@ class Setting:
         return self.step(time, memory, z)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
-        """Root mean square over the pressurised film of a difference of films, relative to the film."""
+        """Root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.terms.P
         weights = self.grid.weights * (P > WET * P.max())
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
@@ -114,12 +118,12 @@ class Setting:
 
     @property
     def histories(self) -> tuple[History, ...]:
-        """All that changes in time."""
+        """All histories that change in time."""
         return self.contact.speed, self.contact.load, self.contact.radius, self.contact.viscosity
 
     @property
     def first_step(self) -> float:
-        """The step [s] after a start or a jump."""
+        """The length [s] of the step after a start or a jump."""
         contact = self.contact
         fastest = max(abs(u) for u in contact.speed.range(contact.duration))
         width = math.hypot(self.problem.half_width, 3.0) * self.problem.length_unit
@@ -144,10 +148,11 @@ def make_setting(
     film_range: tuple[float, float] = (math.inf, 0.0),
     finer: float = 1.0,
 ) -> Setting:
-    """Units and grid for all that the histories ask for.
+    """Units and grid that do for all that the histories ask for.
 
-    ``shared``: the film carries only part of the load; ``reach`` [m]: the grid extends so far at least;
-    ``film_range`` [m]: films to resolve beside those of Moes' formula; ``finer``: more nodes by this factor.
+    ``shared`` says that the film carries only part of the load. The grid extends to ``reach`` [m] at least.
+    ``film_range`` [m] are films to resolve beside those of Moes' formula. ``finer`` is the factor by which there are
+    more nodes.
     """
     problem, films = _reference(contact, film_range)
     load = contact.load.range(contact.duration)
@@ -191,12 +196,13 @@ def _moes(reference: LineContact, load: float, radius: float, viscosity: float, 
 
 
 def parabola(setting: Setting, film: float) -> np.ndarray:
-    """Unknowns of the undeformed gap with the smallest film [m] and no pressure."""
+    """Unknowns of the undeformed gap with the smallest film [m], without pressure."""
     return np.append(np.zeros(setting.grid.n + 1), film / setting.problem.film_unit)
 
 
 def steady_start(setting: Setting, load: float | None = None, spring: Spring | None = None) -> StepSolution:
-    """The steady state of the conditions just before t = 0 (load [N/m]: instead of the history's)."""
+    """The steady state of the conditions just before t = 0, with ``load`` [N/m] in place of the history's if it is
+    given."""
     c, p, grid = setting.contact, setting.problem, setting.grid
     now = setting.conditions(0.0)
     found = solve_line_contact(c.steady(load), Effort(tolerance=0.01))
@@ -213,7 +219,7 @@ def steady_start(setting: Setting, load: float | None = None, spring: Spring | N
 
 
 def discretisation(setting: Setting, solution: StepSolution) -> float:
-    """Relative error of smallest and central film of a steady solution, from the grid of every other node."""
+    """Relative error of smallest and central film of a steady solution, judged by the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
     z = np.append(solution.z[:-1:2], solution.z[-1])
     z[-1] += solution.terms.H[setting.grid.n // 2] - (coarse.grid.kernel[coarse.grid.n // 2] @ z[:-1] + z[-1])

@@ -1,4 +1,4 @@
-"""`solve_transient_ehl`: the smooth line contact in time, the film carrying the whole load."""
+"""`solve_transient_ehl`: the smooth line contact in time, where the film carries the whole load."""
 
 from __future__ import annotations
 
@@ -31,9 +31,15 @@ TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
 @dataclass(frozen=True)
 class TransientFilm:
-    """Film over time, SI units: time (nt,), x (nx,), pressure and film_thickness (nt, nx); min_film,
-    central_film (nt,): smallest film and film at x = 0; load (nt,) [N/m]: what the film carries, with the
-    inlet tails."""
+    """Film over time, in SI units.
+
+    Attributes
+    ----------
+    time, x : (nt,) [s], (nx,) [m]
+    pressure, film_thickness : (nt, nx) [Pa], [m]
+    min_film, central_film : (nt,) [m] the smallest film, and the film at x = 0
+    load : (nt,) [N/m] what the film carries, with the tails of the inlet
+    """
 
     time: np.ndarray
     x: np.ndarray
@@ -65,20 +71,20 @@ def solve_transient_ehl(
 ) -> TransientFilm:
     """Film of a smooth line contact whose load, radius, speed or viscosity change in time.
 
-    load_per_width [N/m], radius [m], viscosity [Pa s] (all > 0), entrainment_speed [m/s] (any sign, also 0): numbers or
-        histories (`lubfric.history`)
-    e_prime [Pa]; pressure_viscosity_coefficient [1/Pa]; viscosity_law, density_law : see `lubfric.lubricant.Lubricant`
+    Parameters
+    ----------
+    load_per_width, radius, viscosity : [N/m], [m], [Pa s], all > 0; numbers or histories (`lubfric.history`)
+    entrainment_speed : [m/s], any sign, also 0; a number or a history
+    e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.lubricant.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
     initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
         None: from the steady state of the values before t = 0
-    tolerance : asked of the grid, relative to the film; 1e-5 to 0.1
-    time_tolerance : largest local error of the film in a step, relative (None: 0.01 x tolerance)
+    tolerance, time_tolerance : relative error of the film by the grid, 1e-5 to 0.1, and in a step (None: 1 % of it)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
-    Equations, cavitation and residuals: `squeeze` and `active_set` beside this module; time: `lubfric.march`.
-    report.residuals: "step", the largest accepted local error, and "grid", the grid error of the smallest and central
-    film of the steady start (where there is one), each over its tolerance. Raises `InputError` before any work,
-    `ConvergenceError` with the films so far when the shortest step fails or there is no accurate steady start.
+    ``report.residuals`` are the largest accepted local error ("step") and the error of the grid at the steady start
+    ("grid"), each over its tolerance. Raises `InputError` before any work, and `ConvergenceError` with the films so far
+    when the shortest step fails or there is no accurate steady start. Equations of a step: `squeeze`, `active_set`.
     """
     times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
@@ -128,8 +134,7 @@ def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[st
 
 
 def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, StepSolution, float]:
-    """(setting, state at t = 0, grid error), the grid refined until a steady start is as accurate as
-    asked."""
+    """(setting, state at t = 0, grid error). The grid is refined until a steady start is as accurate as asked."""
     if contact.initial_film is not None:
         setting = make_setting(contact, tolerance)
         return setting, setting.at_rest(parabola(setting, contact.initial_film)), math.nan

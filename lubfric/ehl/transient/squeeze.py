@@ -1,18 +1,19 @@
-"""One implicit time step of the line contact: complementarity equations and their Jacobian.
+"""One implicit time step of the line contact: its complementarity equations and their Jacobian.
 
     d(rho H)/dT + u d(rho H)/dX = d/dX( rho H³/(6 nu eta) dP/dX )   where P > 0,
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
-in the units of `lubfric.ehl.problem` for a reference speed, T = t U_ref/(unit of x). The time derivative is
-``rate (rho H - memory)``: any implicit formula has that shape (BDF2: `lubfric.march.bdf`); rate = 0 is
-the steady state. Unknowns z: the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
+The units are those of `lubfric.ehl.problem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
+``rate (rho H - memory)``. Any implicit formula has that shape (BDF2: `lubfric.march.bdf`), and rate = 0 is the steady
+state. The unknowns z are the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
 
-Control volumes around the nodes; Couette flow with film and density interpolated third-order upwind,
-Poiseuille flow with a centred film and the logarithmic mean of the fluidity. At both end nodes P equals
-the pressure of the film outside (`lubfric.ehl.transient.tail`). Every node's equation r holds in the sense
-``P >= 0, r >= 0, P r = 0``: in the cavitated zone r > 0 is the rate at which the gap outgrows the
-lubricant that flows in. The zone behind the rupture is taken as full again where the film reforms: mass is
-conserved in the pressurised film, not through cavitation.
+Mass is balanced in control volumes around the nodes. The Couette flow takes film and density by third-order upwind
+interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P
+equals the pressure of the film outside (`lubfric.ehl.transient.tail`).
+
+Every node's equation r holds in the sense ``P >= 0, r >= 0, P r = 0``. In the cavitated zone r > 0 is the rate at which
+the gap outgrows the lubricant that flows in. Where the film reforms, the zone behind the rupture is taken as full
+again: mass is conserved in the pressurised film, not through cavitation.
 """
 
 from __future__ import annotations
@@ -30,8 +31,7 @@ from .tail import Tail, outside
 
 @dataclass(frozen=True)
 class Conditions:
-    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu, relative to the reference, at one
-    time."""
+    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu at one time, relative to the reference."""
 
     speed: float
     load: float
@@ -41,8 +41,10 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Spring:
-    """A second carrier beside the film, its load falling exponentially with the mean film ``weights`` @ H:
-    ``load`` exp((``mean`` - mean film)/``length``), a straight line beyond one length of compression."""
+    """A second carrier beside the film, whose load falls exponentially with the mean film ``weights`` @ H.
+
+    Its load is ``load`` exp((``mean`` - mean film)/``length``), and a straight line beyond one length of compression.
+    """
 
     weights: np.ndarray
     mean: float
@@ -50,7 +52,7 @@ class Spring:
     length: float
 
     def at(self, H: np.ndarray) -> tuple[float, float]:
-        """Load, and its derivative by the mean film."""
+        """The load, and its derivative by the mean film."""
         depth = (self.mean - float(self.weights @ H)) / self.length
         if depth > 1.0:
             return self.load * np.e * depth, -self.load * np.e / self.length
@@ -60,7 +62,7 @@ class Spring:
 
 @dataclass(frozen=True)
 class StepTerms:
-    """One evaluation: P, H, rho (value, slope), face values, r and what the Jacobian needs."""
+    """One evaluation: P, H, rho (value and slope), values at the faces, r, and what the Jacobian needs."""
 
     P: np.ndarray
     H: np.ndarray
@@ -166,7 +168,7 @@ def jacobian(grid: FixedGrid, now: Conditions, memory: Memory, spring: Spring | 
 
 
 def _local(grid: FixedGrid, now: Conditions, t: StepTerms, up, mid, G: np.ndarray) -> None:
-    """Add the derivatives of the face fluxes through gradient, viscosity and density."""
+    """Add the derivatives of the fluxes through the faces by gradient, viscosity and density."""
     i = np.arange(grid.n)
     mean, by_left, by_right = t.fluidity
     cube = t.centre[0] * t.centre[1] ** 3

@@ -1,10 +1,9 @@
 """The film beyond the last node: parabolic, isoviscous, reaching to infinity.
 
-At the distance s > a from the line of centres the film is h = h_a + c (s² - a²)/2, and the flow towards the
-contact is f + v (s - a), with f the flow at a and v = dh/dt. With Reynolds' equation in the units of
-`lubfric.ehl.problem`, dp/ds = 6 nu (f + v (s - a) - U h)/h³, U the speed towards the contact, both the
-pressure at a and the load behind it are linear in U, f and v. The integrals are taken by Gauss quadrature
-in a/s.
+At the distance s > a from the line of centres the film is h = h_a + c (s² - a²)/2. The flow towards the contact is f +
+v (s - a), with f the flow at a and v = dh/dt. Reynolds' equation in the units of `lubfric.ehl.problem` is dp/ds = 6 nu
+(f + v (s - a) - U h)/h³, with U the speed towards the contact. So the pressure at a and the load behind it are linear
+in U, f and v. The integrals are taken by Gauss quadrature in a/s.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ _POINTS, _WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 
 @dataclass(frozen=True)
 class Tail:
-    """A quantity (value) and its derivatives by the flow f, the squeeze rate v and the film h_a."""
+    """A quantity (value), and its derivatives by the flow f, the squeeze rate v and the film h_a."""
 
     value: float
     by_flow: float
@@ -30,7 +29,7 @@ class Tail:
 def outside(
     a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
 ) -> tuple[Tail, Tail]:
-    """(pressure at a, load beyond a)."""
+    """The pressure at a and the load beyond a."""
     s, h, weight = _nodes(a, film, curvature)
     d = s - a
 

@@ -1,4 +1,7 @@
-"""The contact under an imposed film: `single_loop` (the paper's Appendix 2), `alternating` (end of its Sec. 2.2)."""
+"""The rough contact under an imposed film, solved in two ways.
+
+`single_loop` is the method of the paper's Appendix 2. `alternating` is the one that the end of its Sec. 2.2 describes.
+"""
 
 from .alternating import alternating
 from .single_loop import single_loop

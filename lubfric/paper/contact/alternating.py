@@ -37,17 +37,20 @@ def alternating(
     max_iterations=100,
     raise_on_failure=True,
 ) -> ContactResult:
-    """Contact under the separation ``h - epsilon``: system (3) solved at one epsilon after the other.
+    """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 
-    update : "repeat", epsilon straight from Eq. (8) over the lubricated area, as described. An error in
-    epsilon
-        is passed on by the share with which the deflection of the lubricated area follows epsilon: nothing in
-        an elastic periodic cell, nearly all of it under a cylinder, where the iteration creeps. "root"
-        (default): the volume balance as a function of epsilon, its zero bracketed; the volume falls with
-        epsilon, so there is one.
-    max_iterations : of the outer loop; the others, the result and its residuals as in
-        `lubfric.paper.contact.single_loop`. ``report.iterations`` counts the outer loop,
-        ``report.evaluations`` every convolution.
+    update : "repeat" takes epsilon straight from Eq. (8) over the lubricated area, as described in the paper. An error
+        in
+        epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That is
+        nothing in an elastic periodic cell, and nearly all of it under a cylinder, where the iteration creeps. "root"
+        (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with epsilon, so
+            there
+        is exactly one.
+    max_iterations : of the outer loop
+
+    The other arguments, the result, its residuals and the errors raised are those of
+    `lubfric.paper.contact.single_loop`. ``report.iterations`` counts the outer loop, ``report.evaluations`` every
+    convolution.
     """
     validate.choice("update", update, UPDATES)
 
@@ -59,14 +62,14 @@ def alternating(
 
 
 class _Inner:
-    """System (3) at a given epsilon, each solve begun from the last."""
+    """System (3) at a given epsilon. Each solve starts from the last one."""
 
     def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure, self.convolutions = contact, pressure, 1.0
         self.tight = replace(contact.problem, tolerance=0.3 * contact.problem.tolerance, max_iterations=2000)
 
     def solve(self, offset: float) -> float:
-        """Solve; return (film - volume)/min(L, film), which rises with epsilon."""
+        """Solve at this epsilon and return (film - volume)/min(L, film), which rises with epsilon."""
         found = refine(self.tight, self.pressure.copy(), level=offset)
         problem, self.pressure = self.contact.problem, found.pressure
         self.converged = found.status == CONVERGED

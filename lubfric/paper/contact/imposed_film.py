@@ -1,7 +1,7 @@
-"""Contact under an imposed film: the separation h - epsilon is given in shape, Eq. (8) gives epsilon.
+"""Contact under an imposed film: the shape of the separation h - epsilon is given, and Eq. (8) gives epsilon.
 
-What the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7),
-(8), doi:10.1007/s11249-015-0536-z. In the sign of this library the gap is ``g = h - epsilon - z + K p``.
+This is what the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7),
+(8), doi:10.1007/s11249-015-0536-z. In the signs of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
 from __future__ import annotations
@@ -22,26 +22,30 @@ from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 
 @dataclass(frozen=True)
 class ImposedFilm:
-    """gap0 = h - z [m] (its minimum moved to zero) with operator and limits (``problem``); area A as weights
-    that sum to 1; mean film [m] over A. Offsets epsilon [m] inside are against that gap0."""
+    """A rough surface under a film of given shape.
+
+    ``problem`` holds gap0 = h - z [m], its minimum moved to zero, with operator and limits. The area A is given by
+    weights that sum to 1, and the mean film over A is in m. Offsets epsilon [m] inside this class are against that
+    gap0.
+    """
 
     problem: Problem
     weight: np.ndarray
     mean_film: float
 
     def mean(self, field) -> float:
-        """Mean over the area A."""
+        """Mean of a field over the area A."""
         return float(np.vdot(self.weight, field))
 
     @property
     def separated(self) -> bool:
-        """The film fits between the undeformed surfaces without a touch."""
+        """Whether the film fits between the undeformed surfaces without a touch."""
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
     def lubricated_offset(self, displacement, pressure) -> float:
-        """epsilon of Eq. (8) as printed: the lubricated part of A holds the volume of the film.
+        """epsilon [m] of Eq. (8) as printed: the lubricated part of A holds the volume of the film.
 
-        NaN when the pressure leaves no cell of A free: then Eq. (8) has no solution.
+        It is NaN when the pressure leaves no cell of A free, because Eq. (8) then has no solution.
         """
         free = self.weight * (pressure == 0)
         wet = free.sum()
@@ -49,25 +53,25 @@ class ImposedFilm:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement, overlap=0.0) -> float:
-        """epsilon of Eq. (8) with the contact spots, where the gap is zero, counted in: the same in the
-        solution.
+        """epsilon [m] of Eq. (8) with the contact spots counted in, where the gap is zero. The solution is the same.
 
-        ``overlap`` [m] (field): the overlap of yielded cells, which holds no lubricant.
+        ``overlap`` [m] is a field: the overlap of yielded cells, which holds no lubricant.
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
     def scale(self, pressure, displacement) -> float:
-        """Length [m] that gaps are measured in, as in `lubfric.solve_contact`."""
+        """The length [m] that gaps are measured by, as in `lubfric.solve_contact`."""
         return length_scale(pressure, displacement, self.problem.gap0, self.problem.operator)
 
     def first_pressure(self) -> np.ndarray:
-        """In proportion to the overlap at the offset of the undeformed surfaces, with the best factor."""
+        """A first pressure in proportion to the overlap at the offset of the undeformed surfaces, times the best
+        factor."""
         overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
         stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
         return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
 
     def certify(self, state: Outcome, solver: str) -> ContactResult:
-        """Residuals of what an iteration left behind, from the pressure alone, and the result."""
+        """The result of an iteration, with residuals computed again from the pressure alone."""
         problem, p = self.problem, state.pressure
         u = problem.operator.apply(p)
         gap = problem.gap0 + u - state.offset
@@ -108,7 +112,7 @@ class ImposedFilm:
         )
 
     def solved(self, iterate: Iteration, solver: str, start, raise_on_failure: bool) -> ContactResult:
-        """The contact by ``iterate``, from ``start`` (a pressure or a result, None: guessed)."""
+        """The contact by ``iterate``, begun from ``start``: a pressure, a result, or None for a guess."""
         pressure = starting_pressure(self.problem, start)
         if self.separated:
             return self._touchless()
@@ -120,7 +124,7 @@ class ImposedFilm:
         return result
 
     def _touchless(self) -> ContactResult:
-        """The result when the film keeps the surfaces apart."""
+        """The result where the film keeps the surfaces apart."""
         zero = np.zeros_like(self.problem.gap0)
         state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
         return self.certify(state, "none")
@@ -128,7 +132,7 @@ class ImposedFilm:
 
 @dataclass
 class Outcome:
-    """Where an iteration stands, or ended."""
+    """Where an iteration stands, or where it ended."""
 
     pressure: np.ndarray
     offset: float
@@ -143,7 +147,7 @@ Iteration = Callable[[ImposedFilm, np.ndarray], Outcome]  # from a first pressur
 
 
 def impose(heights, film, weight, make: Callable[[np.ndarray], Problem]) -> ImposedFilm:
-    """Validated; ``make(gap)`` makes the `Problem` of h - z (nx, ny) [m]."""
+    """The validated contact; ``make(gap)`` makes the `Problem` of h - z (nx, ny) [m]."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = _on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")

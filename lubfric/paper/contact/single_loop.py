@@ -1,16 +1,17 @@
-"""Appendix 2 of the paper: pressure and separation found in one loop.
+"""Appendix 2 of the paper: pressure and separation are found in one loop.
 
-"printed" is the algorithm as its text has it: conjugate gradient of Polonsky and Keer (Wear 231 (1999) 206-219,
-doi:10.1016/S0043-1648(99)00113-1) on the cells in contact, the mean of the convolved direction taken off
-(Eq. 18), overlapping cells corrected in a step of their own (Eq. 22), pressure cut at the hardness, and the
-separation from Eq. (8) over the lubricated area. "consistent" (default) keeps the single loop and changes
-what stands in the way of convergence:
+The form "printed" is the algorithm as its text has it. It is the conjugate gradient of Polonsky and Keer (Wear 231
+(1999) 206-219, doi:10.1016/S0043-1648(99)00113-1) on the cells in contact. The mean of the convolved direction is taken
+off (Eq. 18), overlapping cells are corrected in a step of their own (Eq. 22), the pressure is cut at the hardness, and
+the separation follows from Eq. (8) over the lubricated area.
 
-- overlapping cells, and yielded cells that have opened, join the search direction, not a step of their own;
-- the length of the step is exact for the separation of this iteration (Eq. 18 is right for a given *load*);
-- Eq. (8) counts the contact spots with their gap of zero, which cannot overshoot: its right side then falls
-  by less than epsilon rises, whatever the share of contact;
-- the bulk deflection that is common to the whole contact is absorbed by epsilon at once (`bulk`).
+The form "consistent" (default) keeps the single loop, and changes what stands in the way of convergence:
+
+- Overlapping cells, and yielded cells that have opened, join the search direction. They get no step of their own.
+- The length of the step is exact for the separation of this iteration. (Eq. 18 is right for a given *load*.)
+- Eq. (8) counts the contact spots with their gap of zero, which cannot overshoot: its right side then falls by less
+  than epsilon rises, whatever the share of contact.
+- The bulk deflection that is common to the whole contact is absorbed by epsilon at once (`bulk`).
 """
 
 from __future__ import annotations
@@ -49,23 +50,30 @@ def single_loop(
     max_iterations=2000,
     raise_on_failure=True,
 ) -> ContactResult:
-    """Contact of a rough surface under the separation ``h - epsilon``, epsilon from the volume, Eq. (8).
+    """Contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance, Eq. (8).
 
     Parameters
     ----------
-    heights : (nx, ny) surface z [m], upwards; film : h [m], a number, (nx,) or (nx, ny)
-    weight : area A of Eq. (8) as the part of each cell inside it, (nx,) or (nx, ny); None: the whole array
+    heights : (nx, ny) surface z [m], upwards
+    film : h [m], a number, (nx,) or (nx, ny)
+    weight : area A of Eq. (8), as the part of each cell that lies inside it, (nx,) or (nx, ny); None: the whole array
     form : "consistent" or "printed" (see the module)
     stop : "residual", the honest test below; or "separation", Eq. (23):
         ``|h_s - h_s_old| <= separation_tolerance |h_s_old|`` with h_s its mean over A
     spacing, e_prime, hardness, boundary, tolerance, start, operator, max_iterations, raise_on_failure : as in
         `lubfric.solve_contact`
 
-    Returns a `ContactResult` with ``approach`` = epsilon. ``report.residuals``, from the returned pressure
-    alone, with the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
-    `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve converged when
-    the largest is <= tolerance, *also* when it was stopped by Eq. (23); the notes say when Eq. (23) was met
-    first. Raises `InputError` before any work, `ConvergenceError` with report and result otherwise.
+    Returns
+    -------
+    ContactResult : its ``approach`` is epsilon. ``report.residuals`` come from the returned pressure alone, and are
+        measured by the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
+        `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve has converged when the
+        largest is <= tolerance, *also* when it was stopped by Eq. (23). The notes say when Eq. (23) was met first.
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : the largest residual is above the tolerance; carries report and result
     """
     validate.choice("form", form, FORMS)
     validate.choice("stop", stop, STOPS)
@@ -107,7 +115,7 @@ def _loop(contact: ImposedFilm, step, watch: _Watch) -> Outcome:
 
 
 class _Watch:
-    """Both stopping tests, after every iteration."""
+    """Both stopping tests, made after every iteration."""
 
     def __init__(self, contact: ImposedFilm, stop: str, separation_tolerance: float):
         self.contact, self.stop, self.separation_tolerance = contact, stop, separation_tolerance
@@ -175,8 +183,11 @@ class _Printed:
 
 
 class _Consistent:
-    """Two-sided working set, directions kept (Polak-Ribiere, never negative), epsilon from Eq. (8) after
-    every step."""
+    """One iteration of the consistent form.
+
+    The working set takes cells in and gives them up. Directions are kept (Polak-Ribiere, never negative), and epsilon
+    follows from Eq. (8) after every step.
+    """
 
     def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure = contact, pressure
@@ -213,8 +224,7 @@ class _Consistent:
         return True
 
     def _follow(self, more) -> None:
-        """epsilon from Eq. (8); yielded cells overlap as they do once epsilon has taken up the bulk
-        deflection."""
+        """Take epsilon from Eq. (8). Yielded cells overlap as they do once epsilon has taken up the bulk deflection."""
         problem = self.contact.problem
         offset = self.offset + self.bulk * more
         gap = problem.gap0 + self.displacement - offset
@@ -223,13 +233,13 @@ class _Consistent:
 
 
 def bulk(contact: ImposedFilm, pressure) -> float:
-    """Deflection [m/Pa] that one loaded cell, wherever it is, leaves at least everywhere in A and the
+    """The deflection [m/Pa] that one loaded cell leaves, at the least and wherever it is, everywhere in A and the
     contact.
 
-    The least deflection under a uniform pressure on the box around A and the contact: it is below the energy
-    of any pressure in that box (equilibrium measure), so the operator less this constant stays positive
-    there. Zero when periodic. Without it epsilon would creep: a smooth cylinder's mean gap hardly depends on
-    the load.
+    It is the least deflection under a uniform pressure on the box around A and the contact. This lies below the energy
+    of any pressure in that box (equilibrium measure), so the operator less this constant stays positive there. It is
+    zero where the contact is periodic. Without it epsilon would creep, because the mean gap of a smooth cylinder hardly
+    depends on the load.
     """
     box = np.zeros(pressure.shape)
     rows = np.flatnonzero(((pressure > 0) | (contact.weight > 0)).any(axis=1))

@@ -1,19 +1,18 @@
-"""The differential-deflection method: film and pressure coupled through second differences of the film.
+"""The differential-deflection method: film and pressure are coupled through second differences of the film.
 
-`mesh` (uniform, with its convolutions), `equations`, `newton`, `result`; `solve`: the steady film; `transient`: in
-time.
+The modules are `mesh` (a uniform grid with its convolutions), `equations` (the method and its sources), `newton`,
+`result`, `solve` (the steady film) and `transient` (the film in time).
 
-`equations` has the method and its sources. All residuals of the report are relative, and must be <= tolerance. The
-last four are <= 1e-3 of it where Newton's method converged. ``evaluations`` counts banded solves, each with one
-convolution.
+All residuals of the report are relative, and must be <= tolerance. The last four are <= 1e-3 of it where Newton's
+method converged. ``evaluations`` counts banded solves, each with one convolution.
 
-- discretisation: largest change of min_film, central_film and flow_film against the grid of half the cells, or a
+- discretisation: the largest change of min_film, central_film and flow_film against the grid of half the cells, or a
   quarter of the change before that
-- domain: estimated effect of the finite inlet on flow_film (0 with inlet_length)
-- mass: largest |flux through a face before rupture/q - 1|
+- domain: the estimated effect of the finite inlet on flow_film (0 with inlet_length)
+- mass: the largest |flux through a face before rupture/q - 1|
 - load: |∫ p dx/load - 1|
-- film: largest |h - full integral|/h
-- complementarity: largest of -p/p_max and of 1 - flux/q behind rupture
+- film: the largest |h - full integral|/h
+- complementarity: the largest of -p/p_max, and of 1 - flux/q behind rupture
 """
 
 from .solve import solve_differential_deflection

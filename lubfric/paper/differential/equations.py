@@ -1,18 +1,18 @@
-"""Reynolds' and the second-difference film equation, coupled: residual and derivatives.
+"""Reynolds' equation coupled to the equation of the second differences of the film: residual and derivatives.
 
-Unknowns are the pressures P and films H at all N nodes of a `Mesh`:
+The unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 
-* before the rupture point mass balances at each node (flux of face i minus flux of face i - 1, plus what the
-  film stores); behind it P = 0 and every node may only draw more than it gets. Fluxes as in
+* Before the rupture point mass balances at each node: the flux through face i, minus that through face i - 1, plus
+  what the film stores. Behind it P = 0, and every node may only draw more than it gets. The fluxes are those of
   `lubfric.ehl.reynolds`.
-* inlet: P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
-* second difference of the film at interior nodes; what it cannot see, a constant and a slope, are the films
-  at both ends: their difference follows from the full integral, their height from the load. Its residual is
+* At the inlet P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
+* The second difference of the film holds at interior nodes. It cannot see a constant and a slope. These are given by
+  the films at both ends: their difference follows from the full integral, their height from the load. The residual is
   the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
 
 The weights of the second difference on the pressures decay like 1/k² with the distance k in nodes. Those within the
-bandwidth are implicit, the rest is exact by FFT: it is not lagged, GMRES adds it to each Newton step, which costs
-O(N log N + N bandwidth²).
+bandwidth are implicit, and the rest is exact by FFT. It does not lag behind: GMRES adds it to each Newton step, which
+costs O(N log N + N bandwidth²).
 
 Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate, H. P. Evans, Proc.
 IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.
@@ -32,7 +32,7 @@ from .mesh import Mesh, convolve
 
 @dataclass(frozen=True)
 class Squeeze:
-    """d(rho H)/dT = rate rho H - past at the nodes, T = U t in units of x: an implicit step in time."""
+    """What an implicit step in time adds at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units of x."""
 
     rate: float
     past: np.ndarray
@@ -45,12 +45,18 @@ STEADY = Squeeze(0.0, np.zeros(()))
 class Terms:
     """One evaluation of the equations.
 
-    through: mass flux at the faces (N - 1) plus what is stored upstream; last: node before rupture; q: the
-    flux behind it; balance (N,): what leaves a node, P behind rupture; defect (N,): film less the full
-    integral, relative to the first node; ends: defects of the tilt between both ends and of the load;
-    scale: of fluxes.
-    by_H, by_P: derivatives of a face's flux by its film and the pressures left and right of it;
-    stored_by_H, stored_by_P: those of the storage; slope: d ln(eta)/dP.
+    Attributes
+    ----------
+    through : (N - 1,) mass flux at the faces, plus what is stored upstream
+    last : the node before rupture
+    q : the flux behind it
+    balance : (N,) what leaves a node; P behind rupture
+    defect : (N,) the film less the full integral, relative to the first node
+    ends : the defects of the tilt between both ends and of the load
+    scale : of the fluxes
+    by_H, by_P : derivatives of a face's flux by its film, and by the pressures left and right of it
+    stored_by_H, stored_by_P : those of what is stored
+    slope : d ln(eta)/dP
     """
 
     through: np.ndarray
@@ -110,7 +116,7 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
 
 
 def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
-    """∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
+    """The row by which ∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
     row = np.full(mesh.size, mesh.step / problem.M)
     if mesh.flooded:
         row[0] = 0.5 * (mesh.step - mesh.X[0]) / problem.M
@@ -118,7 +124,7 @@ def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
 
 
 def tilt_row(mesh: Mesh) -> np.ndarray:
-    """Deflection at the last node minus that at the first by P."""
+    """The row that gives the deflection at the last node minus that at the first."""
     return mesh.log_kernel[::-1] - mesh.log_kernel
 
 
@@ -134,7 +140,8 @@ def _film_at_faces(H: np.ndarray) -> np.ndarray:
 
 
 def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
-    """The node before rupture: pressures are positive up to it, and the next one would draw, not give."""
+    """The node before rupture: pressures are positive up to it, and the node behind it would draw lubricant, not give
+    it."""
     peak = int(np.argmax(P))
     last = peak + int(np.argmax(P[peak:] <= 0.0)) - 1
     while last < P.size - 2 and balance[last + 1] < 0.0:
@@ -143,7 +150,7 @@ def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
 
 
 def measure(t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
-    """Relative residuals: mass, film (against the full integral), load, complementarity."""
+    """Relative residuals of mass, film (against the full integral), load and complementarity."""
     behind = t.through[t.last + 1 :]
     return {
         "mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),

@@ -1,11 +1,11 @@
-"""Uniform grid and convolutions of the differential deflection method.
+"""Uniform grid and convolutions of the differential-deflection method.
 
-The film of piecewise linear pressures (hat functions of width ``step``), in the variables of
-`lubfric.ehl.problem`, is H00 + X²/2 + sum_k log_kernel[k] P[i-k]. Its second difference is
+The pressures are piecewise linear (hat functions of width ``step``). In the variables of `lubfric.ehl.problem` their
+film is H00 + X²/2 + sum_k log_kernel[k] P[i-k], and its second difference is
 
     H[i-1] - 2 H[i] + H[i+1] = step² + sum_k weights[k] P[i-k],  weights[k] = -(4/pi) step δ⁴(k² ln|k|/2),
 
-without any error of discretisation. The weights fall like 1/k²; those of the deflection grow like ln k.
+without any error of discretisation. The weights fall like 1/k², while those of the deflection grow like ln k.
 """
 
 from __future__ import annotations
@@ -20,9 +20,16 @@ NEAR = 20
 
 @dataclass(frozen=True)
 class Mesh:
-    """X: node positions (N,); log_kernel, weights: of the film and of its second difference, by distance in
-    nodes (N,); bandwidth: largest distance that is near; log_transform, far_transform: Fourier transforms of
-    log_kernel and of the weights beyond the bandwidth; flooded: whether the pressure goes on upstream."""
+    """A uniform grid with its kernels.
+
+    Attributes
+    ----------
+    X : (N,) positions of the nodes
+    log_kernel, weights : (N,) of the film and of its second difference, by distance in nodes
+    bandwidth : largest distance in nodes that counts as near
+    log_transform, far_transform : Fourier transforms of log_kernel, and of the weights beyond the bandwidth
+    flooded : whether the pressure goes on upstream of the first node
+    """
 
     X: np.ndarray
     step: float
@@ -61,8 +68,10 @@ def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
 
 
 def _second_difference(n: int) -> np.ndarray:
-    """Of g = k² ln|k|/2 at k = 0 .. n - 1; from k = NEAR on by Taylor's series, g'' = ln k + 3/2, where
-    differencing loses its digits."""
+    """The second difference of g = k² ln|k|/2 at k = 0 .. n - 1.
+
+    From k = NEAR on it is Taylor's series with g'' = ln k + 3/2, because the differences lose their digits there.
+    """
     k = np.arange(-1.0, NEAR + 1)
     g = 0.5 * k * k * np.log(np.maximum(np.abs(k), 1.0))
     x = 1.0 / np.arange(NEAR, max(n, NEAR + 1)) ** 2.0

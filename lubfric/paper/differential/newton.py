@@ -1,8 +1,8 @@
 """Newton's method on the coupled equations.
 
-The weights of near pressures are implicit, in one banded factorisation with a border for the two unknown end
-films; those of far pressures are added by GMRES around it. So the step, and not only the answer, is that of
-the full integral; without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as with the
+The weights of near pressures are implicit. They stand in one banded factorisation, with a border for the two unknown
+films at the ends. The weights of far pressures are added by GMRES around it. So the step, and not only the answer, is
+that of the full integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as it does with the
 method's authors.
 """
 
@@ -24,7 +24,7 @@ FORCING = 1e-2  # share of the far deflection that a Newton step may leave to th
 
 @dataclass(frozen=True)
 class Solution:
-    """Pressures and films on ``mesh`` with their `Terms`; residuals: of `measure`; solves: banded solves."""
+    """Pressures and films on ``mesh`` with their `Terms`, residuals of `measure`, and the number of banded solves."""
 
     mesh: Mesh
     P: np.ndarray
@@ -38,8 +38,15 @@ class Solution:
 
 @dataclass(frozen=True)
 class Factors:
-    """LU of the near equations; border: their answer to the two end films (2N, 2); rows: the closing
-    equations by P (2, N); closing: those by the end films, condensed (2, 2)."""
+    """The factorised near equations.
+
+    Attributes
+    ----------
+    LU : the near equations
+    border : (2N, 2) their answer to the two films at the ends
+    rows : (2, N) the closing equations by P
+    closing : (2, 2) the closing equations by those films, condensed
+    """
 
     lu: np.ndarray
     pivots: np.ndarray
@@ -51,7 +58,7 @@ class Factors:
 
 
 def factorise(mesh: Mesh, problem: Problem, t: Terms) -> Factors | None:
-    """Factors of the equations with near weights, P and H of a node side by side; None if singular."""
+    """Factors of the equations with near weights, P and H of a node side by side; None if the matrix is singular."""
     from scipy.linalg.lapack import dgbtrf, dgbtrs
 
     n, m = mesh.size, mesh.bandwidth
@@ -103,10 +110,10 @@ def _put_film(mesh: Mesh, put) -> None:
 
 
 def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int]:
-    """Change (2N,) of P and H in turn, and the number of banded solves.
+    """The change (2N,) of P and H in turn, and the number of banded solves.
 
-    With A the near equations the change z solves A z = b + f, where f = far(z) is the bend by far pressures:
-    z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b), which GMRES solves for f.
+    With A the near equations, the change z solves A z = b + f, where f = far(z) is the bend by far pressures. So z =
+    A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter for f.
     """
     from scipy.linalg.lapack import dgbtrs
 
@@ -153,8 +160,8 @@ def newton(
     max_steps: int,
     squeeze: Squeeze = STEADY,
 ) -> Solution:
-    """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film
-    ruptures inside the grid."""
+    """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
+    the grid."""
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # history tests for it
         return _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze)
 
@@ -183,7 +190,7 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
 
 
 def _without_tension(P: np.ndarray, last: int) -> np.ndarray:
-    """P = 0 behind ``last`` and wherever it is negative behind its peak."""
+    """The pressures with P = 0 behind ``last``, and wherever they are negative behind their peak."""
     P[last + 1 :] = 0.0
     peak = int(np.argmax(P))
     P[peak:] = np.maximum(P[peak:], 0.0)

@@ -18,8 +18,9 @@ STATE_CELLS = 96
 
 
 def grid_error(levels: list[Solution]) -> float:
-    """Largest relative change of smallest, central and flow film between the last two grids, or a quarter of
-    the change before that. Some three times the error, for a rupture point bound to nodes makes it uneven."""
+    """Largest relative change of smallest, central and flow film between the last two grids, or a quarter of the change
+    before that. This is some three times the error, because a rupture point that is bound to nodes makes the error
+    uneven."""
     films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf
@@ -33,7 +34,7 @@ def _at_centre(solution: Solution) -> float:
 
 
 def _domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the tail's next-order term: its share of the load times the departure from the parabola."""
+    """The estimated effect of the finite inlet: the tail's share of the load times its departure from the parabola."""
     if problem.inlet_length is not None:
         return 0.0
     a = -solution.mesh.X[0]
@@ -67,7 +68,7 @@ def _report(problem: Problem, levels: list[Solution], tolerance: float, notes: t
 
 
 def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-    """Rupture point, where the film is that of the flow, and X, P, H with a node there."""
+    """The rupture point, where the film is that of the flow, and X, P, H with a node added there."""
     X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
     if last >= X.size - 2:  # none: reported
         return float(X[last]), X, P, H
@@ -82,7 +83,7 @@ def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np
 
 
 def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
-    """The `State` from which `solve_ehl` can start: the solution on its graded grid."""
+    """The `State` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
     xi = node_positions(problem.half_width, moes_film(problem.M, problem.L), STATE_CELLS)
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)

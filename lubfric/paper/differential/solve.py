@@ -30,7 +30,7 @@ RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pr
 
 @dataclass(frozen=True)
 class UniformEffort:
-    """What is asked ``on_a_grid``; nodes (None: doubled until accurate), the most of them, and the bandwidth."""
+    """What is asked ``on_a_grid``, the nodes (None: doubled until accurate), the most of them, and the bandwidth."""
 
     on_a_grid: Effort = Effort()
     nodes: int | None = None
@@ -126,7 +126,7 @@ def solve_differential(
 
 
 def domain_ends(problem: Problem, domain) -> tuple[float, float]:
-    """First and last node in units of X."""
+    """First and last node, in units of X."""
     b, unit = problem.half_width, problem.length_unit
     rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
@@ -139,7 +139,7 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
 
 
 def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[int]:
-    """Cells of the nested grids; the coarsest resolves the rise of the pressure if the finest does."""
+    """Numbers of cells of the nested grids. The coarsest resolves the rise of the pressure if the finest does."""
     film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
     if effort.nodes is None:
@@ -156,7 +156,7 @@ def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -
 def _ascend(
     problem: Problem, effort: UniformEffort, ends: tuple[float, float], start: EHLResult | None
 ) -> list[Solution]:
-    """Solutions on grids of doubling size: up to the nodes asked for, or until they agree to the tolerance."""
+    """Solutions on grids of doubling size, up to the nodes asked for, or until two of them agree to the tolerance."""
     cells, grid = _cells(problem, effort, ends), effort.on_a_grid
     levels: list[Solution] = []
     for n in cells:
@@ -176,7 +176,7 @@ def _ascend(
 
 
 def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
-    """A semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
+    """A first guess: a semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
     place = (mesh.X - rupture_guess(problem)) / width

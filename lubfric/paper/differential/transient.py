@@ -1,7 +1,7 @@
-"""The differential-deflection method in time: the same banded Newton with a squeeze term.
+"""The differential-deflection method in time: the same banded Newton's method with a squeeze term.
 
-Speed and load may change; the flow keeps its direction (towards +x), because the grid has one inlet. Where
-motion stops or reverses use `lubfric.ehl.transient.solve_transient_ehl`.
+Speed and load may change. The flow keeps its direction (towards +x), because the grid has one inlet. Where motion stops
+or reverses, use `lubfric.ehl.transient.solve_transient_ehl`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
 
 @dataclass(frozen=True)
 class Step:
-    """A solved step in SI units: z holds pressures and films."""
+    """A solved step in SI units. z holds pressures and films."""
 
     status: str
     z: np.ndarray
@@ -44,8 +44,10 @@ class Step:
 
 @dataclass(frozen=True)
 class UniformSetting:
-    """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m]: what `lubfric.march`
-    marches."""
+    """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m].
+
+    This is what `lubfric.march` takes through time.
+    """
 
     contact: LineContact  # as it is before t = 0
     load: History
@@ -60,7 +62,7 @@ class UniformSetting:
         return np.linspace(*self.domain, self.nodes)
 
     def problem(self, time: float) -> Problem:
-        """Just before ``time`` [s]."""
+        """The problem just before ``time`` [s]."""
         return Problem(
             replace(
                 self.contact,
@@ -81,7 +83,7 @@ class UniformSetting:
         return Step(found.status, np.concatenate([found.P * pressure, found.H * film]), stored)
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
-        """Root mean square over the pressurised film of a difference of films, relative to the film."""
+        """Root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.z[: self.nodes]
         return math.sqrt(float(np.mean((difference / solution.film)[P > WET * P.max()] ** 2)))
 
@@ -106,11 +108,18 @@ def solve_differential_transient(
 ) -> TransientFilm:
     """Film of a smooth line contact in time by differential deflection, from the steady state before t = 0.
 
-    load_per_width [N/m] and entrainment_speed [m/s] (both > 0 at all times) are numbers or histories;
-    ``domain``: first and last node [m]; the rest as in `solve_differential_deflection` and
-    `solve_transient_ehl`. Each step is solved until the residuals of
-    `lubfric.paper.differential.equations.measure` are <= 1e-6. Raises `InputError` before any work,
-    `ConvergenceError` with the films so far when a step fails for good.
+    Parameters
+    ----------
+    load_per_width, entrainment_speed : [N/m] and [m/s], numbers or histories, both > 0 at all times
+    domain : first and last node [m]
+
+    The other parameters are those of `solve_differential_deflection` and `solve_transient_ehl`. Each step is solved
+    until the residuals of `lubfric.paper.differential.equations.measure` are <= 1e-6.
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : a step failed for good; carries the films so far
     """
     times = checked_times(times)
     duration = float(times[-1])

@@ -1,0 +1,37 @@
+"""How the scripts of this folder put their tables into the pages of the documents."""
+
+from __future__ import annotations
+
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from verification.check import Table
+from verification.tables.pages import BENCHMARKS, put
+
+
+def add_option(parser: ArgumentParser) -> None:
+    """``--docs DIR``: the folder of the pages."""
+    words = "write the table into the pages of this folder that name it"
+    parser.add_argument("--docs", type=Path, metavar="DIR", help=words)
+
+
+def write(name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], asked: tuple[ArgumentParser, Namespace]):
+    """Put the table ``name`` where ``--docs`` says, if it was given; ``asked``: the parser and what it found."""
+    parser, options = asked
+    if options.docs:
+        put(options.docs, Table(name, name, columns, rows), command(name, parser, options))
+
+
+def command(name: str, parser: ArgumentParser, options: Namespace) -> str:
+    """The command as it was typed, without files and folders but those of the documents."""
+    words = ["python", f"benchmarks/{BENCHMARKS[name]}"]
+    for key, value in vars(options).items():
+        if value == parser.get_default(key) or isinstance(value, Path):
+            continue
+        given = value if isinstance(value, list) else [value]
+        words += [f"--{key}", *(f"{v:g}" if isinstance(v, float) else str(v) for v in given)]
+    return " ".join([*words, "--docs docs"])

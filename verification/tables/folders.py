@@ -1,0 +1,97 @@
+"""Tables made from what longer commands kept in their folders, as far as those commands have come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from .. import kept
+from ..charts import data
+from ..charts.growth import exponent
+from ..check import Check
+from ..levels import measure as levels
+from ..levels.scenes import SEED
+from ..sampling import cases, measure, quantities, verdict
+from .measured import Cells
+
+SAMPLING, LEVELS, CHARTS = Path("out/sampling"), Path("out/levels"), Path("out/charts")
+METHODS_ERROR = 1e-5  # of the pressure
+
+
+def coverage() -> Cells:
+    """Every case of `python -m verification sampling` with trials and a truth."""
+    found = [measure.found_before(case, cases.SEED, SAMPLING) for case in cases.CASES]
+    rows = [verdict.row(result) for result in found if result is not None]
+    if not rows:
+        raise RuntimeError(f"{SAMPLING} is empty: run python -m verification sampling first")
+    return verdict.COLUMNS, rows
+
+
+def other_numbers() -> Cells:
+    """How often every quantity of random scenes was within its stated error."""
+    file = SAMPLING / f"quantities-{quantities.SEED}.jsonl"
+    scenes = kept.read(file)
+    rows = [
+        [f"`{name}`", f"{told} of {len(scenes)}", f"{100 * held:.0f} %", f"{100 * median:.2g} %"]
+        for name, told, held, median in quantities.counted(scenes)
+    ]
+    return ["quantity", "scenes that state an error", "within it", "median of it"], rows
+
+
+def levels_saving() -> Cells:
+    """Random scenes at every tolerance beside the full model, by `python -m verification levels`."""
+    file = levels.file_of(LEVELS, SEED)
+    found = [Check.from_dict(c) for line in kept.read(file) for c in line]
+    if not found:
+        raise RuntimeError(f"{file} is empty: run python -m verification levels first")
+    rows = []
+    for tolerance in levels.TOLERANCES:
+        mine = [c for c in found if c.number("asked") == tolerance]
+        good = [c for c in mine if not c.refused]
+        within = sum(c.deviation <= tolerance for c in good)
+        saved = levels.savings(mine)
+        worst = max(c.deviation for c in good)
+        times = [f"{saved[name]:.1f}" for name in ("reference", "everything at 1 %")]
+        row = [f"{100 * tolerance:g} %", f"{within} of {len(mine)}", str(len(mine) - len(good)), f"{100 * worst:.2g} %"]
+        rows.append([*row, *times])
+    columns = ["tolerance", "within it", "refused", "largest error", "median time, reference : auto"]
+    return [*columns, 'the same with `model="full"` at 1 % : auto'], rows
+
+
+def contact_methods() -> Cells:
+    """Contacts solved to a measured error of 1e-5: time of every method over that of the library, from the chart."""
+    points = [p for p in data.load(CHARTS, "contact") if not p.at.get("apart") and p.measured <= METHODS_ERROR]
+    names = [name for name in dict.fromkeys(p.word("method") for p in points) if name != "lubfric"]
+    rows = []
+    for panel in dict.fromkeys(p.word("panel") for p in points):
+        own = [p for p in points if p.word("panel") == panel]
+        best = {p.word("method"): min(q.duration for q in own if q.at["method"] == p.at["method"]) for p in own}
+        ours = best["lubfric"]
+        rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
+    return ["contact", "lubfric", *names], rows
+
+
+def growth() -> Cells:
+    """Cost against size, by `python -m verification charts --only growth`."""
+    points = data.load(CHARTS, "growth")
+    rows = []
+    for panel in dict.fromkeys(p.word("panel") for p in points):
+        own = [p for p in points if p.word("panel") == panel]
+        told = [f"{1e3 * p.duration:.3g} ms" if p.duration < 1 else f"{p.duration:.3g} s" for p in own]
+        power = f"N^{exponent(own, 'seconds'):.2f}"
+        memory = f"{np.max([p.number('memory') for p in own]) / 1e6:.0f} MB"
+        size, work = (f"{own[0].number(what):,.0f} to {own[-1].number(what):,.0f}" for what in ("size", "work"))
+        rows.append([panel, size, ", ".join(told), power, memory, work])
+    columns = ["job", "cells, nodes or points", "CPU time of each size", "larger half", "memory at most"]
+    return [*columns, "convolutions, steps or points"], rows
+
+
+TABLES: dict[str, Callable[[], Cells]] = {
+    "sampling-coverage": coverage,
+    "sampling-numbers": other_numbers,
+    "levels-saving": levels_saving,
+    "growth": growth,
+    "contact-methods": contact_methods,
+}
