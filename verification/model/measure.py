@@ -6,6 +6,7 @@ import time
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import lubfric
 from lubfric.scene import Scene
@@ -119,7 +120,7 @@ def all_points(settings: list[Setting], file: Path | None = None, methods=tuple(
 
 def _point(setting: Setting, row: dict) -> Point:
     """A point as it was kept: what JSON has no word for comes back as NaN."""
-    numbers = {name: float("nan") if value is None else value for name, value in row.items()}
+    numbers: dict[str, Any] = {name: float("nan") if value is None else value for name, value in row.items()}
     return Point(**numbers | {"setting": setting})
 
 
