@@ -31,6 +31,7 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "load sharing": not whole,
         "one gap": whole,
         "one-way": bool(result.one_way),
+        "film under spots": any(one.spot_film > 0 for one in result.one_way),
         "half-space contact": own and model == "half-space",
         "summits": own and model == "summits",
         "patches": own and model == "patches",
@@ -54,7 +55,7 @@ def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     return {
         "rigid film": told is not None and told.film in RIGID,
         "scaled modulus": option == "scaled" and result.contact_load > 0,
-        "kept mass": whole,
+        "kept mass": whole or bool(result.one_way),
         "sheared flow": whole and scene.lubricant.eyring_stress is not None,
     }
 

@@ -1,14 +1,16 @@
 """The film in a given rough gap: Reynolds' equation in the reduced pressure, linear, with rupture.
 
-With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q, whatever the viscosity law. So one sparse matrix a gap
-is enough. Cells in contact are walls. Either Q > 0, or Q = 0 and outflow >= 0 (Swift-Stieber), by active sets. The
-density is constant and there is no shear thinning, because the gap is given and rests on neither.
+With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q, whatever the viscosity law. Either a cell is full and
+Q >= 0, or Q = 0 and it is filled to a part θ between 0 and 1, so that mass is kept (Jakobsson-Floberg-Olsson). Every
+cell has one unknown, Q or θ, found by active sets. The density is constant and there is no shear thinning, because the
+gap is given and rests on neither.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.sparse import csc_matrix
@@ -24,44 +26,55 @@ from ..errors import ConvergenceError
 from ..report import STAGNATED, Report
 
 SETS = 400  # of active cells tried
-FORGIVEN = 1e-6  # cells that change between sets, of all: they flip between p = 0 and next to nothing
-SETTLED = 1e-4  # change of ∫ Q from set to set, relative
+SETTLED = 3e-4  # change of ∫ Q from set to set, relative
+LOST = 1e-3  # flow beyond what fills the gap, of that which enters; and ∫ Q where it pulls, of the whole
+LONGER = 8  # cells, at most, by which a film that begins too late is made longer at once
 
 
 @dataclass(frozen=True)
 class GapFilm:
-    """Q [Pa] (nx, ny) of a gap; ruptured (bool); what comes from upstream; and how many sets were tried."""
+    """Q [Pa] and filled part [-] (nx, ny) of a gap; ruptured (bool); what comes from upstream; and how many sets were
+    tried."""
 
     reduced: np.ndarray
+    fill: np.ndarray
     ruptured: np.ndarray
     inlet: Inlet
     sets: int
 
 
-def gap_film(problem: Problem, gap, closed, ruptured=None) -> GapFilm:
-    """The film of ``gap`` [m] (nx, ny) around the cells ``closed`` (bool); ``ruptured``: the set to start from.
+def gap_film(problem: Problem, gap, ruptured=None) -> GapFilm:
+    """The film of ``gap`` > 0 [m] (nx, ny); ``ruptured``: the set to start from.
 
-    ``problem``: its lubricant is isoviscous. Stops when no cell changes sides, or ∫ Q by no more than `SETTLED`. Raises
+    ``problem``: its lubricant is isoviscous. Stops when no cell changes sides; or when ∫ Q changes by no more than
+    `SETTLED`, and both what does not fit into ruptured cells and what pulls in full ones is at most `LOST`. Raises
     `ConvergenceError` after `SETS`.
     """
-    system, right, upstream = _system(problem, gap, closed)
-    free, n = ~closed.ravel(), gap.size
-    order, carried = nested_dissection(*gap.shape), math.inf
-    out = _outlet(problem, gap).ravel() if ruptured is None else ruptured.ravel().copy()
+    system = _system(problem, gap)
+    carried, entering = math.inf, float(system.entering.sum())
+    out = _outlet(problem, gap) if ruptured is None else ruptured
     for count in range(1, SETS + 1):
-        active = order[(free & ~out)[order]]
-        Q = np.zeros(n)
-        Q[active] = _solve(system[active][:, active].tocsc(), right[active])
-        flow = system @ Q - right
-        new = (Q < 0) | (out & (flow >= 0))
-        changed = np.count_nonzero((new != out) & free)
-        out, before, carried = new, carried, float(np.maximum(Q, 0.0).sum())
-        if changed <= FORGIVEN * n or abs(carried - before) <= SETTLED * carried:
-            Q = np.maximum(Q, 0.0).reshape(gap.shape)
+        unknown = system.solve(out)
+        new = np.where(out, unknown <= 1, unknown < 0)
+        Q, fill = np.where(out, 0.0, np.maximum(unknown, 0.0)), np.where(out, np.clip(unknown, 0.0, 1.0), 1.0)
+        before, carried = carried, float(Q.sum())
+        lost = float((np.where(out, unknown - fill, 0.0) * system.carried).sum()) / entering
+        wrong = max(lost, float((Q - np.where(out, 0.0, unknown)).sum()) / carried)
+        if np.array_equal(new, out) or abs(carried - before) <= SETTLED * carried and wrong <= LOST:
             first = np.maximum(first_film(problem, gap), problem.floor)
-            return GapFilm(Q, out.reshape(gap.shape), inlet(problem, Q[0], first), count)
-    report = Report("film in a given gap", STAGNATED, SETS, float(changed) / n, FORGIVEN)
+            return GapFilm(Q, fill, out, inlet(problem, Q[0], first), count)
+        out = _longer(new, np.where(out, unknown, 0.0))
+    report = Report("film in a given gap", STAGNATED, SETS, wrong, LOST)
     raise ConvergenceError(report.message, report)
+
+
+def _longer(ruptured, fill) -> np.ndarray:
+    """``ruptured`` less the cells upstream of those that would be filled (``fill``) twice, four times and so on: one,
+    two and so on."""
+    found = ruptured.copy()
+    for cells in range(1, LONGER + 1):
+        found[:-cells] &= fill[cells:] <= 2.0**cells
+    return found
 
 
 def _outlet(problem: Problem, gap) -> np.ndarray:
@@ -70,32 +83,70 @@ def _outlet(problem: Problem, gap) -> np.ndarray:
     return np.repeat((problem.x > RUPTURE * math.sqrt(2 * problem.radius * middle))[:, None], gap.shape[1], axis=1)
 
 
-def _solve(matrix: csc_matrix, right) -> np.ndarray:
-    return splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve(right)
+@dataclass(frozen=True)
+class _System:
+    """Outflow = 0 of every cell [m/s]. Columns of the matrix by Q and by θ of the cell itself, and of those behind and
+    before it along x, and beside it (5, nx, ny); carried: by the Couette flow of a full cell; entering: from
+    upstream."""
+
+    by_reduced: np.ndarray
+    by_fill: np.ndarray
+    carried: np.ndarray
+    entering: np.ndarray
+
+    def solve(self, out) -> np.ndarray:
+        """θ where the film is ``out``, Q elsewhere."""
+        (nx, ny), order = out.shape, nested_dissection(*out.shape)
+        index, starts, source = _structure(nx, ny)
+        columns = np.where(out, self.by_fill, self.by_reduced)
+        narrow = ny < 3  # the cells beside a cell are one, or the cell itself
+        matrix = csc_matrix((columns.ravel()[source], index, starts), shape=(out.size,) * 2, copy=narrow)
+        if narrow:
+            matrix.sum_duplicates()
+        full = np.where(out, 0.0, self.carried)
+        rows = self.entering - full
+        rows[1:] += full[:-1]
+        # columns add up to nothing or more and only their diagonal is positive: no pivoting is needed
+        lu = splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        unknown = np.empty(out.size)
+        unknown[order] = lu.solve(rows.ravel()[order])
+        return unknown.reshape(out.shape)
 
 
-def _system(problem: Problem, gap, closed):
-    """Matrix and right side of outflow = 0 in every cell [m/s], and the inlet at Q = 0."""
-    (nx, ny), (dx, dy) = gap.shape, problem.spacing
-    viscous = 12 * problem.lubricant.viscosity
-    open_ = ~closed
-    along = np.where(open_[1:] & open_[:-1], (0.5 * (gap[1:] + gap[:-1])) ** 3, 0.0) / (viscous * dx**2)
-    beside = np.roll(gap, -1, axis=1)
-    across = np.where(open_ & np.roll(open_, -1, axis=1), (0.5 * (gap + beside)) ** 3, 0.0) / (viscous * dy**2)
-    upstream = inlet(problem, np.zeros(ny), np.maximum(first_film(problem, gap), problem.floor))
-    diagonal = across + np.roll(across, 1, axis=1)
-    diagonal[:-1] += along
-    diagonal[1:] += along
-    diagonal[0] -= upstream.by_pressure / dx
+@lru_cache(maxsize=8)
+def _structure(nx: int, ny: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Row indices and starts of the columns (CSC) in the order of elimination, and where their values stand among the
+    columns of `_System`."""
     number = np.arange(nx * ny).reshape(nx, ny)
-    rows = [number, number[:-1], number[1:], number, np.roll(number, -1, axis=1)]
-    columns = [number, number[1:], number[:-1], np.roll(number, -1, axis=1), number]
-    data = [diagonal, -along, -along, -across, -across]
-    flat = [np.concatenate([part.ravel() for part in parts]) for parts in (data, rows, columns)]
+    place = np.empty(nx * ny, dtype=np.intp)
+    place[nested_dissection(nx, ny)] = number.ravel()
+    outside = np.full((1, ny), -1)
+    behind, before = np.vstack([number[1:], outside]), np.vstack([outside, number[:-1]])
+    rows = np.stack([number, behind, before, np.roll(number, -1, axis=1), np.roll(number, 1, axis=1)]).ravel()
+    source = np.flatnonzero(rows >= 0)
+    row, column = place[rows[source]], place[np.tile(number.ravel(), 5)[source]]
+    sort = np.lexsort((row, column))
+    starts = np.searchsorted(column[sort], np.arange(nx * ny + 1))
+    return row[sort].astype(np.int32), starts.astype(np.int32), source[sort]
+
+
+def _system(problem: Problem, gap) -> _System:
+    dx, dy = problem.spacing
+    viscous = 12 * problem.lubricant.viscosity
+    along = np.zeros((gap.shape[0] + 1, gap.shape[1]))  # through the faces before and behind every cell
+    along[1:-1] = (0.5 * (gap[1:] + gap[:-1])) ** 3 / (viscous * dx**2)
+    across = (0.5 * (gap + np.roll(gap, -1, axis=1))) ** 3 / (viscous * dy**2)
+    beside = np.roll(across, 1, axis=1)
+    upstream = inlet(problem, np.zeros(gap.shape[1]), np.maximum(first_film(problem, gap), problem.floor))
+    diagonal = across + beside + along[1:] + along[:-1]
+    diagonal[0] -= upstream.by_pressure / dx
     carried = couette_flow(problem, gap).flow / dx
-    carried[:-1] = np.where(open_[1:] & open_[:-1], carried[:-1], 0.0)
-    right = -carried
-    right[1:] += carried[:-1]
-    right[0] += upstream.flow / dx
-    matrix = csc_matrix((flat[0], (flat[1], flat[2])), shape=(nx * ny,) * 2).tocsr()
-    return matrix, right.ravel(), upstream
+    entering = np.zeros_like(gap)
+    entering[0] = upstream.flow / dx
+    nothing = np.zeros_like(gap)
+    return _System(
+        np.stack([diagonal, -along[1:], -along[:-1], -across, -beside]),
+        np.stack([carried, -carried, nothing, nothing, nothing]),
+        carried,
+        entering,
+    )

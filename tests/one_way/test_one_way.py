@@ -2,13 +2,16 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import lubfric
 from lubfric.analytic import rigid
 from lubfric.deterministic import lay_out
+from lubfric.deterministic.start import dry_contact
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, viscosity
 from lubfric.one_way.film import gap_film
+from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
 from lubfric.surface import Surface
@@ -19,10 +22,9 @@ SCENE = lubfric.load_scene("paper").with_(
 MODEL = lubfric.prepare(SCENE)
 
 
-def smooth(h0, n=512, load=900.0, oil=None):
+def smooth(h0, n=512, load=900.0, oil=None, ends=(1.2e-4, 5e-5)):
     oil = oil or Lubricant(0.01, viscosity_law="constant")
     contact = LineContact(load, 2e-3, 1e13, 0.1, oil)
-    ends = (1.2e-4, 5e-5)
     flat = Surface(np.zeros((64, 1)), (sum(ends) / n,) * 2, periodic_axes=(True, True))
     return lay_out(flat, contact, sliding=0.2, boundary_friction=0.09, ends=ends)
 
@@ -30,7 +32,7 @@ def smooth(h0, n=512, load=900.0, oil=None):
 def test_the_film_of_a_given_gap_is_martins():
     h0 = 1e-6
     problem = smooth(h0)
-    found = gap_film(problem, problem.rigid_gap + h0, np.zeros(problem.heights.shape, bool))
+    found = gap_film(problem, problem.rigid_gap + h0)
     exact = rigid.pressure(problem.x, h0, radius=2e-3, entrainment_speed=0.1, viscosity=0.01)
     assert np.abs(found.reduced[:, 0] - exact).max() < 2e-3 * exact.max()
     carried = found.reduced.sum() * problem.spacing[0] + found.inlet.load
@@ -47,13 +49,61 @@ def test_a_smooth_rigid_film_is_lifted_to_its_load():
     assert found.couette == pytest.approx(friction, rel=1e-2)
 
 
-def test_walls_stop_the_flow():
-    """A wall across the whole width lets nothing pass: what comes in goes back up the gap, at a higher pressure."""
+def test_a_wall_stops_the_flow():
+    """A gap of a nanometre across the whole width: what comes in goes back up the gap, at a higher pressure."""
     problem = smooth(1e-6)
     wall = np.abs(problem.x)[:, None] < 1e-6
-    free = gap_film(problem, problem.rigid_gap + 1e-6, np.zeros_like(wall))
-    shut = gap_film(problem, problem.rigid_gap + 1e-6, wall)
-    assert abs(shut.inlet.flow[0]) < 1e-6 * free.inlet.flow[0] and shut.reduced.max() > 2 * free.reduced.max()
+    free = gap_film(problem, problem.rigid_gap + 1e-6)
+    shut = gap_film(problem, np.where(wall, 1e-9, problem.rigid_gap + 1e-6))
+    assert abs(shut.inlet.flow[0]) < 2e-3 * free.inlet.flow[0] and shut.reduced.max() > 2 * free.reduced.max()
+
+
+def test_a_film_that_ruptures_keeps_its_mass():
+    """Two humps: what flows through every section, ruptured or not, is what comes in; the second one makes a film of
+    what the first one lets pass, so the film ahead of it is not that of a full gap."""
+    problem = smooth(1e-6, ends=(1.2e-4, 9e-5))
+    hump = 1.1e-6 * np.exp(-(((problem.x - 7e-5) / 4e-6) ** 2))[:, None]
+    gap = problem.rigid_gap + 1e-6 - hump
+    found = gap_film(problem, gap)
+    assert found.ruptured.any() and (np.diff(np.flatnonzero(~found.ruptured[:, 0])) > 1).any()  # it fills again
+    Q, h, dx = found.reduced[:, 0], gap[:, 0], problem.spacing[0]
+    carried = found.fill[:, 0] * (h + 0.5 * np.diff(h, prepend=h[0])) * problem.speed
+    pressed = (0.5 * (h[1:] + h[:-1])) ** 3 / (12 * 0.01) * np.diff(Q) / dx
+    assert carried[1:-1] - pressed[1:] == pytest.approx(found.inlet.flow[0], rel=1e-3)
+    assert found.fill.min() > 0 and found.fill.max() == 1 and (found.reduced[found.fill < 1] == 0).all()
+
+
+def test_the_spots_of_a_contact_close_across_the_period():
+    pressure = np.zeros((6, 8))
+    pressure[2, [0, 1, 7]], pressure[4, 3] = [1.0, 2.0, 3.0], 4.0
+    spots = spots_of(pressure)
+    assert sorted(spots.load) == [4.0, 6.0]
+    field = np.zeros((6, 8))
+    field[2, 7], field[4, 3], field[0, 0] = 10.0, 5.0, 99.0
+    assert spots.mean_of_largest(field) == pytest.approx((6 * 10 + 4 * 5) / 10)
+
+
+def test_a_hertzian_contact_is_lifted_by_the_integral_of_ertel():
+    """Smooth line contact: Q at the edge of the flat, 12 eta0 U ∫ (h - h0)/h³ dx up to -b over the gap of Hertz lifted
+    by h0, is that of the pressure at which the film rubs like the contact."""
+    radius, load, speed, eta, alpha = 2e-2, 2e5, 0.5, 0.05, 20e-9
+    line = LineContact(load, radius, 2.3e11, speed, Lubricant(eta, alpha, viscosity_law="barus"))
+    b = np.sqrt(8 * load * radius / (np.pi * 2.3e11))
+    flat = Surface(np.zeros((64, 1)), (3.2 * b / 1600,) * 2, periodic_axes=(True, True))
+    problem = lay_out(flat, line, sliding=2 * speed, boundary_friction=0.09, ends=(2 * b, 1.2 * b))
+    dry = dry_contact(problem)
+    gap = np.where(dry.pressure > 0, 0.0, np.maximum(dry.gap, 0.0))
+    s = np.geomspace(1.0, 30.0, 200001)  # -x/b
+    hertz = b**2 / (2 * radius) * (s * np.sqrt(s**2 - 1) - np.log(s + np.sqrt(s**2 - 1)))
+
+    def surplus(h0):
+        p = brentq(lambda p: eta * np.exp(alpha * p) * 2 * speed / h0 / (0.09 * p) - 1, 60e6, 2e9)
+        return 12 * eta * speed * b * np.trapezoid(hertz / (hertz + h0) ** 3, s) - -np.expm1(-alpha * p) / alpha
+
+    expected = brentq(surplus, 5e-8, 2e-6)
+    assert lifted(problem, gap, spots_of(dry.pressure)).height == pytest.approx(
+        expected, rel=0.08
+    )  # some flows back along the flat
 
 
 @pytest.mark.parametrize("film, sliding", [(20e-9, 0.02), (200e-9, 0.2), (1e-6, 0.02)])

@@ -76,6 +76,8 @@ def cites(scene):
         ("H. Eyring", HOT, HOT.with_(lubricant={"eyring_stress": None})),
         ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
         ("one-way", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
+        ("Jakobsson", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
+        ("Lubricants 8", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
         ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
         ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),
         ("Johnson, J. A.", PATCH.with_(numerics={"film_deflection": "scaled"}), PATCH),

@@ -1,8 +1,11 @@
 """The study of the model's error: what it gathers, and that it sees a wrong model."""
 
 import numpy as np
+import pytest
 
-from verification.model.measure import METHODS, REFERENCE, Point, Setting, points
+from verification import kept
+from verification.model import grids, loads
+from verification.model.measure import METHODS, REFERENCE, Point, Setting, all_points, points
 from verification.model.summary import deviations
 
 SETTING = Setting(1, "gaussian", 5.5, "Newtonian", (0.01, 0.003), 32)
@@ -29,3 +32,33 @@ def test_every_model_answers_the_same_scene():
     assert not any(p.failure for p in found) and len(found) == 10
     f = {p.method: p.coefficient for p in found if p.speed == 0.003}
     assert max(f.values()) < 1.2 * min(f.values()) and len(set(f.values())) == 5
+
+
+def test_what_is_kept_is_not_solved_again(tmp_path, monkeypatch):
+    file, settings, methods = tmp_path / "points.jsonl", [SETTING], ('Eq. (8) over "hertz"',)
+    once = all_points(settings, file, methods)
+    monkeypatch.setattr("verification.model.measure._sweep", lambda *of: 1 / 0)
+    assert all_points(settings, file, methods) == once and len(once) == 2
+    with pytest.raises(ZeroDivisionError):
+        all_points(settings, file, ("one-way",))
+
+
+def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
+    file, solved = tmp_path / "rows.jsonl", []
+
+    def solve(key):
+        solved.append(key)
+        return [key, float("nan")]
+
+    assert list(kept.each(file, "ab", solve)) == [["a", None], ["b", None]]
+    file.write_text(file.read_text()[:-3])
+    assert list(kept.each(file, "abc", solve)) == [["a", None], ["b", None], ["c", None]]
+    assert solved == ["a", "b", "b", "c"] and len(kept.read(file)) == 3
+
+
+def test_grids_and_heavy_loads_say_what_they_found():
+    row = grids.refined((16, 24, 32), "0.01 1")
+    assert row[:2] == [0.01, 1] and np.isclose(row[5], 100 * (row[3] / row[4] - 1)) and 0 < row[-1] < 6
+    rows = loads.swept(24, "27.5 N, 1")
+    assert [r[2] for r in rows] == list(loads.SPEEDS) and not any(r[-1] for r in rows)
+    assert rows[-1][4] > rows[0][4]  # the asperities carry more of the load at the lowest speed

@@ -7,7 +7,10 @@ the film, by the one-way closure, and by ``numerics.model = "deterministic"``, w
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 from ..check import AT_MOST, TOLD, Check, Item, Table
 from ..frame import Command
@@ -15,7 +18,11 @@ from ..frame import main as run
 from ..studies import Study
 
 LEVELS = ("default", "quick", "full")
-STUDIES = (Study("model-error", "verification.model:model_error", "Load sharing beside one gap, one pressure", LEVELS),)
+STUDIES = (
+    Study("model-error", "verification.model:model_error", "Load sharing beside one gap, one pressure", LEVELS),
+    Study("grids", "verification.model.grids:grids", "One gap, one pressure on ever smaller cells", LEVELS),
+    Study("loads", "verification.model.loads:loads", "One gap, one pressure at heavy loads", LEVELS),
+)
 SPEEDS = (0.3, 0.1, 0.06, 0.03, 0.01, 0.003, 0.001)
 HEAVY = (0.3, 0.1, 0.03, 0.01)
 LIGHT_SURFACES = {"quick": 1, "default": 10, "full": 20}
@@ -31,14 +38,20 @@ COLUMNS = (
 
 def main(argv: list[str]) -> int:
     """The command."""
-    return run(Command("model", __doc__, STUDIES, "out/model", LEVELS), argv)
+    return run(Command("model", __doc__, STUDIES, "out/model", LEVELS, prepared=_kept), argv)
 
 
-def model_error(level: str) -> Iterator[Item]:
-    """f, share of the contact and mean gap by every model, over surfaces, speeds and loads."""
+def _kept(study: Study, options: argparse.Namespace) -> Study:
+    """Every study keeps what it has solved in the folder of the report."""
+    return replace(study, options={"folder": options.out / f"{study.name}-{options.level}"})
+
+
+def model_error(level: str, folder: Path | None = None) -> Iterator[Item]:
+    """f, share of the contact and mean gap by every model, over surfaces, speeds and loads; kept in ``folder`` surface
+    by surface."""
     from . import charts, held_out, measure, summary
 
-    found = [p for s in settings(level) for p in measure.points(s)]
+    found = measure.all_points(settings(level), None if folder is None else folder / "points.jsonl")
     gathered = summary.deviations(found)
     yield Table("model-error", "Each model against the deterministic film", COLUMNS, summary.rows(gathered))
     for method in measure.METHODS:
@@ -55,7 +68,7 @@ def model_error(level: str) -> Iterator[Item]:
     if ratios:  # at the quick level each group has one surface
         name = "largest rms of f over uncertainty.model_form"
         yield Check(name, max(ratios), MOST_OVER, 0.0, "lubfric.validity.model_form", AT_MOST)
-    yield from held_out.held_out(level)
+    yield from held_out.held_out(level, None if folder is None else folder / "held-out.jsonl")
     yield charts.over_speed("light", light, "5.5 N, Newtonian")
     for load in sorted({d.load for d in gathered if d.load > 10}):
         mine = [d for d in gathered if d.load == load]

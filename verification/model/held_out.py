@@ -8,13 +8,14 @@ told as an rms holds for two points of three, twice it for nineteen of twenty if
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
 from lubfric.validity.model_form import load_sharing_error, one_way_error
 
 from ..check import AT_LEAST, Check, Item, Table
-from .measure import REFERENCE, Point, Setting, points
+from .measure import REFERENCE, Point, Setting, all_points
 
 TOLD_BY = {
     'Eq. (8) over "hertz"': lambda p: load_sharing_error(p.film_ratio, p.contact_share),
@@ -45,9 +46,9 @@ def kinds(level: str) -> dict[str, list[Setting]]:
     }
 
 
-def held_out(level: str) -> Iterator[Item]:
-    """How often the told error holds there."""
-    rows, gathered = table(level)
+def held_out(level: str, file: Path | None = None) -> Iterator[Item]:
+    """How often the told error holds there; what is kept in ``file`` is not solved again."""
+    rows, gathered = table(level, file)
     yield Table("held-out", "The told error on surfaces it was not read off", COLUMNS, rows)
     for method, ratios in gathered.items():
         for times, share in ((1, ONE), (2, TWO)):
@@ -56,12 +57,12 @@ def held_out(level: str) -> Iterator[Item]:
             yield Check(name, held, share if level != "quick" else 0.0, 0.0, "deterministic film", AT_LEAST)
 
 
-def table(level: str) -> tuple[tuple[tuple, ...], dict[str, np.ndarray]]:
+def table(level: str, file: Path | None = None) -> tuple[tuple[tuple, ...], dict[str, np.ndarray]]:
     """Rows for every group and model, and |error| over told error of all points, by model."""
     rows: list[tuple] = []
     gathered: dict[str, list[np.ndarray]] = {method: [] for method in TOLD_BY}
     for name, settings in kinds(level).items():
-        found = [p for s in settings for p in points(s, (REFERENCE, *TOLD_BY))]
+        found = all_points(settings, file, (REFERENCE, *TOLD_BY))
         for method in TOLD_BY:
             ratios = _ratios(found, method)
             gathered[method].append(ratios)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
 
 import lubfric
-from lubfric.prepared import Prepared
 from lubfric.scene import Scene
+from lubfric.surface import Surface
 
+from .. import kept
 from ..parts import the
 
 WIDTH = 90e-6  # of the patch, both ways
@@ -96,19 +100,37 @@ def surface_of(setting: Setting):
     return fine.resampled(shape=(setting.cells, setting.cells))
 
 
+def all_points(settings: list[Setting], file: Path | None = None, methods=tuple(METHODS)) -> list[Point]:
+    """`points` of all ``settings``; those of a setting and method that are kept in ``file`` are not solved again."""
+    where = {
+        f"{setting}; {method}; {METHODS[method]}": (setting, method)
+        for setting in settings
+        for method in methods
+        if method != "hertz, total" or setting.load >= TOTAL_LEAST
+    }
+    surface = cache(surface_of)
+
+    def solve(key: str) -> list[dict]:
+        setting, method = where[key]
+        return [asdict(p) for p in _sweep(setting, method, surface(setting))]
+
+    found = zip(where.values(), kept.each(file, where, solve))
+    return [_point(setting, row) for (setting, _), rows in found for row in rows]
+
+
+def _point(setting: Setting, row: dict) -> Point:
+    """A point as it was kept: what JSON has no word for comes back as NaN."""
+    numbers: dict[str, Any] = {name: float("nan") if value is None else value for name, value in row.items()}
+    return Point(**numbers | {"setting": setting})
+
+
 def points(setting: Setting, methods=tuple(METHODS)) -> list[Point]:
     """Every speed of ``setting`` by every one of ``methods``, each speed started from the one before."""
-    found, surface = [], surface_of(setting)
-    for method in methods:
-        if method == "hertz, total" and setting.load < TOTAL_LEAST:
-            continue
-        model = lubfric.prepare(scene_of(setting, method), surface)
-        found += _sweep(setting, method, model)
-    return found
+    return all_points([setting], methods=methods)
 
 
-def _sweep(setting: Setting, method: str, model: Prepared) -> list[Point]:
-    found, start = [], None
+def _sweep(setting: Setting, method: str, surface: Surface) -> list[Point]:
+    model, found, start = lubfric.prepare(scene_of(setting, method), surface), [], None
     for speed in setting.speeds:
         begun = time.process_time()
         try:

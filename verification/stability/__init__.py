@@ -39,18 +39,24 @@ def main(argv: list[str]) -> int:
 
 
 def _kept(study: Study, options: argparse.Namespace) -> Study:
-    """The soak keeps what is done in the folder of the report. Run alone, it has all the processes."""
+    """The soak and the map of the whole keep what is done in the folder of the report; the soak, alone, has all the
+    processes."""
+    folder = {"folder": options.out / f"{study.name}-{options.level}"}
+    if study.name == "whole":
+        return replace(study, options=study.options | folder)
     if study.name != "soak":
         return study
     workers = options.workers if options.only == ["soak"] else 1
-    return replace(study, options={"folder": options.out / f"soak-{options.level}", "workers": workers})
+    return replace(study, options=folder | {"workers": workers})
 
 
-def stability_map(level: str, name: str) -> Iterator[Item]:
-    """Every cell of one map, judged without asking the solver, then the counts and the picture."""
+def stability_map(level: str, name: str, **kept) -> Iterator[Item]:
+    """Every cell of one map, judged without asking the solver; then their counts and their picture."""
     from .draw import draw, table
 
-    cells = list(importlib.import_module(f"verification.stability.{name}_map").cells(level))
-    yield from cells
+    cells = []
+    for found in importlib.import_module(f"verification.stability.{name}_map").cells(level, **kept):
+        cells.append(found)
+        yield found
     yield table(name, cells)
     yield draw(name, cells)

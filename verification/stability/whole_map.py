@@ -9,6 +9,7 @@ and of 1/h³ between cells.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
 
+from .. import kept
 from ..check import Check
 from .cell import Condition, judged
 
@@ -32,25 +34,35 @@ SPEEDS = {"full": tuple(np.geomspace(1e-3, 1.0, 10)), "quick": (0.01, 0.3)}
 ROUGHNESS = {"full": (2.5e-8, 5e-8, 1e-7, 2e-7), "quick": (1e-7,)}
 
 
-def cells(level: str) -> Iterator[Check]:
-    """All cells of ``level`` ("quick" or "full")."""
-    across = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
-    for sq in ROUGHNESS[level]:
-        surface = lubfric.generate_surface(
-            (128, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=1
-        )
-        for load in LOADS[level]:
-            for speed in SPEEDS[level]:
-                contact = LineContact(load, RADIUS, E_PRIME, float(speed), OIL)
-                problem = lay_out(
-                    surface, contact, sliding=2 * float(speed), boundary_friction=FRICTION, hardness=HARDNESS
-                )
-                yield judged(
-                    Condition(f"whole: Sq {1e9 * sq:g} nm", "load by speed", load, float(speed), inside=False),
-                    "deterministic",
-                    lambda problem=problem: solve_point(problem),
-                    lambda found, problem=problem: check(problem, found),
-                )
+ACROSS = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
+
+
+def cells(level: str, folder: Path | None = None) -> Iterator[Check]:
+    """All cells of ``level`` ("quick" or "full"); those kept in ``folder`` are not solved again."""
+    where = {
+        f"Sq {1e9 * sq:g} nm, {load:g} N/m, {speed:.4g} m/s": (sq, load, float(speed))
+        for sq in ROUGHNESS[level]
+        for load in LOADS[level]
+        for speed in SPEEDS[level]
+    }
+    file = None if folder is None else folder / "cells.jsonl"
+    for row in kept.each(file, where, lambda key: cell(*where[key]).as_dict()):
+        yield Check.from_dict(row)
+
+
+def cell(sq: float, load: float, speed: float) -> Check:
+    """One bearing: Sq [m], load per width [N/m], speed [m/s]."""
+    surface = lubfric.generate_surface(
+        (128, ACROSS), WIDTH / ACROSS, sq=sq, correlation_length=10e-6, acf="gaussian", seed=1
+    )
+    contact = LineContact(load, RADIUS, E_PRIME, speed, OIL)
+    problem = lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
+    return judged(
+        Condition(f"whole: Sq {1e9 * sq:g} nm", "load by speed", load, speed, inside=False),
+        "deterministic",
+        lambda: solve_point(problem),
+        lambda found: check(problem, found),
+    )
 
 
 def check(problem, found) -> dict[str, float]:

@@ -1,0 +1,96 @@
+"""The deterministic film at heavy loads on ten surfaces.
+
+The paper's cylinder at 27.5 and 110 N, and the bearing of the stability map at 1 GPa, each with a shear-limited
+compressible oil, from 0.3 down to 0.001 m/s.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+import lubfric
+from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.point import layer
+from lubfric.deterministic.problem import Problem
+from lubfric.deterministic.result import DeterministicResult
+from lubfric.deterministic.solve import Start
+from lubfric.deterministic.transfer import state_on
+from lubfric.line_contact import LineContact
+
+from .. import kept
+from ..check import AT_MOST, Check, Item, Table
+from ..stability import whole_map as bearing
+from .measure import REFERENCE, Setting, scene_of, surface_of
+
+CASES = {"quick": (1, 32), "default": (2, 64), "full": (10, 128)}
+SPEEDS = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
+GIGAPASCAL = 2.72e5  # N/m: 1 GPa in the middle of the bearing
+KINDS = ("27.5 N", "110 N", "1 GPa")
+SECONDS = 10.0
+COLUMNS = ("load", "surface", "U [m/s]", "f", "share of spots", "mean gap [nm]", "factorisations", "CPU s", "failure")
+
+
+def loads(level: str, folder: Path | None = None) -> Iterator[Item]:
+    """Every speed of every surface, started from the one before; kept in ``folder`` surface by surface."""
+    count, cells = CASES[level]
+    kinds = KINDS[:2] if level == "quick" else KINDS
+    keys = [f"{kind}, {seed}" for kind in kinds for seed in range(1, count + 1)]
+    file = None if folder is None else folder / "surfaces.jsonl"
+    rows = [row for sweep in kept.each(file, keys, partial(swept, cells)) for row in sweep]
+    yield Table("loads", f"The deterministic film at heavy loads, {cells} cells across", COLUMNS, rows)
+    for kind in kinds:
+        mine = [row for row in rows if row[0] == kind]
+        asked = kind != "1 GPa"  # where that is not solved is shown
+        failed = [f"{row[1]} at {row[2]:g} m/s" for row in mine if row[-1]]
+        name = f"{kind}, {count} surfaces: points of {len(mine)} that were not solved"
+        yield Check(name, len(failed), 0, 0, "the solver's own report", AT_MOST, decisive=asked, note=", ".join(failed))
+        slowest, within = max(row[-2] for row in mine), SECONDS if level == "full" else 6 * SECONDS
+        note = f"median {np.median([row[-2] for row in mine]):.1f} s"
+        yield Check(
+            f"{kind}: slowest point", slowest, within, 0.0, "asked", AT_MOST, unit="s", note=note, decisive=asked
+        )
+
+
+def swept(cells: int, key: str) -> list[list]:
+    """Rows of the table: the load and surface ``key`` at all speeds from the fastest down."""
+    kind, seed = key.split(", ")
+    lay = _laid(kind, int(seed), cells)
+    rows: list[list] = []
+    last: DeterministicResult | None = None
+    for speed in SPEEDS:
+        problem = lay(speed)
+        starts = [] if last is None else [Start(partial(state_on, problem, last), last.speed)]
+        begun = time.process_time()
+        try:
+            last = solve_point(problem, starts=starts)
+            said = [last.coefficient, last.split.spots / last.load, 1e9 * last.mean_gap, last.report.iterations]
+            failure = ""
+        except lubfric.ConvergenceError as error:
+            last, said, failure = None, [math.nan] * 4, str(error)
+        rows.append([kind, int(seed), speed, *said, time.process_time() - begun, failure])
+    return rows
+
+
+def _laid(kind: str, seed: int, cells: int) -> Callable[[float], Problem]:
+    if kind == "1 GPa":
+        step = bearing.WIDTH / cells
+        surface = lubfric.generate_surface(
+            (128 * cells // bearing.ACROSS, cells), step, sq=200e-9, correlation_length=10e-6, acf="gaussian", seed=seed
+        )
+
+        def lay(speed):
+            contact = LineContact(GIGAPASCAL, bearing.RADIUS, bearing.E_PRIME, speed, bearing.OIL)
+            return lay_out(
+                surface, contact, sliding=2 * speed, boundary_friction=bearing.FRICTION, hardness=bearing.HARDNESS
+            )
+
+        return lay
+    setting = Setting(seed, "gaussian", float(kind.split()[0]), "limiting stress", SPEEDS, cells)
+    scene, surface = scene_of(setting, REFERENCE), surface_of(setting)
+    return lambda speed: layer(scene, surface, speed)(surface.shape)
