@@ -21,7 +21,7 @@ from .response import Response, touched_length
 from .sample import Anchor, Sample, lines_of_model
 
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
-LINE_BALANCE = 0.3  # of the sampling tolerance on f: closing of a further line, before it is corrected to first order
+LINE_BALANCE = 1.0  # of the sampling tolerance: what correcting a further line to first order may move f by
 LOOSEST_LINE = 0.03  # volume residual of a further line
 LIGHT = 0.1  # of the load on the contact: it touches for sure
 
