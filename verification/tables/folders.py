@@ -16,7 +16,7 @@ from ..levels.scenes import SEED
 from ..sampling import cases, measure, quantities, verdict
 from .measured import Cells
 
-SAMPLING, LEVELS, CHARTS = Path("out/sampling"), Path("out/levels"), Path("out/charts")
+SAMPLING, LEVELS, CHARTS, MODEL = (Path("out", name) for name in ("sampling", "levels", "charts", "model"))
 METHODS_ERROR = 1e-5  # of the pressure
 
 
@@ -88,7 +88,18 @@ def growth() -> Cells:
     return [*columns, "convolutions, steps or points"], rows
 
 
+def model_error() -> Cells:
+    """Every model of load sharing beside one gap with one pressure, by `python -m verification model`. Points that it
+    kept are not solved again."""
+    from ..model import settings
+    from ..model.measure import all_points
+    from ..model.summary import deviations, table
+
+    return table(deviations(all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")))
+
+
 TABLES: dict[str, Callable[[], Cells]] = {
+    "model-error": model_error,
     "sampling-coverage": coverage,
     "sampling-numbers": other_numbers,
     "levels-saving": levels_saving,

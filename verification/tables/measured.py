@@ -126,15 +126,6 @@ def _seconds(job: Callable[[], object]) -> float:
     return min(found)
 
 
-def model_error() -> Cells:
-    """Every model of load sharing beside one gap with one pressure (`verification.model`, its default level)."""
-    from ..model import settings
-    from ..model.measure import points
-    from ..model.summary import deviations, table
-
-    return table(deviations([p for setting in settings("default") for p in points(setting)]))
-
-
 def held_out() -> Cells:
     """How often the told error of the model holds on surfaces it was not read off (`verification.model.held_out`)."""
     from ..model.held_out import COLUMNS, table
@@ -157,7 +148,6 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "hertz-line": hertz_line,
     "times": times,
     "contact-transforms": contact_transforms,
-    "model-error": model_error,
     "held-out": held_out,
     "mutants": mutants,
 }
