@@ -17,7 +17,7 @@ from .surface import correlation_length, rms_slope
 from .validity.foretold import foretold
 from .validity.gather import gathered
 
-SOLVE_FIELDS = 14  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 8 to 12.5)
+SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 
 
 def describe_scene(scene: Scene) -> str:
