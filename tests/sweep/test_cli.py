@@ -101,7 +101,7 @@ def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
         ("Sq", "100 nm"),
         ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
         ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"),
-        ("cells", "40000, about 4.27 MiB"),
+        ("cells", "40000, about 5.19 MiB"),
     ):
         assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
     assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
