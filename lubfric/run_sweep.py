@@ -113,7 +113,9 @@ def _doubts(curve) -> tuple[str, ...]:
     told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
     if not told:
         return ()
-    return (f"at {told[0][0]:g} m/s and {len(told) - 1} other speeds, how sure f is: {'; '.join(told[0][1])}",)
+    more = len(told) - 1
+    others = f" and {more} other {'speeds' if more > 1 else 'speed'}" if more else ""
+    return (f"at {told[0][0]:g} m/s{others}, how sure f is: {'; '.join(told[0][1])}",)
 
 
 def _unsolved(curve) -> ConvergenceError:
