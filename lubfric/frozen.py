@@ -1,7 +1,8 @@
-"""Arrays that stay read-only, even after the object that holds them was copied or unpickled."""
+"""What frozen dataclasses keep when they are copied or unpickled: arrays that stay read-only, and nothing derived."""
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -19,3 +20,10 @@ class FrozenArrays:
         for value in self.__dict__.values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
+
+
+class FieldsOnly:
+    """Base of frozen dataclasses with cached properties: what was derived is not pickled."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]

@@ -13,7 +13,6 @@ from functools import cache
 import numpy as np
 
 from ..film.rigid import true_pressure
-from ..lubricant import Lubricant
 from .problem import Problem
 from .rheology import cell_fluid, mean_fluidity, thinning
 
@@ -74,7 +73,7 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
     by_pressure = -T / below * reduced_slope
     Q = a @ integral.T - flow[:, None] * (b @ integral.T)
-    p = _law(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
+    p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
     by_flow = -(slope * (b @ integral.T)) @ (weight * stretch)
     by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
@@ -98,11 +97,6 @@ def _ambient_thinning(problem: Problem, gap) -> np.ndarray:
         limit = None
     found = thinning(lubricant, lubricant.viscosity * problem.sliding / gap, limit, along=True)
     return np.ones_like(gap) if found is None else found.factor
-
-
-@cache
-def _law(lubricant: Lubricant):
-    return np.positive if lubricant.viscosity_law == "constant" else true_pressure(lubricant)
 
 
 def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:

@@ -119,6 +119,8 @@ def _pressure_unit(line: LineContact, h0: float) -> float:
 @lru_cache(maxsize=16)
 def true_pressure(lubricant: Lubricant):
     """p(q) [Pa] of the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest q there is."""
+    if lubricant.viscosity_law == "constant":
+        return np.positive
     alpha = lubricant.pressure_viscosity_coefficient
     if lubricant.viscosity_law == "barus":
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,7 +10,7 @@ from scipy import fft
 
 from .. import validate
 from ..errors import InputError
-from ..frozen import FrozenArrays
+from ..frozen import FieldsOnly, FrozenArrays
 from .free import love_coefficients
 from .line import line_coefficients
 from .semiperiodic import semiperiodic_coefficients
@@ -21,7 +21,7 @@ NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
 
 
 @dataclass(frozen=True)
-class HalfSpace(FrozenArrays):
+class HalfSpace(FrozenArrays, FieldsOnly):
     """Linear map from cell pressures [Pa] to deflections [m] of the cell centres, made by `half_space`.
 
     ``symbol`` [m/Pa]: the eigenvalues, real and even along both axes, so only the non-negative
@@ -85,10 +85,6 @@ class HalfSpace(FrozenArrays):
     def _made(self) -> dict:
         """Operators derived from this one, each made once: they depend on nothing else."""
         return {}
-
-    def __getstate__(self) -> dict:
-        """What was derived is not pickled."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def astype(self, dtype) -> HalfSpace:
         """The same operator that transforms in ``dtype`` (float32 costs about half of float64)."""

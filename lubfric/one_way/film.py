@@ -23,6 +23,7 @@ from ..deterministic.problem import Problem
 from ..deterministic.reynolds import first_film
 from ..deterministic.start import RUPTURE
 from ..errors import ConvergenceError
+from ..lubricant import Lubricant
 from ..report import STAGNATED, Report
 
 SETS = 400  # of active cells tried
@@ -44,12 +45,13 @@ class GapFilm:
 
 
 def gap_film(problem: Problem, gap, ruptured=None) -> GapFilm:
-    """The film of ``gap`` > 0 [m] (nx, ny); ``ruptured``: the set to start from.
+    """The film of ``gap`` > 0 [m] (nx, ny) at the viscosity of ambient pressure, as Q asks; ``ruptured``: the set to
+    start from.
 
-    ``problem``: its lubricant is isoviscous. Stops when no cell changes sides; or when ∫ Q changes by no more than
-    `SETTLED`, and both what does not fit into ruptured cells and what pulls in full ones is at most `LOST`. Raises
-    `ConvergenceError` after `SETS`.
+    Stops when no cell changes sides; or when ∫ Q changes by no more than `SETTLED`, and both what does not fit into
+    ruptured cells and what pulls in full ones is at most `LOST`. Raises `ConvergenceError` after `SETS`.
     """
+    problem = problem.with_lubricant(Lubricant(problem.lubricant.viscosity, viscosity_law="constant"))
     system = _system(problem, gap)
     carried, entering = math.inf, float(system.entering.sum())
     out = _outlet(problem, gap) if ruptured is None else ruptured

@@ -20,7 +20,6 @@ from scipy.ndimage import label
 
 from ..deterministic.problem import Problem
 from ..film.rigid import reduced_pressure
-from ..lubricant import Lubricant
 from ..roots import increasing_root
 from .film import GapFilm, gap_film
 from .limit import pressure_limit
@@ -75,16 +74,14 @@ def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, ruptu
     Stops when both reduced pressures agree to `TOLERANCE`. The film is no thinner than the floor; so it is where the
     flow cannot carry the spots (behind the rupture of the film), and with a constant viscosity.
     """
-    lubricant = problem.lubricant
-    plain = problem.with_lubricant(Lubricant(lubricant.viscosity, viscosity_law="constant"))
 
     def at(log_height: float, last: Lifted | None) -> tuple[float, Lifted]:
         height = math.exp(log_height)
-        film = gap_film(plain, gap + height, ruptured if last is None else last.film.ruptured)
+        film = gap_film(problem, gap + height, ruptured if last is None else last.film.ruptured)
         return surplus(problem, spots, height, film), Lifted(gap + height, film, height)
 
     lowest = math.log(problem.floor)
-    if lubricant.viscosity_law == "constant":
+    if problem.lubricant.viscosity_law == "constant":
         return at(lowest, None)[1]
     return increasing_root(
         at,

@@ -17,7 +17,7 @@ from ..contact import ContactResult
 from ..deterministic.problem import Problem
 from ..deterministic.start import dry_contact
 from ..film.rigid import true_pressure
-from ..lubricant import Lubricant, shear_stress
+from ..lubricant import shear_stress
 from ..report import Report
 from ..roots import Root, increasing_root
 from .film import GapFilm, gap_film
@@ -150,8 +150,7 @@ def _too_thick(problem: Problem, log_lift: float, last: Trial | Before | None):
 
 def _lifted(problem: Problem, lift: float, last: Trial | Before | None) -> Trial:
     gap = np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
-    plain = problem.with_lubricant(Lubricant(problem.lubricant.viscosity, viscosity_law="constant"))
-    film = gap_film(plain, gap, last.ruptured if last else None)
+    film = gap_film(problem, gap, last.ruptured if last else None)
     return _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
 
 
@@ -168,9 +167,8 @@ def _presses(problem: Problem, trial: Trial) -> bool:
 
 def _filled(problem: Problem, raised: Lifted, closed, contact_load: float, dry) -> Trial:
     lubricant, gap, film = problem.lubricant, raised.gap, raised.film
-    law = np.positive if lubricant.viscosity_law == "constant" else true_pressure(lubricant)
     limit = pressure_limit(lubricant, gap, problem.sliding, problem.boundary_friction)
-    pressure = np.where(closed, 0.0, np.minimum(law(film.reduced), limit))
+    pressure = np.where(closed, 0.0, np.minimum(true_pressure(lubricant)(film.reduced), limit))
     carried = float(pressure.sum()) * problem.spacing[0] / gap.shape[1] + film.inlet.load
     return Trial(contact_load, dry, gap, closed, film, pressure, carried, raised.height)
 

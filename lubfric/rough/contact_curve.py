@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from .. import validate
 from ..contact import solve_contact
+from ..frozen import FieldsOnly
 from .left_out import left_out
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,
@@ -23,7 +24,7 @@ MATTERS = 0.1  # share of the load on the contact above which f feels all of its
 
 
 @dataclass(frozen=True)
-class ContactCurve:
+class ContactCurve(FieldsOnly):
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
     touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
@@ -72,10 +73,6 @@ class ContactCurve:
         area = self.contact_area_fraction
         table = np.stack([self.mean_gap, np.log(area), self.plastic_area_fraction / area])[:, ::-1]
         return PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)
-
-    def __getstate__(self) -> dict:
-        """What was derived is not pickled."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def pressure_at(self, mean_gap: float) -> float:
         """Mean pressure [Pa] at a mean gap [m]: 0 above first touch, the heaviest below the curve's least gap."""

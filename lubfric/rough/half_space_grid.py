@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
 
 import numpy as np
 
 from ..contact.problem import COARSEST
+from ..frozen import FieldsOnly
 from ..halfspace import HalfSpace
 from .contract import ContactState, Grid, RoughContact
 from .strip import strip_weight
@@ -21,7 +22,7 @@ SUMMITS = 32  # the highest, of which is told what averages take from them
 
 
 @dataclass(frozen=True)
-class HalfSpaceGrid(RoughContact):
+class HalfSpaceGrid(FieldsOnly, RoughContact):
     """A rough surface under a cylinder on its grid: free along x, periodic along y.
 
     heights [m] (nx, ny) around their mean; x [m] (nx,) cell centres around the line of contact; weight (nx,): part of
@@ -56,10 +57,6 @@ class HalfSpaceGrid(RoughContact):
         """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A
         stays wider than a cell. None where neither axis can be halved. Made once."""
         return self._coarser
-
-    def __getstate__(self) -> dict:
-        """What was derived is not pickled."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
 
     @cached_property
     def _coarser(self) -> Self | None:

@@ -135,7 +135,7 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     here = redivided(at(sample.prepared, sample.speed, anchor.contact, there), there, sample.together.contact_load)
     point = at(sample.prepared, sample.speed, contact, there)
     slope = -0.5 / (anchor.response.split * there.contact.mean_film)
-    point = replace(point, settings=replace(point.settings, balance_tolerance=_looseness(sample, slope)))
+    point = replace(point, settings=replace(point.settings, balance_tolerance=_looseness(sample)))
     if here.contact_load < LIGHT * scene.bodies.load:
         alone = separated(point, here.film)
         if alone.contact.volume_residual <= 0:
@@ -146,11 +146,13 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
     return Solved(replace(found, contact_load=found.closed.contact_load), anchor.point.decision, contact)
 
 
-def _looseness(sample: Sample, slope: float) -> float:
-    """Volume residual of a further line whose correction moves f by `LINE_BALANCE` of the sampling tolerance."""
-    rate = abs((sample.known.response.rates or {})["coefficient"])
-    allowed = LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance * slope
-    return min(allowed / rate, LOOSEST_LINE) if rate else LOOSEST_LINE
+def _looseness(sample: Sample) -> float:
+    """Volume residual (G - h)/(G + h) of a further line whose correction moves f by `LINE_BALANCE` of the sampling
+    tolerance."""
+    anchor = sample.known
+    moved = anchor.response.relative("coefficient", 2 * anchor.point.balance.contact.mean_film)  # f, per residual
+    allowed = LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance
+    return min(allowed / moved, LOOSEST_LINE) if moved else LOOSEST_LINE
 
 
 def _found(sample: Sample) -> LineFound:

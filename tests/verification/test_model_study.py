@@ -5,7 +5,7 @@ import pytest
 
 from verification import kept
 from verification.model import grids, loads
-from verification.model.measure import METHODS, REFERENCE, Point, Setting, all_points, points
+from verification.model.measure import METHODS, REFERENCE, Point, Setting, all_points
 from verification.model.summary import deviations
 
 SETTING = Setting(1, "gaussian", 5.5, "Newtonian", (0.01, 0.003), 32)
@@ -28,7 +28,7 @@ def test_mean_rms_and_failures_are_against_the_reference():
 
 
 def test_every_model_answers_the_same_scene():
-    found = points(SETTING, tuple(m for m in METHODS if m != "hertz, total"))
+    found = all_points([SETTING], methods=tuple(m for m in METHODS if m != "hertz, total"))
     assert not any(p.failure for p in found) and len(found) == 10
     f = {p.method: p.coefficient for p in found if p.speed == 0.003}
     assert max(f.values()) < 1.2 * min(f.values()) and len(set(f.values())) == 5

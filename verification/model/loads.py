@@ -15,22 +15,22 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic import solve_point
 from lubfric.deterministic.point import layer
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.result import DeterministicResult
 from lubfric.deterministic.solve import Start
 from lubfric.deterministic.transfer import state_on
-from lubfric.line_contact import LineContact
 
 from .. import kept
 from ..check import AT_MOST, Check, Item, Table
-from ..stability import whole_map as bearing
+from ..stability.whole_map import bearing
 from .measure import REFERENCE, Setting, scene_of, surface_of
 
 CASES = {"quick": (1, 32), "default": (2, 64), "full": (10, 128)}
 SPEEDS = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 GIGAPASCAL = 2.72e5  # N/m: 1 GPa in the middle of the bearing
+SQ = 200e-9  # m, of its surfaces
 KINDS = ("27.5 N", "110 N", "1 GPa")
 SECONDS = 10.0
 COLUMNS = ("load", "surface", "U [m/s]", "f", "share of spots", "mean gap [nm]", "factorisations", "CPU s", "failure")
@@ -79,18 +79,7 @@ def swept(cells: int, key: str) -> list[list]:
 
 def _laid(kind: str, seed: int, cells: int) -> Callable[[float], Problem]:
     if kind == "1 GPa":
-        step = bearing.WIDTH / cells
-        surface = lubfric.generate_surface(
-            (128 * cells // bearing.ACROSS, cells), step, sq=200e-9, correlation_length=10e-6, acf="gaussian", seed=seed
-        )
-
-        def lay(speed):
-            contact = LineContact(GIGAPASCAL, bearing.RADIUS, bearing.E_PRIME, speed, bearing.OIL)
-            return lay_out(
-                surface, contact, sliding=2 * speed, boundary_friction=bearing.FRICTION, hardness=bearing.HARDNESS
-            )
-
-        return lay
+        return lambda speed: bearing(SQ, GIGAPASCAL, speed, seed, cells)
     setting = Setting(seed, "gaussian", float(kind.split()[0]), "limiting stress", SPEEDS, cells)
     scene, surface = scene_of(setting, REFERENCE), surface_of(setting)
     return lambda speed: layer(scene, surface, speed)(surface.shape)

@@ -101,7 +101,8 @@ def surface_of(setting: Setting):
 
 
 def all_points(settings: list[Setting], file: Path | None = None, methods=tuple(METHODS)) -> list[Point]:
-    """`points` of all ``settings``; those of a setting and method that are kept in ``file`` are not solved again."""
+    """Every speed of all ``settings`` by every one of ``methods``, each speed started from the one before. Those of a
+    setting and method that are kept in ``file`` are not solved again."""
     where = {
         f"{setting}; {method}; {METHODS[method]}": (setting, method)
         for setting in settings
@@ -122,11 +123,6 @@ def _point(setting: Setting, row: dict) -> Point:
     """A point as it was kept: what JSON has no word for comes back as NaN."""
     numbers: dict[str, Any] = {name: float("nan") if value is None else value for name, value in row.items()}
     return Point(**numbers | {"setting": setting})
-
-
-def points(setting: Setting, methods=tuple(METHODS)) -> list[Point]:
-    """Every speed of ``setting`` by every one of ``methods``, each speed started from the one before."""
-    return all_points([setting], methods=methods)
 
 
 def _sweep(setting: Setting, method: str, surface: Surface) -> list[Point]:

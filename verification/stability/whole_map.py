@@ -15,6 +15,7 @@ import numpy as np
 
 import lubfric
 from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.problem import Problem
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
@@ -52,17 +53,22 @@ def cells(level: str, folder: Path | None = None) -> Iterator[Check]:
 
 def cell(sq: float, load: float, speed: float) -> Check:
     """One bearing: Sq [m], load per width [N/m], speed [m/s]."""
-    surface = lubfric.generate_surface(
-        (128, ACROSS), WIDTH / ACROSS, sq=sq, correlation_length=10e-6, acf="gaussian", seed=1
-    )
-    contact = LineContact(load, RADIUS, E_PRIME, speed, OIL)
-    problem = lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
+    problem = bearing(sq, load, speed)
     return judged(
         Condition(f"whole: Sq {1e9 * sq:g} nm", "load by speed", load, speed, inside=False),
         "deterministic",
         lambda: solve_point(problem),
         lambda found: check(problem, found),
     )
+
+
+def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = ACROSS) -> Problem:
+    """The bearing on ``across`` cells, with the surface of that ``seed``."""
+    surface = lubfric.generate_surface(
+        (128 * across // ACROSS, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=seed
+    )
+    contact = LineContact(load, RADIUS, E_PRIME, speed, OIL)
+    return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
 
 
 def check(problem, found) -> dict[str, float]:
