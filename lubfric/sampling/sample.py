@@ -24,6 +24,7 @@ from .uncertainty import FEW
 
 PAIR = 42.0  # correlation lengths along y of a piece on the scene's own cells
 MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
+KEPT = 0.5  # of the share of the grid: what pieces taken at a neighbouring speed may leave open
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 LEAST_MORE = 0.25  # of the length so far
 
@@ -183,7 +184,7 @@ def _grid(prepared, speed: float, found: Solved, response: Response, before) -> 
     enough = budget.CONTACT_GRID * numerics.tolerance / per_gap
     scatter = PAIR_SHARE * numerics.sampling_tolerance / per_gap
     near = tuple(step.at_load(load) for step in before)
-    if near and mean_error(near).error <= scatter and gap_left(near) <= enough:
+    if near and mean_error(near).error <= scatter and gap_left(near) <= KEPT * enough:
         return near
     steps: list[GridStep] = []
     point = at(prepared, speed, found.contact, balance)
