@@ -15,7 +15,7 @@ from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
-from .output import csv_bytes, curve_record, fields_bytes, read_csv
+from .output import csv_bytes, curve_record, fields_bytes
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
 from .result import FrictionResult
@@ -25,6 +25,7 @@ from .show.report import report_page
 from .store import fingerprint
 from .studies.pool import pool, processors
 from .sweep import AUTO, stribeck
+from .table import read_table
 from .vtk import vtk_bytes
 
 MOST = 10**6  # speeds of a curve
@@ -143,7 +144,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        columns, told = read_csv(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
+        columns, told = read_table(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
         folder.draw("stribeck.png", plot_stribeck, columns, prepared.scene.name, told)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:

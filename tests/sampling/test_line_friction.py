@@ -11,10 +11,10 @@ from lubfric import Transient
 from lubfric.cli import main
 from lubfric.describe import describe_scene
 from lubfric.lines.outlook import foretold
-from lubfric.output import read_csv
 from lubfric.point.adapt import solved
 from lubfric.rough.height_map import contact_map
 from lubfric.sampling.sample import response_of
+from lubfric.table import read_table
 
 PAPER = lubfric.load_scene("paper")
 
@@ -122,7 +122,7 @@ def test_the_command_tells_the_interval(tmp_path, capsys):
     arguments = ["run", "paper", "--out", str(tmp_path), "--speeds", "0.002,0.5", "--sampling-tolerance", "0.05"]
     assert main(arguments) == 0
     assert "surface" in capsys.readouterr().err
-    columns = read_csv(tmp_path / "stribeck.csv")
+    columns = read_table(tmp_path / "stribeck.csv")
     assert np.all(columns["interval_low"] <= columns["coefficient"])
     assert np.all(columns["coefficient"] <= columns["interval_high"]) and np.all(columns["sampling_error"] <= 0.05)
 
