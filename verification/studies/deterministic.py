@@ -18,6 +18,7 @@ from lubfric.surface import Surface
 from ..check import ABSOLUTE, AT_MOST, Check, Table
 from ..fem.fluid import Fluid
 from ..fem.rough_film import GivenGap, rough_film
+from .given_fluid import contact_given_fluid
 
 RADIUS, E_PRIME, VISCOSITY, ALPHA = 2e-3, 231e9, 0.36, 25e-9
 LOAD, WIDTH = 917.0, 90e-6
@@ -36,13 +37,15 @@ def deterministic(level: str):
     is handed to a finite-element Reynolds solver on triangles, with the pressure of the spots above 100 MPa as that of
     what one would call contact. Flow and load of the film around them must come out again. In a thin film under such
     pressures the gap does not determine the pressure well enough to be given. The surface is its own mirror image, so
-    that half of it can be meshed.
+    that half of it can be meshed. The other way round, the pressure of the fluid is handed to a finite-element contact
+    (`given_fluid`), and cells, pressure and load of the touching summits must come out again.
     """
     yield from smooth()
     yield from dry()
     for cells, speeds in CASES[level]:
         for speed in speeds:
             yield from same_gap(cells, speed)
+    yield from contact_given_fluid(level, contact(0.1))
     if level == "full":
         yield from refinement()
 

@@ -1,0 +1,24 @@
+"""The finite-element contact given the fluid of the deterministic film: it agrees, and it sees a wrong fluid."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lubfric.deterministic import solve_point
+from verification.studies.deterministic import LOAD, contact
+from verification.studies.given_fluid import Case, elements, judged, laid
+
+
+def test_the_contact_is_that_of_finite_elements_given_the_fluid():
+    case = Case(32, 8, 0.003, 40e-9, 2.5e9, 1)
+    problem = laid(case, contact(0.1, 5 * LOAD))
+    found, body = solve_point(problem), elements(problem, case.fineness)
+    mine = np.where(found.touching, found.pressure, 0.0)
+    judge, load = judged(problem, found, body)
+    assert np.count_nonzero(mine) > 5 and ((judge.pressure > 0) == (mine > 0)).all()
+    assert np.linalg.norm(judge.pressure - mine) < 0.015 * np.linalg.norm(mine)
+    assert load == pytest.approx(1, abs=0.01)
+    half = replace(found, pressure=np.where(found.touching, found.pressure, 0.5 * found.pressure))
+    wrong, _ = judged(problem, half, body)
+    assert np.linalg.norm(wrong.pressure - mine) > 0.05 * np.linalg.norm(mine)
