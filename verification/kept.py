@@ -13,8 +13,6 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-import lubfric
-
 from .report import finite
 
 CODE = "code"  # the one key of a line that is no row
@@ -65,6 +63,8 @@ def each(file: Path | None, keys: Iterable[str], solve: Callable[[str], Any]) ->
 
 def code() -> str:
     """lubfric's version, and a hash of its source files."""
+    import lubfric  # only now: the studies can be listed without it
+
     found, home = hashlib.sha256(), Path(lubfric.__path__[0])
     for path in sorted(home.rglob("*.py")):
         found.update(path.relative_to(home).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
