@@ -166,9 +166,9 @@ def _info(arguments) -> int:
 
 def _plot(arguments) -> int:
     from .errors import InputError
-    from .output import read_csv
     from .plot import plot_stribeck
     from .store import whole_file
+    from .table import read_table
     from .unsteady.command import plot_again
     from .validity.entry import Validity
 
@@ -184,7 +184,7 @@ def _plot(arguments) -> int:
         name, told = found["scene"]["name"], [[Validity(**e) for e in p.get("validity", ())] for p in found["points"]]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
         raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
-    measured, columns = _measured(arguments), read_csv(source)
+    measured, columns = _measured(arguments), read_table(source)
     if len(columns["speed"]) != len(told):
         raise InputError(f"{source} has {len(columns['speed'])} speeds and {record} {len(told)}; allowed: of one run")
     with whole_file(arguments.folder / "stribeck.png") as part:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from .analytic import film as film_formulas
 from .errors import InputError
 from .inputs import input_lines
 from .lines.make import lines_of, takes_line
@@ -22,10 +21,8 @@ SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a cont
 
 def describe_scene(scene: Scene) -> str:
     """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
-    bodies, lubricant, patch = scene.bodies, scene.lubricant, scene.contact
     with told_doubts(scene):
         surface = contact_map(scene)
-    w = bodies.load / bodies.width
     nx, ny = surface.heights.shape
     lines = [
         f"scene {scene.name}",
@@ -39,21 +36,13 @@ def describe_scene(scene: Scene) -> str:
         if speed == 0:
             lines.append("  0              no entrainment: all contact")
             continue
-        regime = dict(
-            load_per_width=w,
-            radius=bodies.radius,
-            e_prime=bodies.e_prime,
-            entrainment_speed=abs(speed),
-            viscosity=lubricant.viscosity,
-            pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-        )
-        m, el = film_formulas.moes_numbers(**regime)
-        h = film_formulas.moes_flow_film(**regime)
+        line = scene.line_contact(abs(speed))
+        h = line.moes_film
         ratio = h / surface.sq if surface.sq > 0 else math.inf
-        lines.append(f"  {speed:<12.4g} {m:9.3g} {el:8.3g} {h * 1e6:12.4f} {ratio:8.3g}")
+        lines.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {h * 1e6:12.4f} {ratio:8.3g}")
     if scene.numerics.model == "deterministic":
         plan = "one gap and one pressure, on grids of the map halved and doubled"
-    elif patch.geometry == "flat":
+    elif scene.contact.geometry == "flat":
         plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
     elif takes_line(scene):
         plan = "semi-periodic contact on a line of the roughness (below) under the film at every speed"

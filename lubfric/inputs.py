@@ -60,7 +60,7 @@ def _lubricant(scene: Scene):
             f"coefficient {lubricant.pressure_viscosity_coefficient * 1e9:.4g} /GPa"
         )
     yield f"viscosity over pressure: {lubricant.viscosity_law}; density over pressure: {lubricant.density_law}"
-    if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
+    if lubricant.newtonian:
         yield "shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)"
     else:
         eyring = "none" if lubricant.eyring_stress is None else f"{lubricant.eyring_stress / 1e6:.4g} MPa"

@@ -102,6 +102,11 @@ class Lubricant(Brief):
         return self.temperature is not None and bool(self.temperature_coefficient)
 
     @property
+    def newtonian(self) -> bool:
+        """True where the shear stress grows with the shear rate without end."""
+        return self.eyring_stress is None and self.limiting_stress_coefficient is None
+
+    @property
     def roelands_exponent(self) -> float:
         """z = alpha p0/(ln eta0 + 9.67)."""
         return (

@@ -2,43 +2,22 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import platform
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
-from .errors import InputError
 from .plain import plain
 from .prepared import Prepared
+from .quantities import heading
 from .result import FrictionResult
 from .sampling.uncertainty import UncertaintyCurve
 from .scene import Scene, scene_as_dict
 from .surface import Surface, rms_slope
 from .sweep import QUANTITIES, StribeckResult
-from .validate import shown
+from .table import table_bytes
 from .version import __version__
-
-UNITS = {
-    "speed": "m/s",
-    "real_contact_area": "m2",
-    "contact_load": "N",
-    "film_load": "N",
-    "shear_force": "N",
-    "couette_force": "N",
-    "rolling_force": "N",
-    "boundary_force": "N",
-    "min_film": "m",
-    "central_film": "m",
-    "mean_gap": "m",
-    "flash_temperature_rise": "K",
-    "film_temperature_rise": "K",
-    "seconds": "s",
-    "line_length": "m",
-}
-IN_WORDS = ("validity", "uncertainty")  # columns of a table
 
 
 def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
@@ -66,20 +45,10 @@ def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
 def csv_bytes(curve: StribeckResult) -> bytes:
     """One row a speed, one column a quantity, the unit in the heading; the last columns say what does not hold
     there, and how sure f is."""
-    columns = {f"{name} [{UNITS.get(name, '-')}]": getattr(curve, name) for name in QUANTITIES}
-    columns |= {f"{name} [{UNITS.get(name, '-')}]": v for name, v in uncertainty_columns(curve.uncertainty).items()}
-    texts = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
-    words = {"validity": texts, "uncertainty": curve.uncertainty.text}
-    return table_bytes(columns | {name: np.array(words[name], dtype=object) for name in IN_WORDS})
-
-
-def table_bytes(columns: dict[str, np.ndarray]) -> bytes:
-    """``columns`` by heading as comma-separated text."""
-    file = io.StringIO(newline="")
-    writer = csv.writer(file)
-    writer.writerow(columns)
-    writer.writerows(zip(*(values.tolist() for values in columns.values())))
-    return file.getvalue().encode()
+    columns = {name: getattr(curve, name) for name in QUANTITIES} | uncertainty_columns(curve.uncertainty)
+    told = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+    named = {heading(name): values for name, values in columns.items()}
+    return table_bytes(named | {"validity": told, "uncertainty": list(curve.uncertainty.text)})
 
 
 def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
@@ -93,26 +62,6 @@ def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
         "participation": found.participation,
         "line_length": found.length,
     }
-
-
-class Columns(dict):
-    """Columns of a table by name; one that is not there is an `InputError`."""
-
-    def __missing__(self, name: str):
-        raise InputError(f"the table has no column {name!r}; allowed: a table written by 'lubfric run', which has one")
-
-
-def read_csv(path: Path) -> Columns:
-    """The columns that `write_csv` wrote, by name. Raises `InputError` for a table that is torn or another one."""
-    try:
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file))
-        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
-    except (ValueError, IndexError, csv.Error) as problem:
-        raise InputError(
-            f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"
-        ) from None
 
 
 def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:

@@ -39,7 +39,7 @@ def plot_stribeck(
 ) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as in `lubfric.output.read_csv`; speeds that failed are left out. ``entries``: row by
+    ``columns``: arrays by name as in `lubfric.table.read_table`; speeds that failed are left out. ``entries``: row by
     row, the assumptions that do not hold (`lubfric.validity.entry.Validity`).
     ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """

@@ -15,19 +15,20 @@ from .console import keeping, say
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
-from .output import csv_bytes, curve_record, fields_bytes, read_csv
+from .output import csv_bytes, curve_record, fields_bytes
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
 from .result import FrictionResult
 from .run_folder import RunFolder, drawn, run_folder
 from .scene import FASTEST, Scene
+from .short_forms.motion import MOST_SPEEDS
 from .show.report import report_page
 from .store import fingerprint
 from .studies.pool import pool, processors
 from .sweep import AUTO, stribeck
+from .table import read_table
 from .vtk import vtk_bytes
 
-MOST = 10**6  # speeds of a curve
 WORTH = 8  # speeds from which a second process gains more than it costs
 
 
@@ -143,7 +144,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
-        columns, told = read_csv(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
+        columns, told = read_table(folder.path / "stribeck.csv"), [curve.entries(i) for i in range(curve.speed.size)]
         folder.draw("stribeck.png", plot_stribeck, columns, prepared.scene.name, told)
     points = [p for p in curve.points if p is not None and p.balance is not None]
     if points:
@@ -178,7 +179,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
         return []
     refusal = InputError(
         f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
-        f"1 <= count <= {MOST}, in m/s"
+        f"1 <= count <= {MOST_SPEEDS}, in m/s"
     )
     ranged = ":" in text
     try:
@@ -189,7 +190,9 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
         validate.number(option, speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if not ranged:
         return numbers
-    if len(numbers) != 3 or not (0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST and numbers[2] % 1 == 0):
+    if len(numbers) != 3 or not (
+        0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST_SPEEDS and numbers[2] % 1 == 0
+    ):
         raise refusal
     return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
 

@@ -64,20 +64,23 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
     if isinstance(source, dict):
         table, folder, name = deepcopy(source), Path(), "unnamed"
     else:
-        text, folder, name = _text(source)
-        table = _parsed(text, source)
+        table, folder, name = _read(source)
     for section, path in zip(ROUGH, (surface_file, counterface_file)):
         if path is not None:
             _put_map(table, section, path)
     return scene_from_table(table, folder, name)
 
 
-def _parsed(text: str, source) -> dict:
+def read_toml(path, what: str) -> dict:
+    """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
-        return tomllib.loads(text)
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (UnicodeDecodeError, OSError) as error:
+        raise InputError(f"{what} {str(path)!r} cannot be read as UTF-8 text: {error}") from None
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
+        told = validate.shown(str(error))
         raise InputError(
-            f"scene {source} is not valid TOML: {validate.shown(str(error))} (numbers have a decimal point and no unit)"
+            f"{what} {path} is not valid TOML: {told} (numbers have a decimal point and no unit)"
         ) from None
 
 
@@ -170,24 +173,22 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     return table, plan
 
 
-def _text(source) -> tuple[str, Path, str]:
+def _read(source) -> tuple[dict, Path, str]:
+    """Its tables, the folder that its files are relative to, and its name."""
     if not isinstance(source, (str, os.PathLike)):
         raise InputError(
             f"scene {validate.shown(source)} is a {type(source).__name__}; allowed: a path, or one of "
             f"{builtin_scenes()}"
         )
     if str(source) in builtin_scenes():
-        return (resources.files("lubfric") / "scenes" / f"{source}.toml").read_text(), Path(), str(source)
+        return read_toml(resources.files("lubfric") / "scenes" / f"{source}.toml", "scene"), Path(), str(source)
     path = Path(source)
     if "\0" in str(source) or not path.is_file():
         raise InputError(
             f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
             f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"
         )
-    try:
-        return path.read_text(encoding="utf-8-sig"), path.parent, path.stem
-    except (UnicodeDecodeError, OSError) as error:
-        raise InputError(f"scene {str(source)!r} cannot be read as UTF-8 text: {error}") from None
+    return read_toml(path, "scene"), path.parent, path.stem
 
 
 def _build(section: str, table: dict):

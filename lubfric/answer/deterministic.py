@@ -85,10 +85,8 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity
     entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
     entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
     entries += of_thickness(scene.bodies, result.central_gap)
-    lubricant = scene.lubricant
-    newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
     cut = (result.split.saturated - result.split.spots) / result.load
-    if newtonian and cut > CUT:
+    if scene.lubricant.newtonian and cut > CUT:
         consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         entries.append(Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy))

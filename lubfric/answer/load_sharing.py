@@ -6,7 +6,6 @@ import math
 import time
 from dataclasses import replace
 
-from ..line_contact import LineContact
 from ..oil.describe import estimate_in_words
 from ..point.adapt import Solved
 from ..point.deflection import solved_as_deflected
@@ -53,9 +52,7 @@ def load_sharing_answer(
 
 def foretell_ends(prepared: Prepared, speed: float) -> None:
     """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s], not 0."""
-    bodies = prepared.scene.bodies
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
-    prepared.contact.foretell(bodies, line.moes_film)
+    prepared.contact.foretell(prepared.scene.bodies, prepared.scene.line_contact(speed).moes_film)
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:

@@ -14,9 +14,7 @@ from ..one_way.refine import one_way_point
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
-from ..scene import Scene
 from ..validity.bodies import of_motion
-from ..validity.entry import Validity
 from ..validity.model_form import one_way_error
 from ..validity.stress import of_shear
 from .resolved import Resolved, resolved_result
@@ -43,6 +41,7 @@ def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None)
     bodies = prepared.scene.bodies
     strip, central = np.abs(one.x) <= bodies.half_width, float(np.interp(0.0, one.x, one.gap.mean(axis=1)))
     hardness = math.inf if bodies.hardness is None else bodies.hardness
+    force = abs(one.coefficient) * (one.contact_load + one.film_load)
     estimated = "" if error is None else f", estimated error {100 * error:.2g} % of f"
     return Resolved(
         film="one-way",
@@ -64,12 +63,9 @@ def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None)
         mean_gap=float(one.gap[strip].mean()),
         load_residual=(one.contact_load + one.film_load) * bodies.width / bodies.load - 1,
         report=one.report,
-        entries=(*prepared.known, *of_motion(prepared.scene, speed, central), *_of_shear(prepared.scene, one)),
+        entries=(
+            *prepared.known,
+            *of_motion(prepared.scene, speed, central),
+            *of_shear(prepared.scene, ShearForce(one.couette, one.rolling), one.film_load, force),
+        ),
     )
-
-
-def _of_shear(scene: Scene, one: OneWay) -> list[Validity]:
-    """An entry where the film drags more than any lubricant does."""
-    newtonian = scene.lubricant.eyring_stress is None and scene.lubricant.limiting_stress_coefficient is None
-    force = abs(one.coefficient) * (one.contact_load + one.film_load)
-    return of_shear(ShearForce(one.couette, one.rolling), one.film_load, force, scene.numerics.tolerance, newtonian)

@@ -7,7 +7,6 @@ import math
 from scipy.optimize import brentq
 
 from ..errors import InputError
-from ..line_contact import LineContact
 from ..scene import Scene
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
@@ -57,9 +56,7 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
 
 def film_ratio(scene: Scene, sq: float, speed: float) -> float:
     """Moes' film of the whole load over Sq."""
-    bodies = scene.bodies
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
-    return line.moes_film / sq
+    return scene.line_contact(speed).moes_film / sq
 
 
 def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import time
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
-
 from ..console import say
 from ..errors import ConvergenceError
-from ..output import UNITS
+from ..output import made_of
 from ..plain import plain
-from ..prepared import prepare
+from ..prepared import Prepared, prepare
+from ..quantities import heading
 from ..run_folder import run_folder
 from ..run_sweep import parse_speeds
-from ..scene import Scene, scene_as_dict
+from ..scene import Scene
 from ..store import fingerprint
 from ..sweep import QUANTITIES
-from ..version import __version__
+from ..table import table_bytes
 from .draw import plot_traction
 from .traction import TractionResult, traction
 
@@ -38,7 +35,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
             columns = {"ratio": found.ratio, "validity": _told(found)} | found.columns
             title = f"{scene.name}, U = {found.speed:g} m/s"
             folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
-        folder.finish(plain(_record(scene, found, time.perf_counter() - begun)))
+        folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
     for text in found.validity:
         say(text)
     say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
@@ -60,17 +57,12 @@ def _told(found: TractionResult) -> list[str]:
 
 
 def _csv(found: TractionResult) -> bytes:
-    text = io.StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(["ratio [-]", *(f"{name} [{UNITS.get(name, '-')}]" for name in QUANTITIES), "validity"])
-    writer.writerows(zip(found.ratio, *(found[name] for name in QUANTITIES), _told(found)))
-    return text.getvalue().encode()
+    columns = {heading(name): found[name] for name in QUANTITIES}
+    return table_bytes({"ratio [-]": found.ratio} | columns | {"validity": _told(found)})
 
 
-def _record(scene: Scene, found: TractionResult, seconds: float) -> dict:
-    return {
-        "scene": scene_as_dict(scene),
-        "versions": {"lubfric": __version__, "numpy": np.__version__},
+def _record(prepared: Prepared, found: TractionResult, seconds: float) -> dict:
+    return made_of(prepared.scene, prepared.surface, sq=prepared.surface.sq) | {
         "seconds": seconds,
         "report": found.report.as_dict(),
         "validity": list(found.validity),

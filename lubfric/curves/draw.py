@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..plot import BLUE, GREEN, GREY, RED, _figure
-from ..studies.quantities import KEYS
+from ..quantities import KEYS
 
 
 def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: float) -> None:

@@ -7,19 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import validate
-from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..errors import LubfricError
 from ..prepared import Prepared, at_tolerance, prepare, scene_of
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..report import Report
 from ..scene import Scene
-from ..show.cite import together
 from ..steady import FrictionResult, friction
-from ..sweep import QUANTITIES
-from ..validity.entry import Validity
-from ..validity.gather import entries_of, gathered
+from ..sweep.points import CurveResult, Swept, columns_of, judged, report_of
 
 
-@dataclass(frozen=True)
-class TractionResult:
+@dataclass(frozen=True, repr=False)
+class TractionResult(CurveResult):
     """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
 
     Attributes
@@ -43,22 +40,13 @@ class TractionResult:
         return self.columns[validate.choice("column", name, tuple(self.columns))]
 
     @property
-    def coefficient(self) -> np.ndarray:
+    def coefficient(self) -> np.ndarray:  # type: ignore[override]  # a number of the base, here read from its columns
         """Friction coefficient [-]."""
         return self.columns["coefficient"]
 
-    def entries(self, index: int) -> tuple[Validity, ...]:
-        """Assumptions that do not hold at a ratio, refused or not."""
-        return entries_of(self.points[index], self.errors.get(index))
-
-    def cite(self) -> str:
-        """The papers behind what was used at any of the ratios, one a line, the model's first."""
-        return together(point for point in self.points if point is not None)
-
     @property
-    def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that does not hold somewhere."""
-        return gathered([(float(s), self.entries(i)) for i, s in enumerate(self.ratio)], "(slide-roll ratio)", "ratios")
+    def _swept(self) -> Swept:
+        return _over(self.ratio)
 
 
 def traction(
@@ -114,25 +102,10 @@ def traction(
             points[i] = found.without_fields()
         if on_point:
             on_point(done, ratios.size, float(ratios[i]), points[i] or errors[int(i)])
-    result = _collected(ratios, speed, points, errors)
-    if errors and raise_on_failure:
-        _raise(result)
-    return result
+    report = report_of("traction", "slide-roll ratio {:g}", _over(ratios), points, errors)
+    result = TractionResult(ratios, float(speed), columns_of(points), tuple(points), errors, report)
+    return judged(result, raise_on_failure)
 
 
-def _collected(ratios, speed, points, errors) -> TractionResult:
-    columns = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
-    worst = max((p.report.residual for p in points if p is not None), default=np.inf)
-    tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
-    notes = tuple(f"slide-roll ratio {ratios[i]:g}: {error}" for i, error in sorted(errors.items()))
-    status = ITERATION_LIMIT if errors else CONVERGED
-    report = Report("traction", status, ratios.size - len(errors), float(worst), float(tolerance), notes=notes)
-    return TractionResult(ratios, float(speed), columns, tuple(points), errors, report)
-
-
-def _raise(result: TractionResult) -> None:
-    refused = [error for error in result.errors.values() if isinstance(error, ValidityError)]
-    if len(refused) == len(result.errors):
-        raise ValidityError("; ".join(result.validity), tuple(e for r in refused for e in r.entries), result)
-    first = result.errors[min(result.errors)]
-    raise ConvergenceError(f"{result.report.message}; first: {first}", result.report, result)
+def _over(ratios: np.ndarray) -> Swept:
+    return Swept("S", ratios, "(slide-roll ratio)", "ratios")

@@ -82,7 +82,7 @@ def forces(problem: Problem, at: Look, pressed=PRESSED, close=CLOSE) -> Forces:
 def _film_shear(problem: Problem, p, rate, saturated):
     with np.errstate(over="ignore"):
         law = shear_stress(problem.lubricant, p, rate)
-    if problem.lubricant.eyring_stress is None and problem.lubricant.limiting_stress_coefficient is None:
+    if problem.lubricant.newtonian:
         law = np.where(saturated, np.minimum(law, problem.boundary_friction * p), law)
     return law
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..line_contact import LineContact
 from ..scene import Scene
 from ..scene.resolved_gap import check_resolved_gap
 from ..surface import Surface
@@ -38,8 +37,7 @@ def _keeps(surface: Surface, shape) -> bool:
 
 def layer(scene: Scene, surface: Surface, speed: float) -> Callable[[tuple[int, int]], Problem]:
     """lay(shape): the problem of ``surface`` at ``speed`` [m/s], the map on ``shape``; a negative speed turns it."""
-    bodies = scene.bodies
-    contact = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, abs(speed), scene.lubricant)
+    bodies, contact = scene.bodies, scene.line_contact(abs(speed))
     if speed < 0:
         surface = replace(surface, heights=surface.heights[::-1], mask=None)
 

@@ -108,7 +108,7 @@ def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple
     cold = dry_start(problem, dry, problem.contact.moes_film)
     yield "from the dry contact", work.direct(problem, cold, tolerance)
     lubricant = problem.lubricant
-    if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
+    if lubricant.newtonian:
         thin = problem.with_lubricant(
             replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
         )

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from .. import validate
+from ..columns import name_and_unit, read_columns
 from ..errors import InputError
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
-UNITS = {
-    SPEED: {"m/s": 1.0, "mm/s": 1e-3, "cm/s": 1e-2, "km/h": 1 / 3.6},
-    SLIP: {"-": 1.0, "%": 0.01},
-    "coefficient": {"-": 1.0, "%": 0.01},
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,51 +83,15 @@ def read_measured(
 
     Notes
     -----
-    A unit in the heading, in square or round brackets, is converted: m/s, mm/s, cm/s, km/h; -, %.
+    A unit in the heading, in square or round brackets, is converted (`lubfric.columns`).
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")
     over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
-    table = _table(Path(path))
-    columns = [_column(table, heading, over, path), _column(table, coefficient, "coefficient", path)]
-    if deviation is not None:
-        columns.append(_column(table, deviation, "coefficient", path))
+    if over == SPEED and name_and_unit(heading)[1] is None:
+        raise InputError(f"column {heading!r} of {path} names no unit; allowed: {heading} [unit], as it is in the file")
+    names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
+    columns = [np.array(c) for c in read_columns(Path(path), names, ("m/s" if over == SPEED else "-", "-", "-"))]
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
     return Measured(x, f, spread[0] if spread else None, over, Path(path).name)
-
-
-def _table(path: Path) -> dict[str, list[str]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"measured file {str(path)!r} cannot be read: {error}") from None
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    if len(lines) < 2:
-        raise InputError(f"measured file {str(path)!r} has no heading and rows; allowed: a table with both")
-    mark = max(";\t,", key=lines[0].count)
-    rows = list(csv.reader(lines, delimiter=mark))
-    names = [name.strip() for name in rows[0]]
-    for number, row in enumerate(rows[1:], 2):
-        if len(row) != len(names):
-            raise InputError(f"{path.name}, row {number}: {len(row)} values for {len(names)} headings")
-    columns = {name: [row[i].strip() for row in rows[1:]] for i, name in enumerate(names)}
-    return {name: [v.replace(",", ".") for v in values] if mark != "," else values for name, values in columns.items()}
-
-
-def _column(table: dict, heading: str, quantity: str, path) -> np.ndarray:
-    if heading not in table:
-        known = ", ".join(map(repr, table))
-        raise InputError(f"{path} has no column {heading!r}{validate.nearest(heading, table)}; allowed: {known}")
-    found = re.search(r"[\[(]\s*([^\])]*?)\s*[\])]\s*$", heading)
-    units = UNITS[quantity]
-    if found is None and quantity == SPEED:
-        raise InputError(
-            f"column {heading!r} of {path} names no unit; allowed: {heading} [unit], of {', '.join(units)}"
-        )
-    unit = found.group(1) if found else "-"
-    validate.choice(f"unit of column {heading!r}", unit or "-", tuple(units))
-    try:
-        return np.array(table[heading], dtype=float) * units[unit or "-"]
-    except ValueError as error:
-        raise InputError(f"column {heading!r} of {path} holds no numbers: {error}") from None

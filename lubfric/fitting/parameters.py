@@ -28,28 +28,28 @@ class Parameters:
 
     def values(self, unit: np.ndarray) -> np.ndarray:
         """Values at positions in [0, 1]."""
-        linear = self.low + unit * (self.high - self.low)
-        low, high = np.maximum(self.low, 1e-300), np.maximum(self.high, 1e-300)
-        return np.where(self.logarithmic, low * (high / low) ** unit, linear)
+        low, ratio = self._in_logarithms
+        return np.where(self.logarithmic, low * ratio**unit, self.low + unit * (self.high - self.low))
 
     def unit(self, values: np.ndarray) -> np.ndarray:
         """Positions in [0, 1] of values."""
-        low, high = np.maximum(self.low, 1e-300), np.maximum(self.high, 1e-300)
-        logs = np.log(np.maximum(values, 1e-300) / low) / np.log(high / low)
+        low, ratio = self._in_logarithms
+        logs = np.log(np.maximum(values, 1e-300) / low) / np.log(ratio)
         return np.where(self.logarithmic, logs, (values - self.low) / (self.high - self.low))
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
         """d value/d unit."""
-        low, high = np.maximum(self.low, 1e-300), np.maximum(self.high, 1e-300)
-        return np.where(self.logarithmic, self.values(unit) * np.log(high / low), self.high - self.low)
+        return np.where(self.logarithmic, self.values(unit) * np.log(self._in_logarithms[1]), self.high - self.low)
+
+    @property
+    def _in_logarithms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lower bounds, and the ratios of the upper ones to them, where both are positive."""
+        low = np.maximum(self.low, 1e-300)
+        return low, np.maximum(self.high, 1e-300) / low
 
     def into(self, scene: Scene, values: np.ndarray) -> Scene:
         """``scene`` with these values."""
-        sections: dict[str, dict] = {}
-        for key, value in zip(self.keys, values):
-            section, _, name = key.partition(".")
-            sections.setdefault(section, {})[name] = float(value)
-        return scene.with_(**sections)
+        return scene.with_keys(dict(zip(self.keys, values.tolist())))
 
 
 def parameters_of(scene: Scene, bounds) -> Parameters:
@@ -68,5 +68,5 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
         if key in ("motion.entrainment_speed", "motion.speeds"):
             raise InputError(f"parameters: {key!r} is measured, not fitted; allowed: another number of the scene")
         for end in (low[-1], high[-1]):
-            scene.with_(**{section: {name: end}})
+            scene.with_keys({key: end})
     return Parameters(tuple(bounds), np.array(low), np.array(high))

@@ -11,7 +11,6 @@ import numpy as np
 
 from .. import budget
 from ..errors import InputError
-from ..line_contact import LineContact
 from ..lubricant import NO_LIQUID, Lubricant, shear_stress
 from .conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
 from .flash import FAST
@@ -110,8 +109,7 @@ def film_lubricant(scene, speed: float) -> Lubricant:
             f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
-    bodies, lubricant = scene.bodies, scene.lubricant
-    whole = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, lubricant)
+    lubricant, whole = scene.lubricant, scene.line_contact(speed)
 
     def thinner(log_share):
         made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))

@@ -6,9 +6,9 @@ from dataclasses import fields
 from pathlib import Path
 
 from .. import validate
+from ..columns import read_columns
 from ..errors import InputError
 from .kinds import Constant, Harmonic, History, Ramp, Table
-from .table_file import read_columns
 
 UNITS = {  # of the quantities of a scene that may change in time
     "speed": "m/s",
@@ -52,7 +52,7 @@ def read_history(
     """The `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
-    unit of the quantity ("m/s", "N", "m", "Pa s"), to refuse a column of another one. See `lubfric.history.table_file`.
+    unit of the quantity ("m/s", "N", "m", "Pa s"), to refuse a column of another one. See `lubfric.columns`.
     """
     names = _word("time_column", time_column), _word("column", column)
     times, values = read_columns(Path(path), names, ("s", unit))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from ..line_contact import LineContact
 from ..scene import Scene
 from .contract import Lines
 from .length import MOST, PILOT, SAFETY
@@ -24,17 +23,16 @@ def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float
     independent heights. f follows by the share of the load that the rigid film of the whole load would carry if it were
     as thick as the gap.
     """
-    bodies, (lx, ly) = scene.bodies, lines.lengths
+    lx, ly = lines.lengths
     pilot = min(PILOT * ly, lines.available)
     if speed == 0:
         return 0.0, pilot
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
-    film = line.moes_film
+    film = scene.line_contact(speed).moes_film
     if film > CLEAR * sq:
         return 0.0, pilot
     gap = GAP * sq + RISE * film
     share = min(film / gap, 1.0)
-    scatter = sq * math.sqrt(math.pi * lx * ly / (pilot * (2 * bodies.half_width + math.sqrt(math.pi) * lx)))
+    scatter = sq * math.sqrt(math.pi * lx * ly / (pilot * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
     error = scatter / gap * share / (1 - share + FLOOR)
     asked = scene.numerics.sampling_tolerance
     length = pilot * max(1.0, SAFETY * (error / asked) ** 2) if error > asked else pilot

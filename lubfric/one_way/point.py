@@ -177,7 +177,7 @@ def _result(problem: Problem, at: Trial, apart: bool, root: Root, report: Report
     lubricant, p, cell = problem.lubricant, at.pressure, problem.spacing[0] / at.gap.shape[1]
     wet = ~at.closed & ~at.film.ruptured
     tau = shear_stress(lubricant, p, problem.sliding / at.gap)
-    if lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None:
+    if lubricant.newtonian:
         tau = np.where(p > PRESSED, np.minimum(tau, problem.boundary_friction * p), tau)
     inlet = at.film.inlet
     film_faces = ~at.closed[1:] & ~at.closed[:-1]

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from ..errors import ConvergenceError
 from ..film.contract import Film
 from ..film.ladder import given_level, level_for
-from ..line_contact import LineContact
 from ..prepared import Prepared
 from ..report import CONVERGED, Report
 from ..rough.contract import RoughContact
@@ -90,10 +89,9 @@ def _dry(prepared: Prepared) -> Solved:
 def _certainly_touching(prepared: Prepared, speed: float) -> bool:
     """Whether the summits touch for sure: twice Moes' film over an undeformed cylinder, which is thicker than any
     film everywhere, would not clear them."""
-    bodies, x = prepared.scene.bodies, prepared.contact.x
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, prepared.scene.lubricant)
-    film = SAFE_FILM * line.moes_film
-    return prepared.contact.close(film + x**2 / (2 * bodies.radius), 0.0).volume_residual > 0
+    x, radius = prepared.contact.x, prepared.scene.bodies.radius
+    film = SAFE_FILM * prepared.scene.line_contact(speed).moes_film
+    return prepared.contact.close(film + x**2 / (2 * radius), 0.0).volume_residual > 0
 
 
 def _first_touch(alone: Balance) -> Balance | None:

@@ -23,15 +23,9 @@ def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple
     if film is not None:
         entries += of_pressure(scene.lubricant, float(film.pressure.max()))
         entries += of_thickness(scene.bodies, thickness)
-        entries += _of_shear(scene, balance)
+        force = abs(balance.forces.coefficient) * scene.bodies.load
+        entries += of_shear(scene, balance.forces.shear, balance.film_load, force)
         entries += of_heat(balance.forces.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
         if scene.numerics.film_deflection == "hydrodynamic":
             entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
     return tuple(entries)
-
-
-def _of_shear(scene, balance: Balance) -> list[Validity]:
-    lubricant, found = scene.lubricant, balance.forces
-    newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
-    force = abs(found.coefficient) * scene.bodies.load
-    return of_shear(found.shear, balance.film_load, force, scene.numerics.tolerance, newtonian)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from .. import budget
 from ..film.contract import LeftOut
 from ..film.ladder import LEVELS, given_level, lowest_level
-from ..line_contact import LineContact
 from ..scene import Scene
 from ..surface import Surface
 from .decision import Decision
@@ -18,10 +17,10 @@ def outlook(scene: Scene, surface: Surface, speed: float) -> str:
 
     In contact the film carries less and may do with a simpler level; that and the grid are decided by the solve.
     """
-    bodies, numerics = scene.bodies, scene.numerics
+    numerics = scene.numerics
     if speed == 0 or numerics.film_level == "none":
         return "film: none, no entrainment; contact: carries everything"
-    line = LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, scene.lubricant)
+    line = scene.line_contact(speed)
     level, left_out = given_level(LEVELS, numerics), LeftOut()
     allowed = budget.FILM_LEVEL * numerics.tolerance
     if level is None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
+from typing import Any
 
 from .. import validate
 from ..errors import InputError
 from ..history.plan import Transient
+from ..line_contact import LineContact
 from ..lubricant import Lubricant
 from ..roughness import Roughness
 from ..show.scene import SceneShown
@@ -62,6 +64,19 @@ class Scene(SceneShown):
                 )
             changed[section] = changed_section(section, getattr(self, section), values)
         return replace(self, **changed)
+
+    def with_keys(self, values: dict[str, Any]) -> Scene:
+        """A copy with the ``values`` by "section.key", or by "section" for a whole one."""
+        sections: dict[str, Any] = {}
+        for key, value in values.items():
+            section, _, field = key.partition(".")
+            sections[section] = sections.get(section, {}) | {field: value} if field else value
+        return self.with_(**sections)
+
+    def line_contact(self, speed: float) -> LineContact:
+        """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""
+        bodies = self.bodies
+        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant)
 
     def to_toml(self) -> str:
         """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""

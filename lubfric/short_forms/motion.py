@@ -9,7 +9,7 @@ from ..errors import InputError
 from .pairs import only_one, pair
 
 KEYS = ("surface_speeds", "slip_percent", "speed_range")
-MOST_SPEEDS = 100_000
+MOST_SPEEDS = 1_000_000
 
 
 def resolve(given: dict, old) -> dict:
@@ -33,16 +33,15 @@ def resolve(given: dict, old) -> dict:
     if not isinstance(given.get("speeds", ()), (list, tuple, np.ndarray)):
         raise InputError(f"motion.speeds = {given['speeds']!r}; allowed: a list of numbers in m/s")
     if "speed_range" in given:
-        given["speeds"] = _speeds(given.pop("speed_range"))
+        given["speeds"] = speeds_of_range("motion.speed_range", given.pop("speed_range"))
     return given
 
 
-def _speeds(value) -> tuple[float, ...]:
+def speeds_of_range(name: str, value) -> tuple[float, ...]:
+    """The speeds [m/s] of [lowest, highest, count], in a geometric series; ``name``: of the key."""
     if not isinstance(value, (list, tuple)) or len(value) != 3:
-        raise InputError(
-            f"motion.speed_range = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)"
-        )
-    low = validate.positive("motion.speed_range lowest", value[0], "m/s")
-    high = validate.number("motion.speed_range highest", value[1], "m/s", above=low)
-    count = validate.integer("motion.speed_range count", value[2], minimum=1, maximum=MOST_SPEEDS)
+        raise InputError(f"{name} = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)")
+    low = validate.positive(f"{name} lowest", value[0], "m/s")
+    high = validate.number(f"{name} highest", value[1], "m/s", above=low)
+    count = validate.integer(f"{name} count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

@@ -8,7 +8,7 @@ from html import escape
 
 import numpy as np
 
-from .units import UNITS
+from ..quantities import key_unit
 
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
@@ -105,13 +105,13 @@ def _inputs(scene) -> list[str]:
         part = getattr(scene, field.name)
         if not is_dataclass(part):
             continue
-        units, rows = UNITS.get(field.name, {}), []
+        rows = []
         for inner in fields(part):
             value = getattr(part, inner.name)
             if value is None or value == ():
                 continue
             text = f"{value:.6g}" if isinstance(value, float) else str(value)
-            rows.append((inner.name, f"{text} {units.get(inner.name, '')}".strip()))
+            rows.append((inner.name, f"{text} {key_unit(field.name, inner.name)}".strip()))
         tables.append(f"<div><h3>{escape(field.name)}</h3>{_table(rows)}</div>")
     return tables
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
+from ..quantities import key_unit
 from .brief import changed
 from .shown import Shown
-from .units import UNITS
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")
 MANY = 8  # values of a list that are shown
@@ -41,8 +41,7 @@ class SceneShown(Shown):
             values = {} if part is None else changed(part)
             if values:
                 rows.append(f'<tr><th colspan="3">{section}</th></tr>')
-            units = UNITS.get(section, {})
-            rows += [_row(key, _in_words(value), units.get(key, "")) for key, value in values.items()]
+            rows += [_row(key, _in_words(value), key_unit(section, key)) for key, value in values.items()]
         head = "<thead><tr><th>key</th><th>value</th><th>unit</th></tr></thead>"
         return f"<table><caption>{escape(self.name)}</caption>{head}<tbody>{''.join(rows)}</tbody></table>"
 

@@ -61,7 +61,7 @@ def curve_key(name: str) -> str:
 
 
 def run_adaptive(
-    prepared: Prepared, search: Search, journal: Journal | None, known: dict[str, dict]
+    prepared: Prepared, search: Search, journal: Journal, known: dict[str, dict]
 ) -> Iterator[tuple[float, object]]:
     """Yield (speed, outcome) until the estimated error is within the tolerance, or 25 speeds are solved.
 
@@ -81,7 +81,7 @@ def run_adaptive(
 class Trail:
     """The points so far: ``speeds`` [m/s] and ``outcomes``. These have no fields where none are wanted."""
 
-    def __init__(self, prepared: Prepared, search: Search, journal: Journal | None, known: dict[str, dict]):
+    def __init__(self, prepared: Prepared, search: Search, journal: Journal, known: dict[str, dict]):
         self.speeds: list[float] = []
         self.outcomes: list = []
         self._prepared, self._search, self._journal = prepared, search, journal
@@ -96,29 +96,27 @@ class Trail:
         key, at, kept = digest([last, speed]), len(self.speeds), speed in search.wanted
         self._keys.append(key)
         self.speeds.append(speed)
-        if journal is not None and key in self._known:
+        if key in self._known:
             outcome = outcome_of(self._known[key])
             outcome = (journal.fields(key) or outcome) if kept else outcome
         else:
             outcome = self._start_of(at)
-            if journal is not None:
-                place = {"curve": curve_key(search.name), "place": at, "speed": speed}
-                journal.keep(key, key, outcome, kept, place)
+            place = {"curve": curve_key(search.name), "place": at, "speed": speed}
+            journal.keep(key, key, outcome, kept, place)
             outcome = outcome if kept else without_fields(outcome)
         self.outcomes.append(outcome)
         return outcome
 
     def end(self) -> None:
         """The curve is complete: no state is needed any more."""
-        if self._journal is not None:
-            for key in self._keys:
-                self._journal.end(key)
+        for key in self._keys:
+            self._journal.end(key)
 
     def _start_of(self, at: int):
         """Outcome number ``at`` with all that a neighbour starts from: remembered, read, or solved from the nearest one
         before it."""
         if at not in self._whole:
-            key, found = ("", None) if self._journal is None else self._journal.state(self._keys[at])
+            key, found = self._journal.state(self._keys[at])
             if key != self._keys[at]:
                 near = min(range(at), key=lambda i: abs(math.log(self.speeds[i] / self.speeds[at])), default=None)
                 start = None if near is None else start_from(self._start_of(near))

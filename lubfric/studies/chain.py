@@ -12,7 +12,7 @@ from ..prepared import Prepared
 from ..result import FrictionResult
 from ..steady import friction
 from ..store import digest
-from .journal import Journal, without_fields
+from .journal import NOWHERE, Journal, without_fields
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def make_chain(fingerprint: str, speeds, fields=None, after: Chain | None = None
 
 
 def run_chain(
-    prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0, before=None
+    prepared: Prepared, chain: Chain, journal: Journal = NOWHERE, done: int = 0, before=None
 ) -> Iterator[tuple[int, object]]:
     """Yield (index, `FrictionResult` or `LubfricError`) for the points after the first ``done``. Each is kept in
     ``journal`` before.
@@ -57,7 +57,7 @@ def run_chain(
     outcome of ``chain.after``. Where it is None, that outcome is read or solved again when it is needed.
     """
     parent = os.getppid()
-    if journal is not None and done:
+    if done:
         start, caught_up = resumed(prepared, chain, journal, done)
         if caught_up is not None:
             yield done, caught_up if chain.fields[done] else without_fields(caught_up)
@@ -65,30 +65,28 @@ def run_chain(
     else:
         start = start_from(before if before is not None else _before(prepared, chain, journal))
     for index in range(done, len(chain.speeds)):
-        outcome = solved(prepared, chain, index, start)
+        outcome = solved_at(prepared, chain.speeds[index], start, chain.fields[index])
         start = start_from(outcome)
         if os.getppid() != parent:  # who asked for it is dead, and may have been started again
             return
-        if journal is not None:
-            journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
+        journal.keep(chain.name, chain.keys[index], outcome, chain.fields[index])
         yield index, outcome if chain.fields[index] else without_fields(outcome)
-    if journal is not None:
-        journal.end(chain.name)
+    journal.end(chain.name)
 
 
-def first_outcome(prepared: Prepared, chain: Chain, journal: Journal | None = None, done: int = 0):
+def first_outcome(prepared: Prepared, chain: Chain, journal: Journal = NOWHERE, done: int = 0):
     """The outcome of a chain of one point with all that others start from: read from ``journal``, or solved and kept
     there."""
     parent = os.getppid()
-    key, outcome = ("", None) if journal is None else journal.state(chain.name)
+    key, outcome = journal.state(chain.name)
     if key != chain.keys[0]:
-        outcome = solved(prepared, chain, 0, None)
-    if journal is not None and not done and os.getppid() == parent:
+        outcome = solved_at(prepared, chain.speeds[0], None, chain.fields[0])
+    if not done and os.getppid() == parent:
         journal.keep(chain.name, chain.keys[0], outcome, chain.fields[0])
     return outcome
 
 
-def _before(prepared: Prepared, chain: Chain, journal: Journal | None):
+def _before(prepared: Prepared, chain: Chain, journal: Journal):
     return None if chain.after is None else first_outcome(prepared, chain.after, journal, done=1)
 
 
@@ -96,11 +94,6 @@ def start_from(outcome) -> FrictionResult | None:
     """The result that a neighbour can start from, refused or not; None where there is none."""
     result = outcome.result if isinstance(outcome, ValidityError) else outcome
     return result if isinstance(result, FrictionResult) and result.starts else None
-
-
-def solved(prepared: Prepared, chain: Chain, index: int, start: FrictionResult | None):
-    """The result or error of one point of a chain."""
-    return solved_at(prepared, chain.speeds[index], start, chain.fields[index])
 
 
 def solved_at(prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool):
@@ -121,5 +114,5 @@ def resumed(prepared: Prepared, chain: Chain, journal: Journal, done: int):
     if key != chain.keys[done - 1] and done < len(chain.keys):  # the state is lost: solved again, to the same bits
         outcome = _before(prepared, chain, journal)
         for index in range(done):
-            outcome = solved(prepared, chain, index, start_from(outcome))
+            outcome = solved_at(prepared, chain.speeds[index], start_from(outcome), chain.fields[index])
     return start_from(outcome), None

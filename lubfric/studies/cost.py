@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
+from ..curve.span import film_ratio
 from ..ehl.solve import solve_line_contact
-from ..line_contact import LineContact
 from ..lines.contract import Lines
 from ..lines.length import PILOT
 from ..lines.make import lines_of, takes_line
@@ -71,7 +71,7 @@ def ground_of(scene: Scene, curve: bool) -> Ground:
 
 def film_clock(scene: Scene, speed: float) -> float:
     """Processor seconds of one film of ``scene``, solved here."""
-    contact = _contact(scene, speed)
+    contact = scene.line_contact(abs(speed))
     begun = time.process_time()
     for _ in range(REPEATS):
         solve_line_contact(contact, raise_on_failure=False)
@@ -82,7 +82,7 @@ def point_seconds(scene: Scene, ground: Ground, speed: float, film: float) -> fl
     """Processor seconds of ``scene`` at ``speed`` [m/s]; ``film``: `film_clock`."""
     if speed == 0 or ground.sq <= 0:
         return CLEAR * film
-    ratio = _contact(scene, speed).moes_film / ground.sq
+    ratio = film_ratio(scene, ground.sq, abs(speed))
     if ground.curve:
         return (CURVE_FILMS + MORE_CURVE_FILMS * min(ratio, 2.0)) * film
     if ground.lines is None:
@@ -94,11 +94,6 @@ def point_seconds(scene: Scene, ground: Ground, speed: float, film: float) -> fl
     length = foretold(scene, ground.lines, ground.sq, speed)[1] / (PILOT * ground.lines.lengths[1])
     transforms = PILOT_TRANSFORMS + LINE_TRANSFORMS * max(length - 1.0, 0.0)
     return (FILMS + MORE_FILMS * ratio) * film + transforms * ground.transform
-
-
-def _contact(scene: Scene, speed: float) -> LineContact:
-    bodies = scene.bodies
-    return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, abs(speed), scene.lubricant)
 
 
 def _transform(shape) -> float:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..quantities import KEYS
 from ..show.axes import axes_or_new
 from .between import curve_of
-from .quantities import KEYS
 from .table_row import SPEED
 
 MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones

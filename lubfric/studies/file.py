@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from .. import validate
 from ..errors import InputError
-from ..scene_file import load_scene
+from ..scene_file import load_scene, read_toml
+from ..short_forms.motion import speeds_of_range
 from .plan import StudyPlan, plan_study
 from .vary import Between, sample
 
@@ -30,7 +28,7 @@ def load_study(path) -> StudyPlan:
     Raises `InputError` for anything else, naming the nearest valid key.
     """
     path = Path(path)
-    table = _table(path)
+    table = read_toml(path, "study")
     validate.keys(path.name, table, KEYS)
     name = table.get("scene")
     if not isinstance(name, str):
@@ -47,15 +45,6 @@ def load_study(path) -> StudyPlan:
     if "sample" in table:
         vary |= _sampled(table["sample"], path)
     return plan_study(scene, vary, _speeds(table))
-
-
-def _table(path: Path) -> dict:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"study {str(path)!r} cannot be read: {getattr(error, 'strerror', error)}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"study {path} is not valid TOML: {error}") from None
 
 
 def _flat(table, where: str, folder: Path) -> dict[str, list]:
@@ -119,12 +108,4 @@ def _speeds(table: dict):
         return table.get("speeds")
     if "speeds" in table:
         raise InputError("a study takes speeds or speed_range, not both")
-    value = table["speed_range"]
-    if not isinstance(value, list) or len(value) != 3:
-        raise InputError(f"speed_range = {value!r} must be [lowest, highest, count] in m/s, m/s, (-)")
-    low = validate.positive("speed_range lowest", value[0], "m/s")
-    high = validate.number("speed_range highest", value[1], "m/s", above=low)
-    count = validate.integer("speed_range count", value[2], minimum=1)
-    if count > 10**6:
-        raise InputError(f"speed_range count = {count}; allowed: up to 1000000")
-    return np.geomspace(low, high, count)
+    return speeds_of_range("speed_range", table["speed_range"])

@@ -30,7 +30,7 @@ class Failure:
 
 
 class Journal:
-    """The folder of a store, as one process writes it.
+    """The folder of a store, as one process writes it; without a folder (`NOWHERE`) nothing is kept, and nothing found.
 
     A point is first put whole into the state of its chain, then as one line into the records. So a kill at any moment
     leaves a state that belongs to the last record, or is one point ahead of it. In the second case the state holds the
@@ -38,8 +38,24 @@ class Journal:
     """
 
     def __init__(self, folder):
-        self.folder = Path(folder)
-        self.records = Records(self.folder / POINTS)
+        self.folder = None if folder is None else Path(folder)
+        self._records = None if folder is None else Records(Path(folder) / POINTS)
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(self, *_) -> None:
+        if self._records is not None:
+            self._records.close()
+
+    def records(self) -> dict[str, dict]:
+        """Every whole record by key."""
+        return {} if self._records is None else dict(self._records.read())
+
+    def add(self, key: str, record: dict) -> None:
+        """Add one record, as `record_of` makes it."""
+        if self._records is not None:
+            self._records.add(key, record)
 
     def keep(self, chain: str, key: str, outcome, fields: bool = False, place: dict | None = None) -> None:
         """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too.
@@ -47,52 +63,55 @@ class Journal:
         ``place``: for a point whose speed was chosen on the way, its curve, its place on it and its speed [m/s]. It is
         put into the record.
         """
+        if self.folder is None:
+            return
         state = encode({"key": key, "outcome": _storable(outcome)})
         if fields:
             write_checked(self._path(FIELDS, key), *state)
         write_checked(self._path(STATES, chain), *state, sync=False)
         record = record_of(outcome)
-        self.records.add(key, record if place is None else record | {PLACE: place})
+        self.add(key, record if place is None else record | {PLACE: place})
 
     def state(self, chain: str) -> tuple[str, object]:
         """(key, outcome) of the last point of a chain, or ("", None) where no whole one is kept."""
-        return self._read(self._path(STATES, chain))
+        return self._read(STATES, chain)
 
     def fields(self, key: str):
         """The result of point ``key`` with its balance, or None."""
-        return self._read(self._path(FIELDS, key))[1]
+        return self._read(FIELDS, key)[1]
 
     def end(self, chain: str) -> None:
         """Remove the state of a chain that is complete."""
-        self._path(STATES, chain).unlink(missing_ok=True)
+        if self.folder is not None:
+            self._path(STATES, chain).unlink(missing_ok=True)
 
     def begin(self, name: str) -> bool:
         """Mark a piece of work as begun. Returns whether it was begun before and not finished."""
-        path = self._mark(name)
+        if self.folder is None:
+            return False
+        path = self._path(STATES, name, "begun")
         before = path.is_file()
         write_whole(path, b"", sync=False)
         return before
 
     def finish(self, name: str) -> None:
         """Take the mark of `begin` away."""
-        self._mark(name).unlink(missing_ok=True)
+        if self.folder is not None:
+            self._path(STATES, name, "begun").unlink(missing_ok=True)
 
-    def _mark(self, name: str) -> Path:
-        return self.folder / STATES / f"{name[:32]}.begun"
+    def _path(self, kind: str, name: str, suffix: str = "bin") -> Path:
+        return Path(self.folder or "") / kind / f"{name[:32]}.{suffix}"
 
-    def close(self) -> None:
-        """Close the file of the records."""
-        self.records.close()
-
-    def _path(self, kind: str, name: str) -> Path:
-        return self.folder / kind / f"{name[:32]}.bin"
-
-    def _read(self, path: Path):
-        content = read_checked(path) if path.is_file() else None
+    def _read(self, kind: str, name: str):
+        path = self._path(kind, name)
+        content = None if self.folder is None or not path.is_file() else read_checked(path)
         if content is None:
             return "", None
         found = decode(content)
         return found["key"], _outcome(found["outcome"])
+
+
+NOWHERE = Journal(None)
 
 
 def record_of(outcome) -> dict:

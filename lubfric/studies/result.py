@@ -11,13 +11,13 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..plain import plain
+from ..quantities import QUANTITIES
 from ..scene import scene_as_dict
 from ..show import Shown
 from ..store import Records
 from ..version import __version__
 from .adaptive import AUTO
 from .journal import POINTS
-from .quantities import QUANTITIES
 from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
 PLAN = "study.json"

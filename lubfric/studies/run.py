@@ -96,15 +96,13 @@ def study(
 
 def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
     folder = None if store is None else os.path.abspath(store)
-    known = {} if store is None else _rows(folder)
+    known = _rows(folder)
     pieces = [_piece(batch, folder, known) for batch in plan.batches]
     pieces = [piece for piece in pieces if any(piece.open(curve) for curve in piece.batch.curves)]
     keys = set(plan.keys().flat)
     done = len(keys & known.keys())
 
     def again(piece: Piece) -> Piece:
-        if folder is None:
-            return piece
         known.update(_rows(folder))  # what the lost worker had finished
         return _piece(piece.batch, folder, known)
 
@@ -115,14 +113,13 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
         known.update(rows)
         if on_progress:
             on_progress(done, len(keys))
-    if folder is not None:  # only now: an executor that loses the rows of a piece hands it out again
-        for piece in pieces:
-            Journal(folder).finish(piece.name)
+    for piece in pieces:  # only now: an executor that loses the rows of a piece hands it out again
+        Journal(folder).finish(piece.name)
     return StudyResult.of_rows(plan_as_dict(plan), known)
 
 
 def _rows(folder) -> dict[str, dict]:
-    return named({key: row_of(record) for key, record in Journal(folder).records.read()})
+    return named({key: row_of(record) for key, record in Journal(folder).records().items()})
 
 
 def _piece(batch: Batch, folder, known) -> Piece:
@@ -145,13 +142,12 @@ def _chains(batch: Batch):
 def run_piece(piece: Piece) -> dict[str, dict]:
     """Solve what is left of a piece. Returns its new rows by key; each point is in the store first, where there is
     one."""
-    journal = None if piece.folder is None else Journal(piece.folder)
     rows: dict[str, dict] = {}
     leader = None
-    if journal is not None and journal.begin(piece.name):  # by a worker that is gone: what it finished is taken over
-        rows = _rows(piece.folder)
-        piece = _piece(piece.batch, piece.folder, rows)
-    try:
+    with Journal(piece.folder) as journal:
+        if journal.begin(piece.name):  # by a worker that is gone: what it finished is taken over
+            rows = _rows(piece.folder)
+            piece = _piece(piece.batch, piece.folder, rows)
         for curve in piece.batch.curves:
             if not piece.open(curve):
                 continue
@@ -163,14 +159,10 @@ def run_piece(piece: Piece) -> dict[str, dict]:
                 rows |= _all_failed(curve, error, journal, piece)
                 continue
             if search is not None:
-                known = dict(journal.records.read()) if journal is not None and piece.partly else {}
-                rows |= _chosen(prepared, search, journal, known)
+                rows |= _chosen(prepared, search, journal, journal.records() if piece.partly else {})
             for chain in (chain for chain in curve.chains if piece.left(chain)):
                 for index, outcome in run_chain(prepared, chain, journal, piece.done.get(chain.name, 0)):
                     rows[chain.keys[index]] = row_of(record_of(outcome))
-    finally:
-        if journal is not None:
-            journal.close()
     return rows
 
 
@@ -186,8 +178,7 @@ def _chosen(prepared, search, journal, known) -> dict[str, dict]:
 
 def _ended(key: str, points: int, journal) -> dict:
     record = {PLACE: {"curve": key, "points": points}}
-    if journal is not None:
-        journal.records.add(key, record)
+    journal.add(key, record)
     return row_of(record)
 
 
@@ -199,7 +190,6 @@ def _all_failed(curve: Curve, error: LubfricError, journal, piece: Piece) -> dic
         end = curve_key(curve.whole)
         keys, record = [f"{end} 0"], record | {PLACE: {"curve": end, "place": 0, "speed": None}}
     for key in keys:
-        if journal is not None:
-            journal.records.add(key, record)
+        journal.add(key, record)
     rows = dict.fromkeys(keys, row_of(record))
     return rows if curve.chains else rows | {end: _ended(end, 1, journal)}

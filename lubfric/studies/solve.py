@@ -48,9 +48,8 @@ class Kept:
     def read(self, chain: Chain, before=None) -> Part:
         """Tell what the store holds of ``chain``. Returns what is left of it."""
         told = self._told[chain.name]
-        if self._folder is not None:
-            for at, outcome in enumerate(_finished(self._folder, chain, told), told):
-                self.tell(chain.name, at, outcome)
+        for at, outcome in enumerate(_finished(self._folder, chain, told), told):
+            self.tell(chain.name, at, outcome)
         return Part(chain, self._folder, self._told[chain.name], before)
 
 
@@ -76,8 +75,7 @@ def solve_chains(prepared: Prepared, first: Chain, chains: list, executor, store
                 kept.tell(part.chain.name, at, outcome)
     else:
         _spread(prepared, parts, executor, kept, before)
-    if folder is not None:
-        Journal(folder).end(first.name)
+    Journal(folder).end(first.name)
 
 
 def _spread(prepared: Prepared, parts: list[Part], executor, kept: Kept, before) -> None:
@@ -92,10 +90,10 @@ def _spread(prepared: Prepared, parts: list[Part], executor, kept: Kept, before)
             kept.tell(name, at, outcome)
 
 
-def _finished(folder: str, chain: Chain, told: int) -> list:
+def _finished(folder: str | None, chain: Chain, told: int) -> list:
     """Outcomes of the first points of ``chain`` from number ``told`` on, as far as a store holds them whole."""
     journal, outcomes, keys = Journal(folder), [], chain.keys[told:]
-    records = {key: record for key, record in journal.records.read() if key in keys}
+    records = {key: record for key, record in journal.records().items() if key in keys}
     for key, fields in zip(keys, chain.fields[told:]):
         if key not in records:
             break
@@ -109,21 +107,13 @@ def _finished(folder: str, chain: Chain, told: int) -> list:
 
 
 def _first(prepared: Prepared, part: Part):
-    journal = None if part.folder is None else Journal(part.folder)
-    try:
+    with Journal(part.folder) as journal:
         return first_outcome(prepared, part.chain, journal, part.done)
-    finally:
-        if journal is not None:
-            journal.close()
 
 
 def _points(prepared: Prepared, part: Part):
-    journal = None if part.folder is None else Journal(part.folder)
-    try:
+    with Journal(part.folder) as journal:
         yield from run_chain(prepared, part.chain, journal, part.done, part.before)
-    finally:
-        if journal is not None:
-            journal.close()
 
 
 def _solved(prepared: Prepared, part: Part) -> tuple[str, list]:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from importlib import import_module
 
 import numpy as np
 
 from ..errors import InputError
+from ..quantities import KEYS, QUANTITIES, described, heading
 from ..store import whole_file, write_whole
-from .quantities import KEYS, QUANTITIES, described
+from ..table import table_bytes
 from .table_row import SPEED, UNUSED
 
 
@@ -48,12 +48,7 @@ def to_netcdf(result, path) -> None:
 
 def to_csv(result, path) -> None:
     """See `StudyResult.to_csv`."""
-    columns = columns_of(result)
-    text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow([_heading(name) for name in columns])
-    writer.writerows(zip(*(values.tolist() for values in columns.values())))
-    write_whole(path, text.getvalue().encode())
+    write_whole(path, table_bytes({_heading(name): values for name, values in columns_of(result).items()}))
 
 
 def columns_of(result) -> dict[str, np.ndarray]:
@@ -80,8 +75,7 @@ def _attributes(name: str, result) -> dict[str, str]:
 
 
 def _heading(name: str) -> str:
-    unit = (KEYS | QUANTITIES).get(name, ("", ""))[0]
-    return f"{name} [{unit}]" if unit or name == SPEED else name
+    return heading(name) if name in KEYS | QUANTITIES else name
 
 
 def _tool(name: str):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -52,11 +51,7 @@ class Axis:
 
     def apply(self, scene: Scene, index: int) -> Scene:
         """``scene`` with the values of position ``index``."""
-        sections: dict[str, Any] = {}
-        for key, value in zip(self.keys, self.values[index]):
-            section, _, field = key.partition(".")
-            sections[section] = sections.get(section, {}) | {field: value} if field else value
-        return scene.with_(**sections)
+        return scene.with_keys(dict(zip(self.keys, self.values[index])))
 
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:

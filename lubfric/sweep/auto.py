@@ -13,7 +13,7 @@ from ..report import ITERATION_LIMIT, Report
 from ..store import fingerprint
 from ..studies.adaptive import FEWEST, run_adaptive, samples_of, search_of
 from ..studies.journal import Journal
-from .result import FAILED_SPEEDS, StribeckResult, collected
+from .result import StribeckResult, collected
 
 
 def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
@@ -23,16 +23,12 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
     search = search_of(prepared, fingerprint(prepared), wanted)
-    journal, found = (None if store is None else Journal(store)), {}
-    known = {} if journal is None else dict(journal.records.read())
-    try:
-        for speed, outcome in run_adaptive(prepared, search, journal, known):
+    found = {}
+    with Journal(store) as journal:
+        for speed, outcome in run_adaptive(prepared, search, journal, journal.records()):
             found[speed] = outcome
             if on_point:
                 on_point(len(found), len(found), speed, outcome)
-    finally:
-        if journal is not None:
-            journal.close()
     speeds = np.array(sorted(found))
     outcomes = dict(enumerate(found[u] for u in speeds))
     errors = {i: o for i, o in outcomes.items() if isinstance(o, Exception)}
@@ -47,7 +43,7 @@ def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
     error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
     status = result.report.status if error <= tolerance else ITERATION_LIMIT
     residuals = {"interpolation": error, "points": result.report.residual}
-    advice = FAILED_SPEEDS if result.errors else "solve more speeds of your own, or loosen numerics.tolerance"
+    advice = result.report.advice if result.errors else "solve more speeds of your own, or loosen numerics.tolerance"
     return replace(
         result.report, status=status, residual=error, tolerance=tolerance, residuals=residuals, advice=advice
     )

@@ -10,33 +10,15 @@ import numpy as np
 from .. import validate
 from ..curve.interpolate import Interpolant, knee_of
 from ..errors import InputError
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..report import Report
 from ..result import FrictionResult
 from ..sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
-from ..show import Shown
-from ..show.cite import together
 from ..studies.adaptive import FEWEST, samples_of
-from ..validity.entry import Validity
-from ..validity.gather import entries_of, gathered
-
-FAILED_SPEEDS = "the other speeds are in .result, the reason of each failed one in its .errors"
-NOT_NUMBERS = (
-    "report",
-    "balance",
-    "decision",
-    "validity",
-    "deterministic",
-    "one_way",
-    "uncertainty",
-    "errors",
-    "methods",
-    "line",
-)
-QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NOT_NUMBERS)
+from .points import CurveResult, Swept, columns_of, report_of
 
 
 @dataclass(frozen=True, repr=False)
-class StribeckResult(Shown):
+class StribeckResult(CurveResult):
     """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name and unit. One line of the surface serves all
@@ -82,9 +64,9 @@ class StribeckResult(Shown):
     uncertainty: UncertaintyCurve
     field_errors: dict[str, np.ndarray]
 
-    def entries(self, index: int) -> tuple[Validity, ...]:
-        """Assumptions that do not hold at a speed, refused or not."""
-        return entries_of(self.points[index], self.errors.get(index))
+    @property
+    def _swept(self) -> Swept:
+        return _over(self.speed)
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
@@ -124,49 +106,19 @@ class StribeckResult(Shown):
 
         return curve_axes(self, ax, **style)
 
-    def cite(self) -> str:
-        """The papers behind what was used at any of the speeds, one a line, the model's first."""
-        return together(point for point in self.points if point is not None)
-
-    def _facts(self) -> dict[str, str]:
-        facts = {"": f"{self.speed.size} speeds"}
-        if self.speed.size > len(self.errors):
-            good = np.isfinite(self.coefficient)
-            facts |= {
-                "U": f"{self.speed[good].min():.4g} to {self.speed[good].max():.4g} m/s",
-                "f": f"{self.coefficient[good].min():.4g} to {self.coefficient[good].max():.4g}",
-            }
-        facts["failed"] = str(len(self.errors))
-        facts["not held"] = str(len(self.validity))
-        return facts
-
-    @property
-    def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that does not hold somewhere."""
-        return gathered([(float(u), self.entries(i)) for i, u in enumerate(self.speed)])
-
 
 def collected(speeds, points, errors) -> StribeckResult:
     """The curve of ``points`` (None where failed) and ``errors`` {index: exception} at ``speeds`` [m/s]."""
-    columns = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
-    columns["speed"] = speeds
-    worst = max((p.report.residual for p in points if p is not None), default=np.inf)
-    tolerance = max((p.report.tolerance for p in points if p is not None), default=0.0)
-    status = ITERATION_LIMIT if errors else CONVERGED
-    notes = tuple(f"speed {speeds[i]:g} m/s: {error}" for i, error in sorted(errors.items()))
-    report = Report(
-        "stribeck", status, speeds.size - len(errors), float(worst), float(tolerance), notes=notes, advice=FAILED_SPEEDS
-    )
+    report = report_of("stribeck", "speed {:g} m/s", _over(speeds), points, errors)
     return StribeckResult(
-        **columns,
+        **columns_of(points) | {"speed": speeds},
         points=tuple(points),
         errors=errors,
         report=report,
         uncertainty=curve_of([None if p is None else p.uncertainty for p in points]),
-        field_errors=_field_errors(points),
+        field_errors={n: np.array([np.nan if p is None else getattr(p.errors, n) for p in points]) for n in FIELDS},
     )
 
 
-def _field_errors(points) -> dict[str, np.ndarray]:
-    """Relative errors by quantity, NaN where a point failed."""
-    return {name: np.array([np.nan if p is None else getattr(p.errors, name) for p in points]) for name in FIELDS}
+def _over(speeds: np.ndarray) -> Swept:
+    return Swept("U", speeds, "m/s", "speeds")

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import validate
 from ..curve.span import film_ratio
-from ..errors import ConvergenceError, InputError, ValidityError
+from ..errors import InputError
 from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
 from ..scene import Scene
@@ -18,9 +18,10 @@ from ..studies.chain import Chain, make_chain
 from ..studies.plan import CHAIN
 from ..studies.solve import solve_chains
 from .auto import auto_curve
+from .points import judged
 from .result import StribeckResult, collected
 
-MIXED = 2.0  # Moes' film of the whole load over Sq of the speed that comes first
+MIXED = 1.3  # Moes' film of the whole load over Sq of the speed that comes first
 
 
 def stribeck(
@@ -58,7 +59,7 @@ def stribeck(
         raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     if isinstance(speeds, str) and speeds == AUTO:
         found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
-        return _judged(found, raise_on_failure)
+        return judged(found, raise_on_failure)
     speeds = _given(speeds, scene_of(scene).motion)
     prepared = at_tolerance(scene, tolerance, model)
     kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
@@ -78,7 +79,7 @@ def stribeck(
     except BaseException as fault:
         fault.result = collected(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
         raise
-    return _judged(collected(speeds, points, errors), raise_on_failure)
+    return judged(collected(speeds, points, errors), raise_on_failure)
 
 
 def _given(speeds, motion) -> np.ndarray:
@@ -88,19 +89,6 @@ def _given(speeds, motion) -> np.ndarray:
     if isinstance(speeds, (Real, np.number)):
         speeds = [speeds]
     return validate.array("speeds", speeds, "m/s", ndim=1).copy()
-
-
-def _judged(result: StribeckResult, raise_on_failure: bool) -> StribeckResult:
-    """``result``, or the exception that says what failed in it."""
-    errors = result.errors
-    refused = [error for error in errors.values() if isinstance(error, ValidityError)]
-    if raise_on_failure and errors and len(refused) == len(errors):
-        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
-    if raise_on_failure and errors:
-        raise ConvergenceError(result.report.message + "; first: " + str(errors[min(errors)]), result.report, result)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
 
 
 def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Chain, np.ndarray]]]:
@@ -123,7 +111,7 @@ def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Ch
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
     """Number of the speed that comes first, counted from the fastest down.
 
-    It is where the film that Moes' formula gives the whole load is about twice Sq. There the contact carries a third of
+    It is where the film that Moes' formula gives the whole load is about 1.3 Sq. There the contact carries half of
     the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
     the fastest speed comes first: it is the easy one to begin with.
     """

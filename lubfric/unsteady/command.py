@@ -5,16 +5,15 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-import numpy as np
-
 from ..console import keeping, say
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..output import made_of, npz_bytes, read_csv, table_bytes
+from ..output import made_of, npz_bytes
 from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene
 from ..store import fingerprint
+from ..table import read_table, table_bytes
 from .checkpoint import STATE
 from .moment import UNITS
 from .plot import animate, plot_history
@@ -65,7 +64,7 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
     folder.clear()
     columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
     texts = [" | ".join(entry.text for entry in entries) for entries in result.entries]
-    folder.write("history.csv", table_bytes(columns | {"validity": np.array(texts, dtype=object)}))
+    folder.write("history.csv", table_bytes(columns | {"validity": texts}))
     fields = {
         "time": result.time,
         "x": result.x,
@@ -84,7 +83,7 @@ def plot_again(folder: Path) -> bool:
     source = folder / "history.csv"
     if not source.is_file():
         return False
-    plot_history(folder / "history.png", read_csv(source), folder.resolve().name)
+    plot_history(folder / "history.png", read_table(source), folder.resolve().name)
     return True
 
 

@@ -27,14 +27,12 @@ def judged_outputs(prepared: Prepared, in_time: SceneInTime, columns) -> tuple[t
 
 def _of_moment(scene: Scene, row: dict[str, float]) -> list[Validity]:
     speed, film, tolerance = row["entrainment_speed"], row["central_film"], scene.numerics.tolerance
-    lubricant, force = scene.lubricant, abs(row["friction_force"])
-    newtonian = lubricant.eyring_stress is None and lubricant.limiting_stress_coefficient is None
     shear = ShearForce(
         row["couette_force"], row["rolling_force"], excess=row["shear_excess"], stress_ratio=row["shear_stress_ratio"]
     )
-    entries = [*of_motion(scene, speed, film), *of_pressure(lubricant, row["max_pressure"])]
+    entries = [*of_motion(scene, speed, film), *of_pressure(scene.lubricant, row["max_pressure"])]
     entries += of_thickness(scene.bodies, film)
-    entries += of_shear(shear, row["film_load"], force, tolerance, newtonian)
+    entries += of_shear(scene, shear, row["film_load"], abs(row["friction_force"]))
     entries += of_heat(_heat(scene, speed, row), scene.motion.slide_roll_ratio, tolerance)
     entries += _of_sum(row["shear_error"], tolerance)
     if row["contact_load"] > 0:

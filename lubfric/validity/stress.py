@@ -15,16 +15,18 @@ def meaningless(shear) -> bool:
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
-def of_shear(shear, film_load: float, friction_force: float, tolerance: float, newtonian: bool) -> list[Validity]:
-    """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load`` [N]; ``friction_force``: f F_T [N].
+def of_shear(scene, shear, film_load: float, friction_force: float) -> list[Validity]:
+    """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
+    N, or both per width.
 
-    A share of the friction that no oil carries is a caution above ``tolerance``, and refused above 0.2.
+    A share of the friction that no oil carries is a caution above the tolerance on f, and refused above 0.2.
     """
+    tolerance = scene.numerics.tolerance
     if not friction_force > 0:
         return []
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0
     found, friction = [], abs(shear.couette) / max(film_load, 1e-300)
-    law = "Newtonian shear" if newtonian else "the shear law"
+    law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
     remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
         severe = share > SHARE

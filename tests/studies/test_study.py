@@ -154,22 +154,20 @@ def test_a_cut_at_every_moment_of_a_point(tmp_path, monkeypatch, moment, at):
             raise Killed
         kept.append(key)
         if len(kept) == at + 1 and moment == "after the state":
-            self.records.add = lambda *_: (_ for _ in ()).throw(Killed)
+            self.add = lambda *_: (_ for _ in ()).throw(Killed)
         real_keep(self, name, key, outcome, fields)
         if len(kept) == at + 1:
             raise Killed
 
     monkeypatch.setattr(Journal, "keep", keep)
-    with pytest.raises(Killed):
+    with pytest.raises(Killed), journal:
         list(run_chain(model, chain, journal))
     monkeypatch.setattr(Journal, "keep", real_keep)
-    journal.close()
-    again = Journal(tmp_path)
-    done = len(again.records.keys())
-    assert done == at + (moment == "after the record")
-    assert [i for i, _ in run_chain(model, chain, again, done)] == list(range(done, 4))
-    again.close()
-    found = dict(again.records.read())
+    with Journal(tmp_path) as again:
+        done = len(again.records())
+        assert done == at + (moment == "after the record")
+        assert [i for i, _ in run_chain(model, chain, again, done)] == list(range(done, 4))
+    found = again.records()
     for key, record in zip(chain.keys, whole):
         assert {**found[key], "seconds": 0} == {**record, "seconds": 0}
     assert again.fields(chain.keys[1]).balance is not None and not any((tmp_path / "states").iterdir())
@@ -247,8 +245,7 @@ def test_a_failing_point_is_a_row_with_its_status(serial, monkeypatch, tmp_path)
     assert found.failed == 2 and set(found.status[:, 1, 1]) == {"ConvergenceError: injected"}
     assert np.isnan(found["coefficient"][:, 1, 1]).all() and np.isfinite(found["coefficient"]).sum() == 10
     np.testing.assert_array_equal(found["coefficient"][:, 0], serial["coefficient"][:, 0])
-    records = Journal(tmp_path).records.read()
-    errors = [outcome_of(record) for _, record in records if "error" in record]
+    errors = [outcome_of(record) for record in Journal(tmp_path).records().values() if "error" in record]
     assert errors[0].report.status == "diverged" and errors[0].report.residual == float("inf")
 
 

@@ -13,7 +13,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric import output
+from lubfric import table
 from lubfric.cli import main
 from lubfric.store import FolderLock
 
@@ -77,7 +77,7 @@ def start(scene, out, *more, code=COUNTED, **options):
 def same(one: Path, other: Path):
     """The same numbers to the last bit, but for the time taken."""
     name = "stribeck.csv" if (one / "stribeck.csv").is_file() else "history.csv"
-    here, there = (output.read_csv(folder / name) for folder in (one, other))
+    here, there = (table.read_table(folder / name) for folder in (one, other))
     for column in here.keys() - {"seconds"}:
         np.testing.assert_array_equal(here[column], there[column], err_msg=column)
     with np.load(one / "fields.npz") as here, np.load(other / "fields.npz") as there:
@@ -111,7 +111,7 @@ def readable(out: Path):
     """Every file of the outputs that is there is whole."""
     for path in out.glob("*"):
         if path.suffix == ".csv":
-            assert len(output.read_csv(path)) > 10
+            assert len(table.read_table(path)) > 10
         elif path.suffix == ".json":
             json.loads(path.read_text())
         elif path.suffix == ".npz":

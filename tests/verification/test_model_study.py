@@ -56,6 +56,38 @@ def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
     assert solved == ["a", "b", "b", "c"] and len(kept.read(file)) == 3
 
 
+def test_rows_of_other_code_are_refused_unless_asked_for(tmp_path, monkeypatch):
+    file = tmp_path / "rows.jsonl"
+    assert list(kept.each(file, "ab", str.upper)) == ["A", "B"]
+    ours = kept.code_of(file)
+    monkeypatch.setattr(kept, "code", lambda: "lubfric 9, source of tomorrow")
+    with pytest.raises(kept.OtherCode, match="--go-on"):
+        list(kept.each(file, "abc", str.upper))
+    kept.adopt(file)
+    kept.adopt(file)
+    assert list(kept.each(file, "abc", str.upper)) == ["A", "B", "C"]
+    codes = [line for line in file.read_text().splitlines() if kept.CODE in line]
+    assert len(codes) == 2 and ours in codes[0] and kept.code_of(file) == kept.code()
+
+
+def test_rows_from_before_codes_were_written_stay_readable(tmp_path):
+    file = tmp_path / "old.jsonl"
+    file.write_text('["a", 1]\n["b", 2]\n["c"')
+    assert kept.read(file) == [["a", 1], ["b", 2]] and kept.code_of(file) == "not known"
+    with pytest.raises(kept.OtherCode, match="not known"):
+        kept.begin(file)
+    kept.adopt(file)
+    assert kept.begin(file) == [["a", 1], ["b", 2]]
+
+
+def test_the_flag_goes_on_with_what_lies_in_the_folder(tmp_path, capsys):
+    from verification.levels import main
+
+    (tmp_path / "rows.jsonl").write_text('["a", 1]\n')
+    assert main(["--quick", "--only", "switches", "--out", str(tmp_path), "--go-on", "--list"]) == 0
+    assert kept.stale(tmp_path / "rows.jsonl")  # nothing is touched by a list
+
+
 def test_grids_and_heavy_loads_say_what_they_found():
     row = grids.refined((16, 24, 32), "0.01 1")
     assert row[:2] == [0.01, 1] and np.isclose(row[5], 100 * (row[3] / row[4] - 1)) and 0 < row[-1] < 6

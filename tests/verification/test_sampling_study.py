@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from verification import sampling
+from verification import kept, sampling
 from verification.sampling import charts, cost, lengths, measure, pieces, verdict
 from verification.sampling.cases import SPEEDS, Case
 from verification.tables import folders as tables
@@ -65,7 +65,9 @@ def test_what_is_kept_is_not_solved_again(tmp_path, monkeypatch):
     monkeypatch.setattr(measure, "truth", None)
     monkeypatch.setattr(measure, "solve", None)
     truth = {"kind": "truth", "seed": measure.REPORTED, "f": F, "error": 1e-4}
-    (tmp_path / "made-up-0.jsonl").write_text("\n".join(json.dumps(r) for r in [*trials(), truth]) + "\n")
+    file = tmp_path / "made-up-0.jsonl"
+    file.write_text("\n".join(json.dumps(r) for r in [*trials(), truth]) + "\n")
+    kept.adopt(file)
     found = measure.run(CASE, SIZE, 0, tmp_path)
     assert found.truth == F and len(found.rows) == SIZE
     with pytest.raises(TypeError):
@@ -96,7 +98,7 @@ def test_the_command_reports_what_is_kept_and_the_table_of_the_page_reads_it(tmp
         rows = [row | {"seed": 7 + row["seed"]} for row in trials(seed=5)[:16]]
         file = measure._file(case, 7, tmp_path)
         file.write_text("\n".join(json.dumps(r) for r in [*rows, truth]) + "\n")
-    assert sampling.main(["--quick", "--seed", "7", "--out", str(tmp_path)]) == 0
+    assert sampling.main(["--quick", "--seed", "7", "--go-on", "--out", str(tmp_path)]) == 0
     assert "12 of 12 checks passed" in capsys.readouterr().out
     assert (tmp_path / "coverage.png").stat().st_size > 1000
     monkeypatch.setattr(tables, "SAMPLING", tmp_path)

@@ -87,7 +87,7 @@ def run(count: int, file: Path, *, part: tuple[int, int] = (0, 1), seed: int = S
     ``part`` (k, n) takes every n-th scene from k, so that n processes share the work, with a file each.
     """
     row(0, points(1)[0])  # imports are no part of any time
-    found = [Check.from_dict(c) for line in kept.read(file) for c in line]
+    found = [Check.from_dict(c) for line in kept.begin(file) for c in line]
     known = {c.at["index"] for c in found}
     for index, values in enumerate(points(count, seed)):
         if index % part[1] != part[0] or index in known:

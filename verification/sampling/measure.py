@@ -93,7 +93,7 @@ def run(case: Case, trials: int, seed: int, out: Path) -> Result:
 
 def _rows(case: Case, wanted: list[tuple[str, int]], file: Path) -> list[dict]:
     """The truth or the trials, each on surfaces of a seed of its own. Those missing in ``file`` are solved."""
-    found = {(row["kind"], row["seed"]): row for row in kept.read(file)}
+    found = {(row["kind"], row["seed"]): row for row in kept.begin(file)}
     for kind, own in wanted:
         if (kind, own) not in found:
             new = _truth(case, own) if kind == "truth" else solve(case.scene(own), case.speed, case.asked)

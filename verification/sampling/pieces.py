@@ -42,7 +42,7 @@ def measured(scene, cuts: tuple[int, int], out: Path) -> list[dict]:
 def cut(scene, speed: float, whole, cuts: tuple[int, int], name: str, out: Path) -> list[dict]:
     """Friction of a surface and of its pieces. Each is kept in ``out`` when it is found, and not solved again."""
     file = out / f"pieces-{'-'.join(name.split())}.jsonl"
-    rows = kept.read(file)
+    rows = kept.begin(file)
     places = [WHOLE, *([i, j] for i in range(cuts[0]) for j in range(cuts[1]))]
     for place in places[len(rows) :]:
         heights = whole.heights if place == WHOLE else _piece(whole.heights, cuts, place)

@@ -26,7 +26,7 @@ def run(count: int, seed: int, out: Path) -> list[dict]:
     A row is {name: (value, stated relative error, value of the reference)}.
     """
     file = out / f"quantities-{seed}.jsonl"
-    rows = kept.read(file)
+    rows = kept.begin(file)
     known = {row["index"] for row in rows}
     for index, values in enumerate(points(count, seed)):
         if index in known:

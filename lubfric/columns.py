@@ -1,14 +1,15 @@
-"""Columns of a CSV file of a logger: headings with units, any usual separator and decimal mark."""
+"""Columns of numbers in a text file that others wrote: headings with units, any usual separator and decimal mark."""
 
 from __future__ import annotations
 
 import csv
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
-from .. import validate
-from ..errors import InputError
+from . import validate
+from .errors import InputError
 
 MOST_BYTES = 2**27
 UNITS = {  # dimension: {unit: in SI}
@@ -17,13 +18,14 @@ UNITS = {  # dimension: {unit: in SI}
     "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6},
     "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
     "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9},
+    "-": {"": 1.0, "-": 1.0, "%": 0.01},
     "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
 }
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
 
 
-def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | None]) -> list[list[float]]:
-    """Two columns in SI units, found by the ``names`` in the first row.
+def read_columns(path: Path, names: Sequence[str], units: Sequence[str | None]) -> list[list[float]]:
+    """Columns in SI units, found in the first row by the ``names``, which are headings or what these say before a unit.
 
     A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI. ``units``: the SI unit that each
     column must be convertible to (None: any of `UNITS`). Comma, semicolon or tab separate; where it is one of the
@@ -33,23 +35,30 @@ def read_columns(path: Path, names: tuple[str, str], units: tuple[str, str | Non
     Raises `InputError` naming file and line for anything else.
     """
     rows = _rows(path)
-    headings = [HEADING.fullmatch(text) for text in rows[0][1]]
-    known = ["" if h is None else h["name"] for h in headings]
-    given = [None if h is None else h["unit"] for h in headings]
-    columns, factors = [], []
+    headings = [text.strip() for text in rows[0][1]]
+    for line, row in rows[1:]:
+        if any(field.strip() for field in row[len(headings) :]):
+            raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
+    columns, known = [], [*(name_and_unit(text)[0] for text in headings), *headings]
     for name, unit in zip(names, units):
-        places = [i for i, heading in enumerate(known) if heading == name]
+        places = [i for i, text in enumerate(headings) if name == text] or [
+            i for i, text in enumerate(headings) if name == name_and_unit(text)[0]
+        ]
         if len(places) != 1:
             found = f"{len(places)} columns" if places else "no column"
             raise InputError(
-                f"history file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
-                f"allowed: one; it has: {', '.join(known)}"
+                f"file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
+                f"allowed: one; it has: {', '.join(headings)}"
             )
-        columns.append(places[0])
-        factors.append(_factor(path, name, given[places[0]], unit))
-    return [
-        [factor * _number(path, line, row, place) for line, row in rows[1:]] for place, factor in zip(columns, factors)
-    ]
+        factor = _factor(path, name, name_and_unit(headings[places[0]])[1], unit)
+        columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
+    return columns
+
+
+def name_and_unit(heading: str) -> tuple[str, str | None]:
+    """The two parts of a heading; None: it names no unit."""
+    found = HEADING.fullmatch(heading)
+    return (heading, None) if found is None else (found["name"], found["unit"])
 
 
 def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
@@ -64,8 +73,7 @@ def _factor(path: Path, name: str, given: str | None, expected: str | None) -> f
             return table[word]
     allowed = ", ".join(unit for table in tables for unit in table)
     raise InputError(
-        f"history file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, "
-        "or no unit for SI"
+        f"file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, or no unit for SI"
     )
 
 
@@ -75,12 +83,12 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
     if len(lines) < 2:
-        raise InputError(f"history file {path.name} has {len(lines)} rows; allowed: a heading and at least two rows")
+        raise InputError(f"file {path.name} has {len(lines)} rows; allowed: a heading and rows of numbers")
     separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
     try:
         rows = [(n, next(csv.reader([line], delimiter=separator))) for n, line in lines]
     except csv.Error as problem:
-        raise InputError(f"history file {path.name} is no table ({problem}); allowed: a CSV file") from None
+        raise InputError(f"file {path.name} is no table ({problem}); allowed: a CSV file") from None
     if separator == ",":
         return rows
     return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
@@ -89,7 +97,7 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 def _decimal_point(path: Path, line: int, field: str) -> str:
     if "," in field and "." in field:
         raise InputError(
-            f"history file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal "
+            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal "
             "mark, none "
             "for thousands"
         )
@@ -104,7 +112,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"history file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a "
+            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a "
             "number; allowed: a "
             "finite number in every row"
         )
@@ -114,12 +122,12 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
 def _text(path: Path) -> str:
     try:
         if not path.is_file():
-            raise InputError(f"history file {str(path)!r} does not exist; allowed: a CSV file")
+            raise InputError(f"file {str(path)!r} does not exist; allowed: a CSV file")
         if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"history file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
+            raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
         content = path.read_bytes()
     except (OSError, ValueError) as problem:
-        raise InputError(f"history file {validate.shown(str(path))} cannot be read ({problem})") from None
+        raise InputError(f"file {validate.shown(str(path))} cannot be read ({problem})") from None
     codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
     for code in codes:
         try:
@@ -128,4 +136,4 @@ def _text(path: Path) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(f"history file {path.name} is not text; allowed: CSV in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(f"file {path.name} is not text; allowed: CSV in UTF-8, UTF-16 or Windows-1252")

@@ -1,4 +1,4 @@
-"""Names, units and long names of the columns of a study."""
+"""Units and long names of what is given and of what comes out: keys of a scene, numbers of a result."""
 
 from __future__ import annotations
 
@@ -38,8 +38,14 @@ KEYS = {  # units of the keys of a scene that are numbers
     "lubricant.eyring_stress": ("Pa", "Eyring stress"),
     "lubricant.limiting_stress_coefficient": ("-", "limiting shear stress per pressure"),
     "lubricant.limiting_stress_offset": ("Pa", "limiting shear stress at ambient pressure"),
+    "lubricant.temperature_coefficient": ("1/K", "fall of ln(viscosity) with the temperature"),
+    "lubricant.conductivity": ("W/(m K)", "thermal conductivity of the film"),
+    "motion.entrainment_speed": ("m/s", "entrainment speed"),
+    "motion.speeds": ("m/s", "entrainment speeds"),
     "motion.slide_roll_ratio": ("-", "slide-roll ratio"),
     "motion.slip_percent": ("%", "slide-roll ratio in percent"),
+    "bodies.conductivity": ("W/(m K)", "thermal conductivity of both bodies"),
+    "bodies.volumetric_heat": ("J/(m3 K)", "heat capacity of both bodies"),
     "bodies.hertz_pressure": ("Pa", "peak Hertz pressure"),
     "bodies.hardness_hv": ("HV", "Vickers hardness"),
     "lubricant.temperature": ("K", "temperature of the oil"),
@@ -50,11 +56,28 @@ KEYS = {  # units of the keys of a scene that are numbers
     "lubricant.density": ("kg/m3", "density of the oil at 15 °C"),
     "surface.sq": ("m", "root mean square roughness"),
     "surface.correlation_length": ("m", "correlation length"),
+    "surface.spacing": ("m", "cell size of the map"),
+    "surface.s_filter": ("m", "nesting index below which the map is smoothed"),
+    "surface.l_filter": ("m", "nesting index above which the map is levelled"),
     "contact.spacing": ("m", "cell size"),
+    "transient.duration": ("s", "duration"),
+    "transient.initial_film": ("m", "film to start from"),
 }
+OF_ERRORS = {"line_length": ("m", "length of the line of rough surface")}
 
 
 def described(name: str, table: dict) -> dict[str, str]:
     """Attributes of a column, in the words of the CF conventions."""
     unit, text = table.get(name, ("", name.rpartition(".")[2].replace("_", " ")))
     return {"units": "1" if unit == "-" else unit, "long_name": text} if unit else {"long_name": text}
+
+
+def heading(name: str) -> str:
+    """The heading of a column: its name, and its unit in brackets."""
+    return f"{name} [{(KEYS | QUANTITIES | OF_ERRORS).get(name, ('-',))[0]}]"
+
+
+def key_unit(section: str, key: str) -> str:
+    """The unit of a key of a scene, for people; "" where it has none."""
+    unit = KEYS.get(f"{section.replace('counterface', 'surface')}.{key}", ("",))[0]
+    return "" if unit == "-" else unit
