@@ -9,9 +9,8 @@ from ..deterministic.refine import Refined
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
-from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import of_pressure, of_thickness
+from ..validity.solution import of_motion, of_pressure, of_thickness
 from .resolved import Resolved, resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
