@@ -97,9 +97,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 def _decimal_point(path: Path, line: int, field: str) -> str:
     if "," in field and "." in field:
         raise InputError(
-            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal "
-            "mark, none "
-            "for thousands"
+            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none for "
+            "thousands"
         )
     return field.replace(",", ".")
 
@@ -112,8 +111,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a "
-            "number; allowed: a "
+            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a number; allowed: a "
             "finite number in every row"
         )
     return value

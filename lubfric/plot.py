@@ -31,11 +31,7 @@ def make_ready() -> None:
 
 
 def plot_stribeck(
-    path: Path,
-    columns: dict[str, np.ndarray],
-    title: str,
-    entries: Sequence[Sequence[Any]],
-    measured=None,
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
 ) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 

@@ -71,9 +71,8 @@ def _notes(found: Refined) -> tuple[str, ...]:
     result = found.result
     split, load = result.split, result.load
     return (
-        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots "
-        f"{100 * split.spots / load:.3g} %, "
-        f"where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
+        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots {100 * split.spots / load:.3g} "
+        f"%, where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
         *result.report.notes,
     )
 

@@ -46,9 +46,8 @@ class Measured:
             raise InputError("deviation holds values that are not positive; allowed: > 0, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):
             raise InputError(
-                "coefficient holds values that are not positive, whose relative deviation means nothing; "
-                "allowed: > 0, or "
-                "give a deviation"
+                "coefficient holds values that are not positive, whose relative deviation means nothing; allowed: > 0, "
+                "or give a deviation"
             )
         if np.unique(x).size < x.size:
             raise InputError("x holds a value twice; allowed: each once (average repeated measurements)")

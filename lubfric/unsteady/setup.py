@@ -72,9 +72,8 @@ def begin(scene: Scene | Prepared, plan: Transient) -> Run:
         raise InputError("numerics.closure = 'one-way' is steady; allowed for a transient: 'load', 'separation'")
     if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), "
-            f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
-            f"found {base.numerics.cavitated_shear!r}"
+            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), found "
+            f"{base.numerics.film_deflection!r}, and cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
         )
     _refuse_steady_only(base)
     load = plan.load or Constant(base.bodies.load)

@@ -142,9 +142,8 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
             share,
             SHARE if severe else tolerance,
             "",
-            f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a "
-            "friction coefficient of "
-            f"{friction:.2g}",
+            f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a friction "
+            f"coefficient of {friction:.2g}",
             remedy,
             severe,
         )
@@ -165,9 +164,8 @@ def of_heat(heat, slide_roll_ratio: float, tolerance: float) -> Iterator[Validit
                 spread,
                 tolerance,
                 "",
-                f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the "
-                "isothermal one, neither factor "
-                "was made for such sliding",
+                f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, "
+                "neither factor was made for such sliding",
                 "a measured film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.slow and heat.change > tolerance:
