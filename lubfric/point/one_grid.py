@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .. import budget
 from ..film.contract import LeftOut
-from ..film.ladder import given_level, higher, lowest_level
+from ..film.levels import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
 from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings

@@ -115,7 +115,7 @@ def _setting(prepared: Prepared, plan: Transient, load: History, finer: float) -
     scene = prepared.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = ContactHistory(
-        _per_width(load, bodies.width),
+        _PerWidth(load, bodies.width),
         plan.radius or Constant(bodies.radius),
         bodies.e_prime,
         plan.speed or Constant(scene.motion.entrainment_speed),
@@ -164,7 +164,3 @@ class _PerWidth(History):
     def range(self, duration: float) -> tuple[float, float]:
         low, high = self.source.range(duration)
         return low / self.width, high / self.width
-
-
-def _per_width(load: History, width: float) -> _PerWidth:
-    return _PerWidth(source=load, width=width)
