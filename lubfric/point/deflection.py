@@ -42,24 +42,39 @@ def solved_as_deflected(
     prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False
 ) -> tuple[Prepared, Solved]:
     """``prepared`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance
-    needs it, and its solution (`solved`). A loose solve by the film's own pressure that is far beyond its share goes to
-    the whole load at once, and so does one that fails; the choice does not depend on ``start``."""
-    if prepared.scene.numerics.film_deflection != "auto":
+    needs it, and its solution (`solved`).
+
+    A balance that is far beyond the share of its film's own pressure goes to the whole load at once: that of the
+    neighbour, ``start``, if the solution says so too; without one, that of a loose solve, or one that fails. The choice
+    does not depend on ``start``.
+    """
+    scene = prepared.scene
+    if scene.numerics.film_deflection != "auto":
         return prepared, solved(prepared, speed, start, given_grid=given_grid)
-    limit, error, option = budget.DEFLECTION * prepared.scene.numerics.tolerance, 0.0, "hydrodynamic"
-    if speed != 0:
-        error, loose = _loose_error(prepared, speed)
-        start = start or loose
+    limit, error, option = budget.DEFLECTION * scene.numerics.tolerance, 0.0, "hydrodynamic"
+    if speed != 0 and (start is None or start.film is None):
+        error, start = _loose_error(prepared, speed)
+    elif speed != 0 and start is not None and own_pressure_error(scene, start) > CERTAIN * limit:
+        chosen = deflected_by(prepared, "scaled")
+        found = solved(chosen, speed, start, given_grid=given_grid)
+        start = found.balance
+        if (error := own_pressure_error(scene, start)) > CERTAIN * limit:
+            return chosen, _told(found, error, limit, "scaled")
     if error <= CERTAIN * limit:
         chosen = deflected_by(prepared, option)
         found = solved(chosen, speed, start, given_grid=given_grid)
-        error, start = own_pressure_error(prepared.scene, found.balance), found.balance
+        error, start = own_pressure_error(scene, found.balance), found.balance
     if error > limit:
         chosen, option = deflected_by(prepared, "scaled"), "scaled"
         found = solved(chosen, speed, start, given_grid=given_grid)
+    return chosen, _told(found, error, limit, option)
+
+
+def _told(found: Solved, error: float, limit: float, option: str) -> Solved:
+    """``found``, with the choice in its decision where film and contact share the load."""
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
-    return chosen, replace(found, decision=replace(found.decision, deflection=told))
+    return replace(found, decision=replace(found.decision, deflection=told))
 
 
 def _loose_error(prepared: Prepared, speed: float) -> tuple[float, Balance | None]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..point.adapt import Solved
 from ..point.balance import Balance
 from ..point.forces import Forces
-from .grid_pair import mean_of
+from .grid_pair import gap_left, mean_of
 from .influence import BlockError
 from .line_record import Pooled
 from .response import Response
@@ -163,8 +163,8 @@ def uncertainty_of(
 def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a `LineFound`."""
     found = line.point.balance.forces
-    rest = mean_of(line.grid, "rest", 0.0)
-    area = mean_of(line.grid, "area_error", 0.0) / math.sqrt(max(len(line.grid), 1))
+    rest = gap_left(line.grid)
+    area = mean_of(line.grid, "area_left", 0.0) / math.sqrt(max(len(line.grid), 1))
     numerical = numerical_errors(line.point, line.first.contact.volume_residual, rest, area)
     relative = coefficient_error(numerical, found, line.response)
     if line.response is None:  # separated

@@ -4,7 +4,7 @@ fourth, ... of them."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .other_cells import half_again
 SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
 FEWEST = 3  # pieces too short for blocks
 MOST_CELLS = 300_000  # of a piece, where a coarser one would do
+BY_LOAD = 2.0  # what the change of the gap itself changes by with ln of the contact load, at most, over its size
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,7 @@ class GridStep:
       on the scene's own cells (0: they were reached).
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
     - ``plastic``: to be added to the plastic area fraction.
+    - ``moved``: absolute ln of the ratio of the load where it is used to ``contact_load``.
     - ``beyond`` [m]: estimated change on cells half as long as the scene's own (`lubfric.sampling.other_cells`; NaN:
       own cells not reached).
     """
@@ -40,6 +42,17 @@ class GridStep:
     area_error: float
     plastic: float
     contact_load: float
+    moved: float = 0.0
+
+    @property
+    def area_left(self) -> float:
+        """``area_error``, and what the other load may change of ``area``: seen to be less than its distance to 1, times
+        ``moved``."""
+        return self.area_error + abs(1 - self.area) * self.moved
+
+    def at_load(self, contact_load: float) -> GridStep:
+        """The same, taken at another load [N]."""
+        return replace(self, moved=abs(math.log(contact_load / self.contact_load)))
 
 
 @dataclass(frozen=True)
@@ -77,13 +90,13 @@ def grid_step(
     each with its influence on the mean gap (`influence`).
     """
     scene, surface, steps = lines.scene, lines.pair(index, length), _ladder(lines.cells.factors)
-    rows, changes, rest = [], [], math.inf
+    rows, changes, rest, state = [], [], math.inf, None
     for factors in steps:
         if rest <= enough and surface.heights.size / math.prod(factors) > MOST_CELLS:
             break
         contact = thinned(scene, surface, lines.cells, factors)
         thickness, under = point.film_on(contact, film)
-        state = contact.close(thickness, contact_load, None, under)
+        state = contact.close(thickness, contact_load, state, under)
         rows.append(_by_row(contact, state, gap_slope, lines.cells.factors[1] // factors[1]))
         if len(rows) > 1:
             changes.append(float(np.mean(rows[-1].gap) - np.mean(rows[-2].gap)))
@@ -125,6 +138,17 @@ def mean_error(steps) -> BlockError:
         return BlockError(float(np.std(gaps, ddof=1)) / math.sqrt(len(steps)), len(steps) - 1)
     found = add_errors(*(g.error for g in steps))
     return BlockError(found.error / len(steps), found.freedom)
+
+
+def gap_left(steps) -> float:
+    """What the gap may still change by [m], on average over several pieces: on finer cells, and because they were taken
+    at another load. The latter was seen to be less than 1.5 times the change and its standard error, times ``moved``,
+    on Gaussian and measured surfaces."""
+    if not steps:
+        return 0.0
+    moved = BY_LOAD * steps[0].moved
+    by_load = moved * (abs(mean_of(steps, "gap", 0.0)) + mean_error(steps).error) if moved else 0.0
+    return mean_of(steps, "rest", 0.0) + by_load
 
 
 def mean_of(steps, name: str, without: float) -> float:

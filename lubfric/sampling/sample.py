@@ -15,7 +15,7 @@ from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import FEWEST, GridStep, grid_step, mean_error
+from .grid_pair import FEWEST, GridStep, gap_left, grid_step, mean_error
 from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import missed_share
@@ -24,9 +24,9 @@ from .uncertainty import FEW
 
 PAIR = 42.0  # correlation lengths along y of a piece on the scene's own cells
 MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
+KEPT = 0.5  # of the share of the grid: what pieces taken at a neighbouring speed may leave open
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 LEAST_MORE = 0.25  # of the length so far
-SAME_LOAD = 0.15  # relative change of the contact load for which the grid's effect is not found anew
 
 
 @dataclass(frozen=True)
@@ -175,18 +175,17 @@ def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
 
 def _grid(prepared, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
     """Compare pieces on finer cells, until their scatter is a small part of the sampling tolerance. Those of a
-    neighbouring speed serve where the contact carries as much."""
+    neighbouring speed serve where they are enough at this load too."""
     lines, numerics, balance = lines_of_model(prepared), prepared.scene.numerics, found.balance.lubricated
     if lines.cells.factors == (1, 1) or balance is None:
         return ()
     load = balance.contact_load
-    if before and abs(load / before[0].contact_load - 1) < SAME_LOAD:
-        return before
     per_gap = response.relative("coefficient", 1.0)
-    enough, scatter = (
-        budget.CONTACT_GRID * numerics.tolerance / per_gap,
-        PAIR_SHARE * numerics.sampling_tolerance / per_gap,
-    )
+    enough = budget.CONTACT_GRID * numerics.tolerance / per_gap
+    scatter = PAIR_SHARE * numerics.sampling_tolerance / per_gap
+    near = tuple(step.at_load(load) for step in before)
+    if near and mean_error(near).error <= scatter and gap_left(near) <= KEPT * enough:
+        return near
     steps: list[GridStep] = []
     point = at(prepared, speed, found.contact, balance)
     while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):

@@ -20,9 +20,9 @@ CHUNK = 2**18  # points whose windows are held at once
 GAUSSIAN = 1.4826  # standard deviation over median deviation
 
 
-def robust_deviation(heights: np.ndarray) -> float:
-    """1.4826 times the median of |z - median(z)| [m], or Sq where that is zero."""
-    return GAUSSIAN * float(np.median(np.abs(heights - np.median(heights)))) or float(heights.std())
+def robust_deviation(heights: np.ndarray, middle: float) -> float:
+    """1.4826 times the median of |z - ``middle``| [m], or Sq where that is zero. ``middle`` [m]: median of z."""
+    return GAUSSIAN * float(np.median(np.abs(heights - middle))) or float(heights.std())
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
@@ -33,7 +33,8 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
         first.
     """
     measured = heights if mask is None else heights[mask]
-    deviation, middle = robust_deviation(measured), float(np.median(measured))
+    middle = float(np.median(measured))
+    deviation = robust_deviation(measured, middle)
     found = np.zeros(heights.shape)
     if deviation == 0:
         return found

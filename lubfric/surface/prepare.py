@@ -47,7 +47,7 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
             f"{np.count_nonzero(valid)} measured points lie on one {curve}; allowed: points that fix the "
             f"{len(powers)} terms of the form {form!r}"
         )
-    fitted = sum(c * np.multiply.outer(along[0][:, p], along[1][:, q]) for (p, q), c in terms.items())
+    fitted = _polynomial(terms, along)
     if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
@@ -71,9 +71,16 @@ def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] |
     for _ in range(2):
         right = along[0].T @ rest @ along[1]
         found = found + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
-        fitted = sum(c * np.multiply.outer(along[0][:, p], along[1][:, q]) for (p, q), c in zip(powers, found))
-        rest = np.where(weight > 0, z - fitted, 0.0)
+        rest = np.where(weight > 0, z - _polynomial(dict(zip(powers, found)), along), 0.0)
     return dict(zip(powers, found.tolist()))
+
+
+def _polynomial(terms, along) -> np.ndarray:
+    """The polynomial of the coefficients ``terms`` of the powers ``along`` x and y, (nx, ny)."""
+    matrix = np.zeros((along[0].shape[1], along[1].shape[1]))
+    for powers, coefficient in terms.items():
+        matrix[powers] = coefficient
+    return along[0] @ matrix @ along[1].T
 
 
 def harmonic_fill(heights, mask, spacing) -> np.ndarray:

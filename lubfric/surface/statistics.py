@@ -101,15 +101,19 @@ def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
     validate.choice("axis", axis, (0, 1))
     n = surface.shape[axis]
-    mask = np.ones(surface.shape, bool) if surface.mask is None else surface.mask
-    z = np.where(mask, surface.heights - surface.measured.mean(), 0.0)
-    length = n if surface.periodic_axes[axis] else fft.next_fast_len(2 * n, real=True)
+    mask, periodic = surface.mask, surface.periodic_axes[axis]
+    z = surface.heights - surface.measured.mean()
+    length = n if periodic else fft.next_fast_len(2 * n, real=True)
 
     def lagged_products(f):
         power = np.abs(fft.rfft(f, length, axis=axis)) ** 2
         return fft.irfft(power.sum(axis=1 - axis), length)[: n // 2 + 1]
 
-    products, pairs = lagged_products(z), np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
+    if mask is None or mask.all():
+        pairs = np.full(n // 2 + 1, n) if periodic else n - np.arange(n // 2 + 1)
+    else:
+        z, pairs = np.where(mask, z, 0.0), np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
+    products = lagged_products(z)
     if products[0] <= 0:
         raise InputError("sq of the surface = 0 m: no autocorrelation; allowed: above 0 m")
     return np.arange(n // 2 + 1) * surface.spacing[axis], products / pairs / (products[0] / pairs[0])

@@ -21,7 +21,7 @@ from .auto import auto_curve
 from .points import judged
 from .result import StribeckResult, collected
 
-MIXED = 2.0  # Moes' film of the whole load over Sq of the speed that comes first
+MIXED = 1.3  # Moes' film of the whole load over Sq of the speed that comes first
 
 
 def stribeck(
@@ -111,7 +111,7 @@ def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Ch
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
     """Number of the speed that comes first, counted from the fastest down.
 
-    It is where the film that Moes' formula gives the whole load is about twice Sq. There the contact carries a third of
+    It is where the film that Moes' formula gives the whole load is about 1.3 Sq. There the contact carries half of
     the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
     the fastest speed comes first: it is the easy one to begin with.
     """

@@ -19,6 +19,7 @@ from lubfric.deterministic.solve import Start
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, viscosity
 from lubfric.surface import Surface
+from verification.studies.waviness import STEEL, compared
 
 E_PRIME, SPEED, CELLS = 2e9, 0.5, 1024
 
@@ -47,3 +48,11 @@ def test_long_waves_are_pressed_flat_and_short_ones_stay(oil):
         q = 48 * float(viscosity(oil, pressure)) * SPEED / (E_PRIME * k**2 * film**3)
         assert kept[-1] == pytest.approx(1 / np.hypot(1, q), rel=within)
     assert kept[0] < 0.4 < 0.97 < kept[-1]
+
+
+def test_waves_in_a_contact_of_steel_follow_the_linear_response_of_finite_elements():
+    """Under high pressure the even film keeps nothing, and what the inlet makes of the waves is left."""
+    _, kept, judge, even, rms = next(compared(STEEL, (0.5,), refinements=1, fineness=1.0))
+    assert kept == pytest.approx(judge, rel=0.01) and rms < 0.003 and even < 0.01 < 0.5 < kept
+    *_, wrong = next(compared(STEEL, (0.5,), replace(STEEL, viscosity=0.06), refinements=1, fineness=1.0))
+    assert wrong > 0.006

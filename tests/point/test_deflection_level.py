@@ -110,3 +110,18 @@ def test_a_choice_that_fails_does_not_fail_the_point(monkeypatch, error):
     found = by(HEAVY, "auto", 1e-3)
     assert found.coefficient == by(HEAVY, "scaled", 1e-3).coefficient
     assert "the solve that was to choose failed" in found.decision.text
+
+
+@pytest.mark.parametrize("pressure, speeds", [(0.95e9, [1e-3, 1e-2, 0.1]), (0.15e9, [1e-3, 5e-3, 0.02, 0.05, 0.1])])
+def test_a_neighbour_does_not_change_the_choice(pressure, speeds):
+    """Each speed of a curve, which starts from its neighbour's choice, is solved as it is alone: mostly by the whole
+    load, and from one way to the other on the way down the lighter curve."""
+    scene = HEAVY.with_(bodies={"hertz_pressure": pressure})
+    curve = lubfric.stribeck(scene, speeds)
+    ways = []
+    for speed, found in zip(speeds, curve.points):
+        alone = lubfric.friction(scene, speed)
+        assert found.coefficient == pytest.approx(alone.coefficient, rel=2e-3)
+        ways.append("whole load" in found.decision.deflection)
+        assert ways[-1] == ("whole load" in alone.decision.deflection)
+    assert all(ways) if pressure > 0.5e9 else 0 < sum(ways) < len(ways)

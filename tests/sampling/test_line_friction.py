@@ -13,6 +13,8 @@ from lubfric.describe import describe_scene
 from lubfric.lines.outlook import foretold
 from lubfric.point.adapt import solved
 from lubfric.rough.height_map import contact_map
+from lubfric.sampling.grid_pair import gap_left, mean_of
+from lubfric.sampling.line_friction import line_friction
 from lubfric.sampling.sample import response_of
 from lubfric.table import read_table
 
@@ -145,3 +147,21 @@ def test_info_foretells_the_length_within_a_factor_of_four():
         assert 0.25 < length / found.length < 4
         assert speed > 0.02 or 0.3 < error / found.sampling < 3
     assert "line of about" in describe_scene(PAPER)
+
+
+@pytest.mark.parametrize("speed, neighbour", [(0.0068, 0.01), (0.01, 0.03)])
+def test_what_the_cells_change_is_known_at_a_neighbouring_speed(speed, neighbour):
+    """Pieces taken at the load of another speed: what they say differs from that of pieces taken anew by less than is
+    told, and they are taken anew where that is more than f allows."""
+    model = lubfric.prepare(lubfric.load_scene("paper"))
+    near = line_friction(model, neighbour)[1]
+    alone, after = (line_friction(model, speed, start)[1] for start in (None, near.start))
+    gaps = [mean_of(found.grid, "gap", np.nan) for found in (alone, after)]
+    assert abs(gaps[1] - gaps[0]) <= gap_left(after.grid) + 1e-11  # m: balances are closed to their tolerance
+    assert abs(after.grid[0].area - alone.grid[0].area) <= after.grid[0].area_left
+    kept = after.grid[0].contact_load == near.grid[0].contact_load
+    assert kept == (neighbour < 0.03) == (after.grid[0].moved > 0)
+    assert after.response.relative("coefficient", gap_left(after.grid)) <= (0.002 if kept else 1e-6)
+    if kept:  # on the same line
+        coefficients = [found.point.balance.forces.coefficient for found in (alone, after)]
+        assert coefficients[1] == pytest.approx(coefficients[0], rel=2e-3)

@@ -159,7 +159,7 @@ def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray
 
 def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarray:
     """Sparse LU that eliminates the first unknowns in ``order`` and the others after them."""
-    order = np.concatenate([order, np.arange(order.size, rhs.size)])
+    order = np.concatenate([order, np.arange(order.size, len(rhs))])
     factors = splu(matrix[order][:, order].tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.1)
     change = np.empty_like(rhs)
     change[order] = factors.solve(rhs[order])

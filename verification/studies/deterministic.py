@@ -19,6 +19,7 @@ from ..check import ABSOLUTE, AT_MOST, Check, Table
 from ..fem.fluid import Fluid
 from ..fem.rough_film import GivenGap, rough_film
 from .given_fluid import contact_given_fluid
+from .waviness import waviness
 
 RADIUS, E_PRIME, VISCOSITY, ALPHA = 2e-3, 231e9, 0.36, 25e-9
 LOAD, WIDTH = 917.0, 90e-6
@@ -38,7 +39,8 @@ def deterministic(level: str):
     what one would call contact. Flow and load of the film around them must come out again. In a thin film under such
     pressures the gap does not determine the pressure well enough to be given. The surface is its own mirror image, so
     that half of it can be meshed. The other way round, the pressure of the fluid is handed to a finite-element contact
-    (`given_fluid`), and cells, pressure and load of the touching summits must come out again.
+    (`given_fluid`), and cells, pressure and load of the touching summits must come out again. Waves of small height at
+    rest in an elastic film are held against the linear response of full-system finite elements (`waviness`).
     """
     yield from smooth()
     yield from dry()
@@ -46,6 +48,7 @@ def deterministic(level: str):
         for speed in speeds:
             yield from same_gap(cells, speed)
     yield from contact_given_fluid(level, contact(0.1))
+    yield from waviness(level)
     if level == "full":
         yield from refinement()
 

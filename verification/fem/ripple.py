@@ -1,0 +1,50 @@
+"""Waves of infinitesimal height at rest under a moving smooth body: how far the film of `ehl` follows them.
+
+The film is H = H0 + X²/2 - u_z - z. To first order in z the changes of displacement, pressure and approach solve the
+tangent of the whole system (`ehl_newton`) at the smooth solution, with ``-by_H z`` for its right side. The rupture
+point stays, as pressure and its slope vanish there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from .ehl import Solution
+from .ehl_film import assemble
+from .ehl_newton import HERTZ_LOAD, load_weights, solve
+
+
+@dataclass(frozen=True)
+class Ripple:
+    """Film and pressure of a wave exp(i k x) over its height, complex, at the degrees of freedom of the line: m/m and
+    Pa/m."""
+
+    film: np.ndarray
+    pressure: np.ndarray
+
+
+def ripple(at: Solution, wavelength: float) -> Ripple:
+    """The response of the smooth solution to a wave of ``wavelength`` [m] across the motion."""
+    body, contact = at.body, at.contact
+    wave = np.exp(2j * np.pi * body.x * contact.half_width / wavelength)
+    flow, weights = assemble(at.film, at.P, at.H), load_weights(body)
+    free = np.flatnonzero(at.P > 0)
+    by_P, by_H = flow.by_P[free], flow.by_H[free]
+    matrix = sp.bmat(
+        [
+            [body.stiffness, body.traction[:, free], None],
+            [-by_H @ body.trace, by_P[:, free], sp.csr_matrix(by_H.sum(axis=1))],
+            [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None],
+        ],
+        format="csc",
+    )
+    forced = by_H @ wave
+    right = np.concatenate([np.zeros(at.displacement.size), forced, [0.0]])
+    change = solve(matrix, np.stack([right.real, right.imag], axis=1), body.order) @ np.array([1.0, 1j])
+    u, p, approach = change[: at.displacement.size], change[at.displacement.size : -1], change[-1]
+    pressure = np.zeros(at.P.size, dtype=complex)
+    pressure[free] = p
+    return Ripple(approach - body.trace @ u - wave, pressure * contact.hertz_pressure / contact.film_unit)

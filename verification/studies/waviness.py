@@ -1,0 +1,128 @@
+"""Waves of small height at rest in the elastic film: the deterministic film beside finite elements.
+
+How far a film flattens waves that move with a surface is published as one curve (C. H. Venner, F. Couhier, A. A.
+Lubrecht & J. A. Greenwood, Tribology Series 32 (1997) 103-112, doi:10.1016/s0167-8922(08)70440-1). Here the waves rest
+and the smooth body moves, which is another limit. It has a linear theory of its own, which `fem.ripple` solves on the
+full-system finite elements. In a film of even thickness h and viscosity eta it is |h1|/A = 1/sqrt(1 + q²), with
+q = 48 eta U/(E' k² h³): that is told beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.solve import Start
+from lubfric.line_contact import LineContact
+from lubfric.lubricant import Lubricant, viscosity
+from lubfric.surface import Surface
+
+from ..check import ABSOLUTE, Check, Item, Table
+from ..fem import ehl
+from ..fem.fluid import Fluid
+from ..fem.ripple import ripple
+
+CELLS, HEIGHT = 1024, 0.002  # of 5 b; of the film
+PRECISION = 1e-9
+SOURCE = "linear response of full-system finite elements"
+ALLOWED = 0.02  # of the height of the waves
+COLUMNS = ("case", "wavelength/b", "kept: lubfric", "finite elements", "even film", "rms of the difference")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A smooth line contact in SI units: load per width, radius, E', speed, viscosity and its coefficient (None:
+    constant)."""
+
+    name: str
+    load: float
+    radius: float
+    e_prime: float
+    speed: float
+    viscosity: float
+    coefficient: float | None
+
+    @property
+    def line(self) -> LineContact:
+        """For lubfric."""
+        oil = (
+            Lubricant(self.viscosity, viscosity_law="constant")
+            if self.coefficient is None
+            else Lubricant(self.viscosity, self.coefficient)
+        )
+        return LineContact(self.load, self.radius, self.e_prime, self.speed, oil)
+
+    @property
+    def elements(self) -> ehl.LineContact:
+        """For the finite elements."""
+        fluid = (
+            Fluid(self.viscosity, "constant")
+            if self.coefficient is None
+            else Fluid(self.viscosity, "roelands", self.coefficient)
+        )
+        return ehl.LineContact(self.load, self.radius, self.e_prime, self.speed, fluid)
+
+
+SOFT = Case("soft, isoviscous", 2e4, 1e-2, 2e9, 0.5, 0.05, None)
+STEEL = Case("steel, Roelands", 2e5, 1e-2, 2.3e11, 1.0, 0.04, 18e-9)
+CASES = {
+    "quick": (),
+    "default": (SOFT, STEEL),
+    "full": (SOFT, replace(SOFT, name="soft, Roelands", coefficient=10e-9), STEEL),
+}
+LENGTHS = (1.0, 0.5, 0.25)  # in half-widths
+
+
+def waviness(level: str) -> Iterator[Item]:
+    """Both responses over |x| < b/2, and what is left of the waves at x = 0."""
+    rows = []
+    for case in CASES[level]:
+        for row in compared(case, refinements=2, fineness=1.0):
+            rows.append((case.name, *row))
+            name = f"{case.name}: waves of {row[0]:g} b at rest, rms of the film beside finite elements"
+            yield Check(name, row[-1], 0.0, ALLOWED, SOURCE, ABSOLUTE, note="of their height")
+    if rows:
+        yield Table("waviness", "Waves of small height at rest: the part that the film keeps", COLUMNS, tuple(rows))
+
+
+def compared(
+    case: Case, lengths=LENGTHS, judged: Case | None = None, **mesh
+) -> Iterator[tuple[float, float, float, float, float]]:
+    """Wavelength, |h1|/A at x = 0 by lubfric, by finite elements (of the case ``judged``) and in an even film, and the
+    rms of the difference."""
+    line = case.line
+    b = line.half_width
+    flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))
+    smooth = lay_out(flat, line, sliding=2 * case.speed, boundary_friction=0.09, ends=(3 * b, 2 * b))
+    base = solve_point(smooth, tolerance=PRECISION)
+    solution = ehl.solve_ehl((judged or case).elements, **mesh)[-1]
+    near = np.flatnonzero(np.abs(base.x) < 0.5 * b)
+    middle = near[np.argmin(np.abs(base.x[near]))]
+    pick = solution.body.line.probes(base.x[None, near] / b)
+    for length in lengths:
+        mine = response(smooth, base, 2 * np.pi / (length * b))
+        judge = pick @ ripple(solution, length * b).film
+        rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
+        even = _even(case, length * b, float(base.gap[middle, 0]), float(base.pressure[middle, 0]))
+        yield length, float(abs(mine[middle])), float(abs(judge[near == middle][0])), even, rms
+
+
+def response(smooth, base, k: float) -> np.ndarray:
+    """Change of the gap per height of exp(i k x), complex (nx,)."""
+    height = HEIGHT * base.central_gap
+    start = Start(lambda: base.state, smooth.speed)
+
+    def change(wave):
+        wavy = replace(smooth, heights=height * wave[:, None])
+        return (solve_point(wavy, starts=[start], tolerance=PRECISION).gap - base.gap)[:, 0] / height
+
+    return change(np.cos(k * base.x)) + 1j * change(np.sin(k * base.x))
+
+
+def _even(case: Case, length: float, film: float, pressure: float) -> float:
+    eta = float(viscosity(case.line.lubricant, pressure))
+    q = 48 * eta * case.speed / (case.e_prime * (2 * np.pi / length) ** 2 * film**3)
+    return float(1 / np.hypot(1, q))
