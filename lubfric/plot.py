@@ -27,7 +27,7 @@ def friction_lines(axes, x, parts, **style) -> None:
     """f, and the parts of it from the contact spots and from the film, over ``x``: ``parts``, three arrays; ``style``:
     of the first."""
     f, contact, film = parts
-    axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient f"} | style)
+    axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     axes.plot(x, contact, "--", color=RED, lw=1, label="from the contact spots")
     axes.plot(x, film, "--", color=GREEN, lw=1, label="from the film")
 
