@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from .. import validate
 from ..analytic import hertz
 from ..errors import InputError
-from ..show.brief import Brief
+from ..show.shown import Brief
 
 
 @dataclass(frozen=True, repr=False)
