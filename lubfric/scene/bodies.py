@@ -70,6 +70,11 @@ class Bodies(Brief):
         return hertz.line_half_width(self.load / self.width, self.radius, self.e_prime)
 
     @property
+    def strip_rise(self) -> float:
+        """b²/(6 R) [m]: what the undeformed cylinder rises over the Hertz strip, on average."""
+        return self.half_width**2 / (6 * self.radius)
+
+    @property
     def mean_hertz_pressure(self) -> float:
         """F_T / (2 b B) [Pa]."""
         return hertz.line_mean_pressure(self.load / self.width, self.radius, self.e_prime)
