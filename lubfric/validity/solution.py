@@ -63,7 +63,7 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
 
 
 def of_film(scene, thickness: float, peak: float, shear, film_load: float, force: float, heat) -> Iterator[Validity]:
-    """Entries for a film: central ``thickness`` [m], ``peak`` pressure [Pa]; the rest as in `of_shear` and `of_heat`."""
+    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
     yield from of_pressure(scene, peak)
     yield from of_thickness(scene, thickness)
     yield from of_shear(scene, shear, film_load, force)
