@@ -9,9 +9,8 @@ from ..deterministic.refine import Refined
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
-from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import of_pressure, of_thickness
+from ..validity.solution import of_motion, of_pressure, of_thickness
 from .resolved import Resolved, resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
@@ -72,9 +71,8 @@ def _notes(found: Refined) -> tuple[str, ...]:
     result = found.result
     split, load = result.split, result.load
     return (
-        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots "
-        f"{100 * split.spots / load:.3g} %, "
-        f"where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
+        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots {100 * split.spots / load:.3g} "
+        f"%, where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
         *result.report.notes,
     )
 
@@ -83,8 +81,8 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity
     """Entries for all that does not hold; those of bodies and map first."""
     scene, result = prepared.scene, found.result
     entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
-    entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
-    entries += of_thickness(scene.bodies, result.central_gap)
+    entries += of_pressure(scene, float(result.pressure[result.wet].max(initial=0.0)))
+    entries += of_thickness(scene, result.central_gap)
     cut = (result.split.saturated - result.split.spots) / result.load
     if scene.lubricant.newtonian and cut > CUT:
         consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from .. import budget, validate
 from ..errors import InputError
-from ..show.brief import Brief
+from ..show.shown import Brief
 
 MOST_THREADS = 1024
 CAVITATED_SHEAR = ("none", "striated")
