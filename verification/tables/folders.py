@@ -91,11 +91,23 @@ def growth() -> Cells:
 def model_error() -> Cells:
     """Every model of load sharing beside one gap with one pressure, by `python -m verification model`. Points that it
     kept are not solved again."""
-    from ..model import settings
-    from ..model.measure import all_points
     from ..model.summary import deviations, table
 
-    return table(deviations(all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")))
+    return table(deviations(_model_points()))
+
+
+def model_cost() -> Cells:
+    """Processor time of a point by every model, by `python -m verification model`."""
+    from ..model.summary import cost
+
+    return cost(_model_points())
+
+
+def _model_points():
+    from ..model import settings
+    from ..model.measure import all_points
+
+    return all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")
 
 
 def measured_map() -> Cells:
@@ -112,6 +124,7 @@ def measured_map() -> Cells:
 TABLES: dict[str, Callable[[], Cells]] = {
     "model-error": model_error,
     "measured-map": measured_map,
+    "model-cost": model_cost,
     "sampling-coverage": coverage,
     "sampling-numbers": other_numbers,
     "levels-saving": levels_saving,
