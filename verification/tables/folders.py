@@ -121,7 +121,38 @@ def measured_map() -> Cells:
     return table(deviations(points))
 
 
+def refinement() -> Cells:
+    """The film on 128, 256 and 512 cells across, by `python -m verification model --only grids --full`."""
+    found = [row for _, row in kept.read(MODEL / "grids-full" / "points.jsonl")]
+    if not found:
+        raise RuntimeError(f"{MODEL} holds no grids: run python -m verification model --only grids --full first")
+    rows = []
+    for speed in dict.fromkeys(row[0] for row in found):
+        mine = [row for row in found if row[0] == speed]
+        last, order, told = (np.abs([row[k] for row in mine]) for k in (5, 6, 7))
+        row = [f"{speed:g}", str(len(mine)), f"{last.max():.2f} %", f"{order.min():.1f} to {order.max():.1f}"]
+        row += [
+            f"{told.max():.2f} %",
+            f"{np.median([r[-2] for r in mine]):.0f} s",
+            f"{max(r[-1] for r in mine):.1f} GB",
+        ]
+        rows.append(row)
+    columns = ["U (m/s)", "surfaces", "largest change of f, 256 to 512", "order", "largest estimate told at 512"]
+    return [*columns, "processor time at 512, median", "memory"], rows
+
+
+def held_out() -> Cells:
+    """The told error of the model on surfaces it was not read off, by `python -m verification model`. Points that it
+    kept are not solved again."""
+    from ..model.held_out import COLUMNS, table
+
+    rows, _ = table("default", MODEL / "model-error-default" / "held-out.jsonl")
+    return COLUMNS, [[str(cell) for cell in row] for row in rows]
+
+
 TABLES: dict[str, Callable[[], Cells]] = {
+    "refinement": refinement,
+    "held-out": held_out,
     "model-error": model_error,
     "measured-map": measured_map,
     "model-cost": model_cost,
