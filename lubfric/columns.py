@@ -24,13 +24,15 @@ UNITS = {  # dimension: {unit: in SI}
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
 
 
-def read_columns(path: Path, names: Sequence[str], units: Sequence[str | None]) -> list[list[float]]:
+def read_columns(
+    path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
+) -> list[list[float]]:
     """Columns in SI units, found in the first row by the ``names``, which are headings or what these say before a unit.
 
-    A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI. ``units``: the SI unit that each
-    column must be convertible to (None: any of `UNITS`). Comma, semicolon or tab separate; where it is one of the
-    latter two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
-    Windows-1252.
+    A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI, unless its unit is among those
+    that a heading ``must_say``. ``units``: the SI unit that each column must be convertible to (None: any of `UNITS`).
+    Comma, semicolon or tab separate; where it is one of the latter two, a comma is the decimal mark. UTF-8 (with or
+    without a byte-order mark), UTF-16 with one, or Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
@@ -50,7 +52,11 @@ def read_columns(path: Path, names: Sequence[str], units: Sequence[str | None]) 
                 f"file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
                 f"allowed: one; it has: {', '.join(headings)}"
             )
-        factor = _factor(path, name, name_and_unit(headings[places[0]])[1], unit)
+        heading = headings[places[0]]
+        given = name_and_unit(heading)[1]
+        if given is None and unit in must_say:
+            raise InputError(f"column {heading!r} of {path} names no unit; allowed: {heading} [{unit}]")
+        factor = _factor(path, name, given, unit)
         columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
     return columns
 
@@ -97,9 +103,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
 def _decimal_point(path: Path, line: int, field: str) -> str:
     if "," in field and "." in field:
         raise InputError(
-            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal "
-            "mark, none "
-            "for thousands"
+            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none for "
+            "thousands"
         )
     return field.replace(",", ".")
 
@@ -112,8 +117,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a "
-            "number; allowed: a "
+            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a number; allowed: a "
             "finite number in every row"
         )
     return value

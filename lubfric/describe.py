@@ -13,8 +13,8 @@ from .point.outlook import outlook
 from .rough.height_map import contact_map
 from .scene import Scene
 from .surface import correlation_length, rms_slope
+from .validity.entry import gathered
 from .validity.foretold import foretold
-from .validity.gather import gathered
 
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 

@@ -13,7 +13,8 @@ WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 
 
-def _figure(*args, **kwargs):
+def new_figure(*args, **kwargs):
+    """A figure that no window shows."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -22,20 +23,32 @@ def _figure(*args, **kwargs):
     return figure
 
 
+def friction_lines(axes, x, parts, **style) -> None:
+    """f, and the parts of it from the contact spots and from the film, over ``x``: ``parts``, three arrays; ``style``:
+    of the first."""
+    f, contact, film = parts
+    axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
+    axes.plot(x, contact, "--", color=RED, lw=1, label="from the contact spots")
+    axes.plot(x, film, "--", color=GREEN, lw=1, label="from the film")
+
+
+def load_shares(axes, x, share) -> None:
+    """Share of the load on the contact, and the rest on the film, over ``x``."""
+    axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
+    axes.fill_between(x, share, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
+    axes.set(ylim=(0, 1), ylabel="share of the load (-)")
+
+
 def make_ready() -> None:
     """Import matplotlib and load its fonts. That takes half a second, which can pass while something else is
     computed."""
-    figure = _figure(figsize=(1, 1))
+    figure = new_figure(figsize=(1, 1))
     figure.subplots()
     figure.savefig(io.BytesIO())
 
 
 def plot_stribeck(
-    path: Path,
-    columns: dict[str, np.ndarray],
-    title: str,
-    entries: Sequence[Sequence[Any]],
-    measured=None,
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
 ) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
@@ -49,14 +62,14 @@ def plot_stribeck(
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((k, v[order]) for k, v in columns.items())
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
-    figure = _figure(figsize=(7, 8))
+    figure = new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
     if np.isfinite(c.get("interval_low", np.array([np.nan]))).any():
         band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
         top.fill_between(speed, c["interval_low"], c["interval_high"], **band)
-    top.semilogx(speed, c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
-    top.semilogx(speed, c["boundary_force"] / total, "--", color=RED, lw=1, label="from the contact spots")
-    top.semilogx(speed, c["shear_force"] / total, "--", color=GREEN, lw=1, label="from the film")
+    parts = c["coefficient"], c["boundary_force"] / total, c["shear_force"] / total
+    friction_lines(top, speed, parts, marker="o", ms=4)
+    top.set_xscale("log")
     if measured is not None:
         error = None if measured.deviation is None else 1.96 * measured.deviation
         top.errorbar(np.abs(measured.x), measured.coefficient, error, fmt="D", ms=4, color="k", mfc="none", lw=1)
@@ -67,10 +80,7 @@ def plot_stribeck(
     top.set_ylim(bottom=min(0, 1.1 * lowest))
     top.set_title(title)
     top.legend(frameon=False)
-    middle.fill_between(speed, 0, c["contact_load"] / total, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
-    middle.fill_between(speed, c["contact_load"] / total, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
-    middle.set_ylabel("share of the load (-)")
-    middle.set_ylim(0, 1)
+    load_shares(middle, speed, c["contact_load"] / total)
     middle.legend(frameon=False, loc="center right")
     bottom.loglog(speed, c["film_to_roughness_ratio"], "o-", color=GREY, ms=4)
     bottom.axhline(3, color=GREY, lw=0.7, ls=":")
@@ -107,7 +117,7 @@ def plot_contact(path: Path, prepared, point) -> None:
     separation h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z). epsilon and u are known up to one
     constant. It is chosen so that u has zero mean over the section.
     """
-    figure = _figure(figsize=(11, 4.5))
+    figure = new_figure(figsize=(11, 4.5))
     left, right = figure.subplots(1, 2)
     x = prepared.contact.x
     heights = prepared.surface.heights - prepared.surface.heights.mean()

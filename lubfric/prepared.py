@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .errors import InputError
 from .film.contract import FilmLevel
-from .film.ladder import LEVELS
+from .film.levels import LEVELS
 from .lines.contract import Lines
 from .lines.make import lines_of, pilot, takes_line
 from .plausible import told_doubts

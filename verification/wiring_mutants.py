@@ -147,19 +147,19 @@ MUTANTS = (
     Mutant(
         "film_viscosity_law",
         "viscosity law not passed to the film",
-        {"lubfric.film.numerical:solve_line_contact": with_oil(viscosity_law="barus")},
+        {"lubfric.film.levels:solve_line_contact": with_oil(viscosity_law="barus")},
         FILM,
     ),
     Mutant(
         "film_density_law",
         "density law not passed to the film",
-        {"lubfric.film.numerical:solve_line_contact": with_oil(density_law="constant")},
+        {"lubfric.film.levels:solve_line_contact": with_oil(density_law="constant")},
         FILM,
     ),
     Mutant(
         "film_alpha",
         "pressure-viscosity coefficient of the film not that of the scene",
-        {"lubfric.film.numerical:solve_line_contact": with_oil(pressure_viscosity_coefficient=25e-9)},
+        {"lubfric.film.levels:solve_line_contact": with_oil(pressure_viscosity_coefficient=25e-9)},
         FILM,
     ),
     Mutant(

@@ -9,9 +9,8 @@ from ..deterministic.refine import Refined
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
-from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import of_pressure, of_thickness
+from ..validity.solution import of_motion, of_pressure, of_thickness
 from .resolved import Resolved, resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
@@ -72,9 +71,8 @@ def _notes(found: Refined) -> tuple[str, ...]:
     result = found.result
     split, load = result.split, result.load
     return (
-        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots "
-        f"{100 * split.spots / load:.3g} %, "
-        f"where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
+        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots {100 * split.spots / load:.3g} "
+        f"%, where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
         *result.report.notes,
     )
 

@@ -14,9 +14,8 @@ from ..one_way.refine import one_way_point
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
-from ..validity.bodies import of_motion
 from ..validity.model_form import one_way_error
-from ..validity.stress import of_shear
+from ..validity.solution import of_motion, of_shear
 from .resolved import Resolved, resolved_result
 
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
-from ..plot import BLUE, GREEN, GREY, RED, _figure
+from ..plot import GREEN, GREY, RED, friction_lines, new_figure
 from ..quantities import KEYS
 
 
@@ -16,11 +16,10 @@ def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: 
     `TractionResult`, and ``ratio``."""
     order = np.argsort(columns["ratio"])
     c = {name: column[order] for name, column in columns.items() if name != "validity"}
-    figure = _figure(figsize=(7, 6.5))
+    figure = new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2]})
-    top.plot(c["ratio"], c["coefficient"], "o-", color=BLUE, ms=4, label="friction coefficient f")
-    top.plot(c["ratio"], c["boundary_force"] / load, "--", color=RED, lw=1, label="from the contact spots")
-    top.plot(c["ratio"], c["shear_force"] / load, "--", color=GREEN, lw=1, label="from the film")
+    parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
+    friction_lines(top, c["ratio"], parts, marker="o", ms=4)
     told = columns.get("validity")
     if told is not None and any(told):
         held = np.array([not text for text in told])[order]
@@ -55,7 +54,7 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     axes = [study.dims.index(d) for d in dims]
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
     x, y = (np.asarray(coords[key][1], float) for key in (across, up))
-    figure = _figure(figsize=(7, 5))
+    figure = new_figure(figsize=(7, 5))
     ax = figure.subplots()
     shown = ax.contourf(x, y, np.ma.masked_invalid(values), levels=16, cmap="viridis")
     ax.contour(x, y, np.ma.masked_invalid(values), levels=16, colors="w", linewidths=0.4)

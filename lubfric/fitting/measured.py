@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import validate
-from ..columns import name_and_unit, read_columns
+from ..columns import read_columns
 from ..errors import InputError
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
@@ -46,9 +46,8 @@ class Measured:
             raise InputError("deviation holds values that are not positive; allowed: > 0, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):
             raise InputError(
-                "coefficient holds values that are not positive, whose relative deviation means nothing; "
-                "allowed: > 0, or "
-                "give a deviation"
+                "coefficient holds values that are not positive, whose relative deviation means nothing; allowed: > 0, "
+                "or give a deviation"
             )
         if np.unique(x).size < x.size:
             raise InputError("x holds a value twice; allowed: each once (average repeated measurements)")
@@ -88,10 +87,9 @@ def read_measured(
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")
     over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
-    if over == SPEED and name_and_unit(heading)[1] is None:
-        raise InputError(f"column {heading!r} of {path} names no unit; allowed: {heading} [unit], as it is in the file")
+    units = ("m/s" if over == SPEED else "-", "-", "-")
     names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
-    columns = [np.array(c) for c in read_columns(Path(path), names, ("m/s" if over == SPEED else "-", "-", "-"))]
+    columns = [np.array(c) for c in read_columns(Path(path), names, units, must_say=("m/s",))]
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
     return Measured(x, f, spread[0] if spread else None, over, Path(path).name)

@@ -32,9 +32,8 @@ class InletHeat:
     def text(self) -> str:
         """The factors in words."""
         return (
-            f"inlet shear heating: film x {self.factor:.3g} (Gupta et al. 1992; {self.other:.3g} by Wilson and "
-            "Sheu 1983), "
-            f"L = {self.thermal_number:.2g}"
+            f"inlet shear heating: film x {self.factor:.3g} (Gupta et al. 1992; {self.other:.3g} by Wilson and Sheu "
+            f"1983), L = {self.thermal_number:.2g}"
         )
 
 

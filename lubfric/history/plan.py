@@ -49,13 +49,7 @@ class Transient:
             validate.positive("transient.initial_film", self.initial_film, "m", minimum=1e-12, maximum=1.0)
         if self.tolerance is not None:
             validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
-        for name, unit in (
-            ("speed", "m/s"),
-            ("sliding", "m/s"),
-            ("load", "N"),
-            ("radius", "m"),
-            ("viscosity", "Pa s"),
-        ):
+        for name, unit in (("speed", "m/s"), ("sliding", "m/s"), ("load", "N"), ("radius", "m"), ("viscosity", "Pa s")):
             given = getattr(self, name)
             if given is not None:
                 given = history(f"transient.{name}", given)

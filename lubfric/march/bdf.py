@@ -152,8 +152,7 @@ def _bdf2(march: March, end: float, solver: Solver) -> Attempt | None:
     if len(march.levels) < 3:
         return levels, solution, 0.0, 2
     curve = _divided(
-        [march.levels[-3].time, old.time, last.time, end],
-        [march.levels[-3].film, old.film, last.film, solution.film],
+        [march.levels[-3].time, old.time, last.time, end], [march.levels[-3].film, old.film, last.film, solution.film]
     )
     error = solver.error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
     return levels, solution, error, 2

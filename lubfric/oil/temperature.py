@@ -62,9 +62,8 @@ def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
         validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
     if not thin < thick:
         raise InputError(
-            f"kinematic viscosity = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K; allowed: one "
-            "that falls "
-            "as the temperature rises (swapped?)"
+            f"kinematic viscosity = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K; allowed: one that "
+            "falls as the temperature rises (swapped?)"
         )
     a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))
     n = (a - b) / math.log10(warm / cold)

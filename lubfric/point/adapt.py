@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from ..errors import ConvergenceError
 from ..film.contract import Film
-from ..film.ladder import given_level, level_for
+from ..film.levels import given_level, level_for
 from ..prepared import Prepared
 from ..report import CONVERGED, Report
 from ..rough.contract import RoughContact

@@ -5,11 +5,8 @@ from __future__ import annotations
 import math
 
 from ..prepared import Prepared
-from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import STRIP_SHARE, of_deflection, of_pressure, of_thickness
-from ..validity.heat import of_heat
-from ..validity.stress import of_shear
+from ..validity.solution import STRIP_SHARE, of_deflection, of_heat, of_motion, of_pressure, of_shear, of_thickness
 from .balance import Balance
 from .deflection import strip_rise
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .. import budget
 from ..film.contract import LeftOut
-from ..film.ladder import given_level, higher, lowest_level
+from ..film.levels import given_level, higher, lowest_level
 from ..rough.contract import RoughContact
 from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings
@@ -34,11 +34,7 @@ class Stage:
 
 
 def on_grid(
-    point: OperatingPoint,
-    whole: RoughContact,
-    start: Balance | None,
-    loosest: float = 0.0,
-    known: Stage | None = None,
+    point: OperatingPoint, whole: RoughContact, start: Balance | None, loosest: float = 0.0, known: Stage | None = None
 ) -> Stage:
     """The balance on the point's contact, which may be a part of ``whole``. Where the part is not enough, on all of it.
 

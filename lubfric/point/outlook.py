@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .. import budget
 from ..film.contract import LeftOut
-from ..film.ladder import LEVELS, given_level, lowest_level
+from ..film.levels import LEVELS, given_level, lowest_level
 from ..scene import Scene
 from ..surface import Surface
 from .decision import Decision

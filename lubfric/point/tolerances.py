@@ -8,7 +8,7 @@ import math
 from .. import budget
 from ..rough.contract import ContactState
 from ..scene import Numerics
-from ..validity.stress import meaningless
+from ..validity.solution import meaningless
 from .balance import Balance, Lubricated
 from .operating_point import OperatingPoint, Settings
 

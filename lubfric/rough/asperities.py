@@ -64,9 +64,8 @@ class AsperityContact(RoughContact):
             last, approach = approach, 1.5 * approach
             if approach > 20 * span:
                 raise ConvergenceError(
-                    f"{self.definition} cannot carry {load:.4g} N on a width of "
-                    f"{self.width:.3g} m: below the deepest valley at the end of the "
-                    "search"
+                    f"{self.definition} cannot carry {load:.4g} N on a width of {self.width:.3g} m: below the deepest "
+                    "valley at the end of the search"
                 )
         mean_film = weighted_mean(film, self.weight)
         root = brentq(

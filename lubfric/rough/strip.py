@@ -9,9 +9,8 @@ from ..errors import InputError
 from ..scene import Scene
 
 TOO_SHORT = (
-    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its "
-    "roughness spread "
-    "over the strip)"
+    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
+    "spread over the strip)"
 )
 
 

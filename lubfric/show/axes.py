@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREEN, GREY, RED
+from ..plot import BLUE, GREY, friction_lines
 
 
 def axes_or_new(ax, size=(7, 4.5)):
@@ -22,19 +22,15 @@ def curve_axes(curve, ax=None, **style):
     good = np.isfinite(curve.coefficient) & (curve.speed != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]
     speed, total = np.abs(curve.speed[order]), (curve.contact_load + curve.film_load)[order]
-    style = {"color": BLUE, "label": "friction coefficient"} | style
+    f, contact, film = (a[order] for a in (curve.coefficient, curve.boundary_force, curve.shear_force))
     if "interpolation" in curve.report.residuals:
         fine = np.geomspace(speed[0], speed[-1], 400)
-        axes.plot(fine, curve.at(fine), **style)
-        axes.plot(speed, curve.coefficient[order], "o", ms=4, color=style["color"])
-        contact, film = curve.parts_at(fine)
+        friction_lines(axes, fine, (curve.at(fine), *curve.parts_at(fine)), **style)
+        axes.plot(speed, f, "o", ms=4, color=style.get("color", BLUE))
     else:
-        fine, contact, film = speed, curve.boundary_force[order] / total, curve.shear_force[order] / total
-        axes.plot(speed, curve.coefficient[order], "o-", ms=4, **style)
-    axes.plot(fine, contact, "--", color=RED, lw=1, label="from the contact spots")
-    axes.plot(fine, film, "--", color=GREEN, lw=1, label="from the film")
+        friction_lines(axes, speed, (f, contact / total, film / total), **{"marker": "o", "ms": 4} | style)
     axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
-    axes.set_ylim(bottom=min(0.0, 1.1 * float(curve.coefficient[order].min(initial=0.0))))
+    axes.set_ylim(bottom=min(0.0, 1.1 * float(f.min(initial=0.0))))
     axes.legend(frameon=False)
     return axes
 
@@ -61,21 +57,25 @@ def surface_axes(surface, ax=None):
 def history_axes(history, ax=None):
     """Friction over time of a `lubfric.TransientResult`, with its parts."""
     axes = axes_or_new(ax)
-    sense = np.where(history.sliding_speed < 0, -1.0, 1.0)
-    scale, unit = time_scale(float(history.time[-1]))
-    time, contact = history.time * scale, history.boundary_force * sense / history.load
     low, high = history.uncertainty.interval.T
     if (high > low).any():
+        time = history.time * time_scale(history.time[-1])[0]
         axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
-    axes.plot(time, history.coefficient, color=BLUE, label="friction coefficient")
-    axes.plot(time, contact, "--", color=RED, lw=1, label="from the contact spots")
-    film = (history.couette_force + history.rolling_force) * sense / history.load
-    axes.plot(time, film, "--", color=GREEN, lw=1, label="from the film")
+    friction_over_time(axes, history.columns)
+    return axes
+
+
+def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
+    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`."""
+    sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
+    scale, unit = time_scale(c["time"][-1])
+    film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
+    parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
+    friction_lines(axes, c["time"] * scale, parts)
     axes.set(xlabel=f"time ({unit})", ylabel="friction coefficient (-)")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.15 * (high - low))
     axes.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
-    return axes
 
 
 def time_scale(longest: float) -> tuple[float, str]:

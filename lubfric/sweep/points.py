@@ -11,8 +11,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..result import FrictionResult
 from ..show import Shown
 from ..show.cite import together
-from ..validity.entry import Validity
-from ..validity.gather import entries_of, gathered
+from ..validity.entry import Validity, entries_of, gathered
 
 NOT_NUMBERS = (
     "report",

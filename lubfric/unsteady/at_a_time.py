@@ -40,10 +40,7 @@ class SceneInTime:
             ),
             lubricant=replace(oil, viscosity=self._value("viscosity", oil.viscosity, time, before)),
             motion=replace(
-                motion,
-                entrainment_speed=speed,
-                slide_roll_ratio=_ratio(self.sliding(time, before), speed),
-                speeds=(),
+                motion, entrainment_speed=speed, slide_roll_ratio=_ratio(self.sliding(time, before), speed), speeds=()
             ),
         )
 

@@ -65,12 +65,7 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
     columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
     texts = [" | ".join(entry.text for entry in entries) for entries in result.entries]
     folder.write("history.csv", table_bytes(columns | {"validity": texts}))
-    fields = {
-        "time": result.time,
-        "x": result.x,
-        "pressure": result.pressure,
-        "film_thickness": result.film_thickness,
-    }
+    fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.write("fields.npz", npz_bytes(fields))
     if result.time.size > 1:
         folder.draw("history.png", plot_history, result.columns, scene.name)
@@ -95,10 +90,9 @@ def _progress(reached: list[float]):
         if row is not None and (time.perf_counter() - last[0] > SAY_EVERY or now >= duration):
             last[0] = time.perf_counter()
             say(
-                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, "
-                f"f = {row['coefficient']:.5f}, "
-                f"F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
-                f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
+                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = "
+                f"{row['coefficient']:.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, h_min = "
+                f"{row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
             )
 
     return on_step

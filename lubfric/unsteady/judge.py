@@ -8,11 +8,8 @@ from ..film.shear import ShearForce
 from ..heat.point import Heat, inlet_at
 from ..prepared import Prepared
 from ..scene import Scene
-from ..validity.bodies import of_motion
 from ..validity.entry import Validity
-from ..validity.film import STRIP_SHARE, of_deflection, of_pressure, of_thickness
-from ..validity.heat import of_heat
-from ..validity.stress import of_shear
+from ..validity.solution import STRIP_SHARE, of_deflection, of_heat, of_motion, of_pressure, of_shear, of_thickness
 from .at_a_time import SceneInTime
 
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"

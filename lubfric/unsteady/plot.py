@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..plot import BLUE, GREEN, GREY, RED, _figure
-from ..show.axes import time_scale
+from ..plot import BLUE, GREEN, GREY, RED, load_shares, new_figure
+from ..show.axes import friction_over_time, time_scale
 
 FRAMES = 150  # at most, spread over the run
 
@@ -15,9 +15,8 @@ FRAMES = 150  # at most, spread over the run
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
     """Speed and load, film, shares of the load and friction over time, from the columns of history.csv."""
     c = columns
-    scale, unit = time_scale(c["time"][-1])
-    t = c["time"] * scale
-    figure = _figure(figsize=(7.5, 9))
+    t = c["time"] * time_scale(c["time"][-1])[0]
+    figure = new_figure(figsize=(7.5, 9))
     first, second, third, fourth = figure.subplots(4, 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color=BLUE)
     first.axhline(0.0, color=GREY, lw=0.6)
@@ -33,26 +32,10 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     second.set_ylabel("film thickness (nm)")
     second.set_ylim(bottom=0.0)
     second.legend(frameon=False, ncols=3, fontsize=8)
-    share = c["contact_load"] / c["load"]
-    third.fill_between(t, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
-    third.fill_between(t, share, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
-    third.set(ylim=(0, 1), ylabel="share of the load (-)")
+    load_shares(third, t, c["contact_load"] / c["load"])
     third.legend(frameon=False, ncols=2, fontsize=8)
-    fourth.plot(t, c["coefficient"], color=BLUE, label="friction coefficient f")
-    sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
-    fourth.plot(t, c["boundary_force"] * sense / c["load"], color=RED, lw=1, ls="--", label="from the contact spots")
-    fourth.plot(
-        t,
-        (c["couette_force"] + c["rolling_force"]) * sense / c["load"],
-        color=GREEN,
-        lw=1,
-        ls="--",
-        label="from the film",
-    )
-    fourth.set(ylabel="friction coefficient (-)", xlabel=f"time ({unit})", xlim=(t[0], t[-1]))
-    low, high = fourth.get_ylim()
-    fourth.set_ylim(low, high + 0.15 * (high - low))
-    fourth.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
+    friction_over_time(fourth, c)
+    fourth.set_xlim(t[0], t[-1])
     figure.savefig(path, dpi=150)
 
 
@@ -64,7 +47,7 @@ def animate(path: Path, result, half_width: float) -> None:
     reach = 3.0 * max(half_width, float(np.sqrt(result.film_thickness.min(axis=1).max() * 2.0 * _radius(result))))
     seen = np.abs(result.x) <= reach
     x = result.x[seen] * 1e6
-    figure = _figure(figsize=(7, 4.5))
+    figure = new_figure(figsize=(7, 4.5))
     top = figure.subplots()
     bottom = top.twinx()
     (pressure,) = top.plot([], [], color=RED)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..march.bdf import Level, March
 from ..march.course import Progress
-from ..rough.contract import ContactState
-from .moment import UNITS, moment
+from .moment import moment
 from .setup import Run
-from .sharing import Contact
 
 
 @dataclass
@@ -33,53 +30,17 @@ def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
         store.append(outputs.rows[-1], outputs.fields[-1])
 
 
-def state_of(run: Run, outputs: Outputs, now: Progress) -> dict:
-    """All that `resume` needs, as plain numbers and arrays."""
-    contact, state = now.march.payload, now.march.payload.state
-    pressure = state.pressure
-    return {
-        "outputs": len(outputs.rows),
-        "row_size": len(UNITS),
-        "field_size": 2 * (run.sharing.setting.grid.n + 1),
-        "steps": np.array([now.steps, now.rejected, now.worst, now.march.step]),
-        "level_times": np.array([level.time for level in now.march.levels]),
-        "level_films": np.array([level.film for level in now.march.levels]),
-        "level_z": np.array([level.z for level in now.march.levels]),
-        "contact": np.array(
-            [
-                contact.load,
-                contact.softness,
-                state.mean_gap,
-                state.mean_film,
-                state.real_contact_area_fraction,
-                state.plastic_area_fraction,
-            ]
-        ),
-        "contact_fraction": state.contact_fraction,
-        "contact_pressure": np.zeros((0, 0)) if pressure is None else pressure,
-    }
+def state_of(now: Progress) -> Progress:
+    """All that a resume needs: ``now``, without what the next step makes again."""
+    contact = now.march.payload
+    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
+    return replace(now, march=replace(now.march, payload=bare), solution=None)
 
 
-def resume(run: Run, store) -> tuple[Progress, Outputs] | None:
+def resume(store) -> tuple[Progress, Outputs] | None:
     """Progress and outputs of an interrupted run, or None where there is none."""
     found = store.load() if store else None
     if found is None:
         return None
-    state, rows, fields = found
-    steps, rejected, worst, step = state["steps"]
-    load, softness, gap, film, real, plastic = (float(v) for v in state["contact"])
-    pressure = state["contact_pressure"]
-    contact = ContactState(
-        gap,
-        film,
-        run.sharing.patch.x,
-        state["contact_fraction"],
-        real,
-        plastic,
-        pressure=pressure if pressure.size else None,
-    )
-    levels = tuple(
-        Level(float(t), y, z) for t, y, z in zip(state["level_times"], state["level_films"], state["level_z"])
-    )
-    march = March(levels, float(step), Contact(load, contact, softness))
-    return Progress(march, int(steps), int(rejected), float(worst)), Outputs(list(rows), list(fields))
+    now, rows, fields = found
+    return now, Outputs(list(rows), list(fields))

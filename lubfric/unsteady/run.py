@@ -97,14 +97,14 @@ def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
 
 def _run(run: Run, times: np.ndarray, store, on_step) -> TransientResult:
     plan = run.course(times)
-    now, outputs = resume(run, store) or (run.begun(), Outputs())
+    now, outputs = resume(store) or (run.begun(), Outputs())
     if not outputs.rows and times[0] == 0.0:
         keep(run, outputs, store, now, run.start)
     for now in steps(run, plan, now):
         if now.at_output:
             keep(run, outputs, store, now, now.solution)
         if store:
-            store.save(state_of(run, outputs, now))
+            store.save(state_of(now))
         if on_step:
             on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
     return collect(run, plan, now, outputs)

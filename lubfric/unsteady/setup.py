@@ -72,9 +72,8 @@ def begin(scene: Scene | Prepared, plan: Transient) -> Run:
         raise InputError("numerics.closure = 'one-way' is steady; allowed for a transient: 'load', 'separation'")
     if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), "
-            f"found {base.numerics.film_deflection!r}, and cavitated_shear = 'none', "
-            f"found {base.numerics.cavitated_shear!r}"
+            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), found "
+            f"{base.numerics.film_deflection!r}, and cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
         )
     _refuse_steady_only(base)
     load = plan.load or Constant(base.bodies.load)
@@ -116,7 +115,7 @@ def _setting(prepared: Prepared, plan: Transient, load: History, finer: float) -
     scene = prepared.scene
     bodies, lubricant = scene.bodies, scene.lubricant
     contact = ContactHistory(
-        _per_width(load, bodies.width),
+        _PerWidth(load, bodies.width),
         plan.radius or Constant(bodies.radius),
         bodies.e_prime,
         plan.speed or Constant(scene.motion.entrainment_speed),
@@ -165,7 +164,3 @@ class _PerWidth(History):
     def range(self, duration: float) -> tuple[float, float]:
         low, high = self.source.range(duration)
         return low / self.width, high / self.width
-
-
-def _per_width(load: History, width: float) -> _PerWidth:
-    return _PerWidth(source=load, width=width)

@@ -8,10 +8,8 @@ from ..analytic import hertz
 from ..film.shear import ShearForce
 from ..lubricant import carried_stress, shear_stress
 from .beforehand import beforehand
-from .bodies import of_motion
 from .entry import Validity
-from .film import of_pressure
-from .stress import of_shear
+from .solution import of_motion, of_pressure, of_shear
 
 NODES = 201
 

@@ -5,7 +5,7 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
-from lubfric.film.numerical import Elastohydrodynamic
+from lubfric.film.levels import Elastohydrodynamic
 from lubfric.lubricant import Lubricant
 
 RADIUS, MODULUS, VISCOSITY, SPEED = 0.01, 2.2e11, 0.03, 1.0

@@ -11,7 +11,7 @@ from toys import EvenFilmLevel, Spring
 
 import lubfric
 from lubfric.film.contract import LeftOut
-from lubfric.film.ladder import LEVELS, higher, lowest_level
+from lubfric.film.levels import LEVELS, higher, lowest_level
 from lubfric.line_contact import LineContact
 from lubfric.report import ITERATION_LIMIT, Report
 

@@ -7,10 +7,9 @@ import pytest
 
 import lubfric
 from lubfric.analytic import rigid
-from lubfric.film.ladder import LEVELS, lowest_level
+from lubfric.film.levels import LEVELS, Isoviscous, lowest_level
 from lubfric.film.rigid import isoviscous_film, piezoviscous_film
 from lubfric.film.rigid_error import elastic_error
-from lubfric.film.rigid_levels import Isoviscous
 from lubfric.film.shear import shear_force
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact

@@ -110,8 +110,8 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
     ((x, y),) = drawn
     assert x.tolist() == [0.01, 0.1] and y.tolist() == [0.08, 0.03]
     assert main(command) == 2
-    assert main([*command, "--speed", "U", "--coefficient", "mu"]) == 2
-    assert "has no column 'U'; allowed: 'U [mm/s]', 'mu'" in capsys.readouterr().err
+    assert main([*command, "--speed", "V", "--coefficient", "mu"]) == 2
+    assert "has no column 'V'; allowed: one; it has: U [mm/s], mu" in capsys.readouterr().err
 
 
 def test_the_command_takes_speeds_of_its_own_choice(tmp_path, capsys):

@@ -18,12 +18,7 @@ from .active_set import StepSolution, solve_step
 from .fixed_grid import FixedGrid, make_fixed_grid, symmetric_nodes
 from .squeeze import Conditions, Spring
 
-FINER = (
-    1.0,
-    1.5,
-    2.25,
-    3.4,
-)  # factors of the number of nodes, tried until the steady start is accurate enough
+FINER = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
 SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
 WET = 1e-3  # of the largest pressure: where the error of the film counts
@@ -84,12 +79,7 @@ class Setting:
         )
 
     def step(
-        self,
-        time: float,
-        memory: Memory,
-        z: np.ndarray,
-        spring: Spring | None = None,
-        tolerance: float = 1e-7,
+        self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None, tolerance: float = 1e-7
     ) -> StepSolution:
         """Solve the step that ends at ``time`` [s], with a memory whose rate is in 1/s."""
         return solve_step(

@@ -16,15 +16,7 @@ from ...renamed import keyword_before
 from ...report import CONVERGED, Report
 from ..result import smallest
 from .active_set import StepSolution
-from .setting import (
-    FINER,
-    ContactHistory,
-    Setting,
-    discretisation,
-    make_setting,
-    parabola,
-    steady_start,
-)
+from .setting import FINER, ContactHistory, Setting, discretisation, make_setting, parabola, steady_start
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 

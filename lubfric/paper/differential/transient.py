@@ -64,11 +64,7 @@ class UniformSetting:
     def problem(self, time: float) -> Problem:
         """The problem just before ``time`` [s]."""
         return Problem(
-            replace(
-                self.contact,
-                load_per_width=self.load.before(time),
-                entrainment_speed=self.speed.before(time),
-            )
+            replace(self.contact, load_per_width=self.load.before(time), entrainment_speed=self.speed.before(time))
         )
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> Step:
