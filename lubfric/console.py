@@ -6,9 +6,11 @@ import os
 import signal
 import sys
 import threading
+import time
 from contextlib import contextmanager
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
+SAY_EVERY = 1.0  # s between two lines of progress
 
 
 class Interrupted(KeyboardInterrupt):
@@ -44,6 +46,26 @@ def _silence(stream) -> None:
         os.close(nowhere)
     except (OSError, ValueError, AttributeError):
         pass
+
+
+class Pace:
+    """Says when progress is told again: a second after the last time, and at the end."""
+
+    def __init__(self) -> None:
+        self._told = time.perf_counter()
+
+    def due(self, end: bool) -> bool:
+        """Whether to tell it now."""
+        now = time.perf_counter()
+        if not end and now - self._told < SAY_EVERY:
+            return False
+        self._told = now
+        return True
+
+
+def say_written(names, folder, begun: float) -> None:
+    """Say which files are in ``folder`` now, and how long it took since ``begun`` (`time.perf_counter`)."""
+    say(f"wrote {', '.join(sorted(names))} to {folder} in {time.perf_counter() - begun:.1f} s")
 
 
 @contextmanager

@@ -14,7 +14,7 @@ import numpy as np
 from .errors import InputError
 from .oil.oil import Oil
 from .oil.temperature import checked_temperature
-from .show.brief import Brief
+from .show.shown import Brief
 from .validate import choice, nonnegative, number, positive
 
 ROELANDS_PRESSURE = 1.96e8  # Pa

@@ -11,7 +11,7 @@ from typing import Any
 
 from . import validate
 from .errors import InputError
-from .show.brief import Brief
+from .show.shown import Brief
 from .surface.generate import ACFS
 from .surface.prepare import FORMS
 from .surface.table import DECIMALS

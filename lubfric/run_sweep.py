@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from . import validate
-from .console import keeping, say
+from .console import keeping, say, say_written
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
@@ -24,7 +24,7 @@ from .scene import FASTEST, Scene
 from .short_forms.motion import MOST_SPEEDS
 from .show.report import report_page
 from .store import fingerprint
-from .studies.pool import pool, processors
+from .studies.pool import MOST_WORKERS, pool, processors
 from .sweep import AUTO, stribeck
 from .table import read_table
 from .vtk import vtk_bytes
@@ -58,7 +58,7 @@ def _workers(scene: Scene, asked, given: int | None) -> int:
     """Processes that share the speeds ``asked``: as ``given``, else two where there are as many processors, the speeds
     are enough, and each is solved on a long line. The numbers do not depend on it."""
     if given is not None:
-        return int(validate.number("--workers", validate.integer("--workers", given, minimum=1), "-", maximum=1024))
+        return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
     return 2 if asked != AUTO and len(asked) >= WORTH and takes_line(scene) and processors() > 1 else 1
 
 
@@ -103,7 +103,7 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
         say(text)
     if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
         say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
-    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
+    say_written(folder.written, out, begun)
     if curve.errors:
         raise _unsolved(curve)
     return 0

@@ -81,8 +81,8 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity
     """Entries for all that does not hold; those of bodies and map first."""
     scene, result = prepared.scene, found.result
     entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
-    entries += of_pressure(scene.lubricant, float(result.pressure[result.wet].max(initial=0.0)))
-    entries += of_thickness(scene.bodies, result.central_gap)
+    entries += of_pressure(scene, float(result.pressure[result.wet].max(initial=0.0)))
+    entries += of_thickness(scene, result.central_gap)
     cut = (result.split.saturated - result.split.spots) / result.load
     if scene.lubricant.newtonian and cut > CUT:
         consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"

@@ -6,7 +6,7 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
-from ..console import say
+from ..console import say, say_written
 from ..errors import ConvergenceError
 from ..output import made_of
 from ..plain import plain
@@ -38,7 +38,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
         folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
     for text in found.validity:
         say(text)
-    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
+    say_written(folder.written, out, begun)
     if found.errors:
         first = found.errors[min(found.errors)]
         raise ConvergenceError(

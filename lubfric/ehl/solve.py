@@ -12,7 +12,7 @@ from ..line_contact import LineContact
 from ..lubricant import Lubricant
 from ..renamed import keyword_before
 from ..report import CONVERGED
-from ..validate import integer, number, positive
+from ..validate import instance, integer, number, positive
 from .assemble import assemble, grid_error
 from .grid import FAR_INLET, make_grid, node_positions
 from .imposed import LinePressure, Seat, find_seats, line_pressure
@@ -121,8 +121,8 @@ def solve_line_contact(
 ) -> EHLResult:
     """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     problem = make_problem(contact, inlet_length, imposed)
-    if start is not None and not isinstance(start, EHLResult):
-        raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    if start is not None:
+        instance("start", start, EHLResult, "an EHLResult or None")
     seats = find_seats(problem)
     levels: list[Solution] = []
     first: list[Solution] = []

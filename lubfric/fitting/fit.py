@@ -8,6 +8,8 @@ from ..errors import InputError
 from ..prepared import scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
+from ..studies.spread import checked_executor
+from ..validate import instance
 from .measured import Measured
 from .parameters import Parameters, parameters_of
 from .predict import Curve, Predictor, jacobian, predictor
@@ -48,15 +50,12 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
         raise InputError(
             "a fit changes a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
         )
-    if not isinstance(measured, Measured):
-        raise InputError(
-            f"measured = {measured!r}; allowed: lubfric.read_measured(...) or lubfric.Measured(x, coefficient)"
-        )
+    instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     found = parameters_of(scene, parameters)
     if measured.x.size <= len(found.keys):
         raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; allowed: more points")
     begin = _begin(scene, found, {} if start is None else start)
-    predict = predictor(scene, measured, found, executor)
+    predict = predictor(scene, measured, found, checked_executor(executor))
     scale = measured.coefficient if measured.deviation is None else measured.deviation
     walk = Walk(predict)
     search = least_squares(

@@ -4,11 +4,9 @@
 plane-strain limit; `reciprocity_error` checks any of them.
 """
 
-from .free import love_coefficients
-from .line import line_coefficients
+from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 from .operator import HalfSpace, half_space
 from .reciprocity import reciprocity_error
-from .semiperiodic import semiperiodic_coefficients
 
 __all__ = [
     "HalfSpace",

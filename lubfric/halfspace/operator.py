@@ -11,9 +11,7 @@ from scipy import fft
 from .. import validate
 from ..errors import InputError
 from ..frozen import FieldsOnly, FrozenArrays
-from .free import love_coefficients
-from .line import line_coefficients
-from .semiperiodic import semiperiodic_coefficients
+from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 from .strip import Strip, rounded, strip
 
 KINDS = ("periodic", "free")

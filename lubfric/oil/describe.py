@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from .make import named_oil, oil_names
-from .named import OILS
+from .make import OILS, named_oil, oil_names
 from .oil import Oil
 from .temperature import CELSIUS, Walther
 

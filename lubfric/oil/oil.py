@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import validate
 from ..errors import InputError
-from ..show.brief import Brief
+from ..show.shown import Brief
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, diags, identity, kron
 from scipy.sparse.linalg import splu
 
-from ..deterministic.dissection import nested_dissection
 from ..deterministic.faces import couette_flow
 from ..deterministic.inlet import Inlet, inlet
 from ..deterministic.problem import Problem
@@ -29,6 +28,11 @@ from ..report import STAGNATED, Report
 SETS = 400  # of active cells tried
 SETTLED = 3e-4  # change of ∫ Q from set to set, relative
 LOST = 1e-3  # flow beyond what fills the gap, of that which enters; and ∫ Q where it pulls, of the whole
+NO_PIVOTS = {
+    "diag_pivot_thresh": 0.0,
+    "panel_size": 1,
+    "options": {"SymmetricMode": True},
+}  # narrow panels: half faster
 LONGER = 8  # cells, at most, by which a film that begins too late is made longer at once
 
 
@@ -98,7 +102,7 @@ class _System:
 
     def solve(self, out) -> np.ndarray:
         """θ where the film is ``out``, Q elsewhere."""
-        (nx, ny), order = out.shape, nested_dissection(*out.shape)
+        (nx, ny), order = out.shape, _order(*out.shape)
         index, starts, source = _structure(nx, ny)
         columns = np.where(out, self.by_fill, self.by_reduced)
         narrow = ny < 3  # the cells beside a cell are one, or the cell itself
@@ -109,10 +113,24 @@ class _System:
         rows = self.entering - full
         rows[1:] += full[:-1]
         # columns add up to nothing or more and only their diagonal is positive: no pivoting is needed
-        lu = splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        lu = splu(matrix, permc_spec="NATURAL", **NO_PIVOTS)
         unknown = np.empty(out.size)
         unknown[order] = lu.solve(rows.ravel()[order])
         return unknown.reshape(out.shape)
+
+
+@lru_cache(maxsize=8)
+def _order(nx: int, ny: int) -> np.ndarray:
+    """Numbers of the cells in the order of elimination: minimum degree on cells that depend on their four neighbours,
+    found once for a grid. It fills in a third less than nested dissection, whose cuts are two cells wide for the
+    deterministic film."""
+    along = diags([1.0, 1.0], [-1, 1], shape=(nx, nx))
+    across = (
+        diags([1.0, 1.0, 1.0, 1.0], [-1, 1, ny - 1, 1 - ny], shape=(ny, ny)) if ny > 2 else diags([1.0], shape=(ny, ny))
+    )
+    grid = kron(along, identity(ny)) + kron(identity(nx), across)
+    laplacian = (5.0 * identity(nx * ny) - grid).tocsc()
+    return np.argsort(splu(laplacian, permc_spec="MMD_AT_PLUS_A", **NO_PIVOTS).perm_c)
 
 
 @lru_cache(maxsize=8)
@@ -121,7 +139,7 @@ def _structure(nx: int, ny: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     columns of `_System`."""
     number = np.arange(nx * ny).reshape(nx, ny)
     place = np.empty(nx * ny, dtype=np.intp)
-    place[nested_dissection(nx, ny)] = number.ravel()
+    place[_order(nx, ny)] = number.ravel()
     outside = np.full((1, ny), -1)
     behind, before = np.vstack([number[1:], outside]), np.vstack([outside, number[:-1]])
     rows = np.stack([number, behind, before, np.roll(number, -1, axis=1), np.roll(number, 1, axis=1)]).ravel()

@@ -8,21 +8,19 @@ with the film that the first summit keeps, would carry more than the load, the b
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
-from ..contact import ContactResult
 from ..deterministic.problem import Problem
-from ..deterministic.start import dry_contact
-from ..film.rigid import true_pressure
 from ..lubricant import shear_stress
-from ..report import Report
+from ..report import CONVERGED, Report
 from ..roots import Root, increasing_root
-from .film import GapFilm, gap_film
-from .lift import GUESS, Lifted, lifted, spots_of, surplus
-from .limit import pressure_limit
+from .lift import GUESS
+from .lift import TOLERANCE as LIFT_TOLERANCE
+from .together import Together, together
+from .trial import Before, Trial, both_conditions, presses, too_much_film, too_thick, touching_film
 
 TOLERANCE = 2e-3  # of the load
 SHARES, LIFTS = (-9.0, 9.0), (-9.0, 9.0)  # ln(F_H/F_C); ln(lift/scale)
@@ -34,7 +32,8 @@ class OneWay:
     """One operating point. x (nx,) [m]; gap [m], pressure of the contact and of the film [Pa], closed and ruptured
     (bool), (nx, ny); forces per width [N/m]; spot_film [m]: that on the spots of the
     contact, by which its gap is lifted; unknown: ln(F_H/F_C) or, where the bodies are lifted, ln(lift/scale), from
-    which a neighbour starts, and slope of the balance over it (None: not known)."""
+    which a neighbour starts, with the film of Moes [m]; and the slope of the balance over it, or the tangent of both
+    conditions (`together`; None: not known)."""
 
     x: np.ndarray
     gap: np.ndarray
@@ -50,7 +49,9 @@ class OneWay:
     lifted: bool
     spot_film: float
     unknown: float
+    moes_film: float
     slope: float | None
+    tangent: np.ndarray | None
     report: Report
 
     @property
@@ -60,31 +61,11 @@ class OneWay:
 
 
 @dataclass(frozen=True)
-class Trial:
-    """A gap, what the contact carries in it, and its film."""
+class Solved:
+    """A root of the balance, and the tangent that `together` left."""
 
-    contact_load: float
-    contact: ContactResult | None
-    gap: np.ndarray
-    closed: np.ndarray
-    film: GapFilm
-    pressure: np.ndarray
-    film_load: float
-    spot_film: float
-
-    @property
-    def ruptured(self) -> np.ndarray:
-        """Where the film has ruptured (bool)."""
-        return self.film.ruptured
-
-
-@dataclass(frozen=True)
-class Before:
-    """What a first trial takes from a neighbour; where the film has ruptured if it is on the same cells."""
-
-    ruptured: np.ndarray | None
-    spot_film: float
-    contact: None = None
+    root: Root
+    tangent: np.ndarray | None = None
 
 
 def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLERANCE) -> OneWay:
@@ -92,88 +73,77 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
 
     Raises `ConvergenceError` where no division does.
     """
-    first = start.lifted if start is not None else _touching_film(problem).film_load > problem.load
+    if start is None:
+        touching = touching_film(problem)
+        first, before = touching.film_load > problem.load, Before(touching.ruptured, 0.0)
+    else:
+        first, before = start.lifted, _before(problem, start)
     tried = []
     for apart in (first, not first):
-        root = _root(problem, apart, start if start is not None and start.lifted == apart else None, tolerance)
-        tried.append((apart, root))
-        if abs(root.value) <= tolerance and not (apart and _presses(problem, root.payload)):
+        near = start if start is not None and start.lifted == apart else None
+        found = _root(problem, apart, near, before, tolerance)
+        tried.append((apart, found))
+        if abs(found.root.value) <= tolerance and not (apart and presses(problem, found.root.payload)):
             break
     else:
-        apart, root = min(tried, key=lambda one: abs(one[1].value))
+        apart, found = min(tried, key=lambda one: abs(one[1].root.value))
+    root = found.root
     report = Report(
         "one-way load sharing", root.status, len(root.history), abs(root.value), tolerance,
         {"load": abs(root.value)}, root.history, root.payload.film.sets,
         ("the bodies are lifted off each other, undeformed",) if apart else (),
     )  # fmt: skip
-    result = _result(problem, root.payload, apart, root, report)
+    result = _result(problem, root.payload, apart, found, report)
     report.raise_if_failed(result)
     return result
 
 
-def _root(problem: Problem, apart: bool, near: OneWay | None, tolerance: float) -> Root:
-    """Of the load over the lift of bodies that are ``apart``, or over the film's share of it."""
-    return increasing_root(
-        partial(_too_thick, problem) if apart else partial(_too_much_film, problem),
-        near.unknown if near else 0.0,
-        step=0.7,
-        bounds=LIFTS if apart else SHARES,
-        tolerance=tolerance,
-        slope=near.slope if near else None,
-        first=(None, _before(problem, near) if near else None),
+def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, tolerance: float) -> Solved:
+    """Of the load over the lift of bodies that are ``apart``, or over the film's share of it: with the film on the
+    spots at once, and where that does not arrive with that film nested."""
+    if not apart and problem.lubricant.viscosity_law != "constant":
+        found = _both(problem, near, before, tolerance)
+        if found.converged:
+            value, split = float(found.values[0]), float(found.unknowns[0])
+            history = tuple(tolerance * missed for missed in found.history)
+            return Solved(Root(split, value, found.payload, history, CONVERGED), found.tangent)
+    return Solved(
+        increasing_root(
+            partial(too_thick, problem) if apart else partial(too_much_film, problem),
+            near.unknown if near else 0.0,
+            step=0.7,
+            bounds=LIFTS if apart else SHARES,
+            tolerance=tolerance,
+            slope=near.slope if near else None,
+            first=(None, before),
+        )
+    )
+
+
+def _both(problem: Problem, near: OneWay | None, before: Before, tolerance: float) -> Together:
+    """The share of the film and ln of the film on the spots [m], at once."""
+    moes, lowest = problem.contact.moes_film, math.log(problem.floor)
+    height = GUESS * moes if near is None else near.spot_film * moes / near.moes_film
+    return together(
+        partial(both_conditions, problem),
+        np.array([near.unknown if near else 0.0, math.log(height)]),
+        near.tangent if near else None,
+        lowest=lowest,
+        tolerances=np.array([tolerance, LIFT_TOLERANCE]),
+        first=before,
     )
 
 
 def _before(problem: Problem, near: OneWay) -> Before:
-    same = near.gap.shape == problem.heights.shape and np.allclose(near.x, problem.x, atol=1e-3 * problem.spacing[0])
-    return Before(near.ruptured if same else None, near.spot_film)
+    """The film of ``near`` on the cells of ``problem``, the nearest of its own."""
+    (nx, ny), step = near.ruptured.shape, near.x[1] - near.x[0]
+    along = np.clip(np.rint((problem.x - near.x[0]) / step).astype(int), 0, nx - 1)
+    columns = problem.heights.shape[1]
+    across = ((np.arange(columns) + 0.5) * ny / columns).astype(int)
+    return Before(near.ruptured[along][:, across], near.spot_film)
 
 
-def _too_much_film(problem: Problem, split: float, last: Trial | Before | None):
-    """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
-    contact_load = problem.load / (1 + math.exp(split))
-    lighter = replace(problem, contact=replace(problem.contact, load_per_width=contact_load))
-    dry = dry_contact(lighter, start=last.contact if last else None)
-    gap = np.where(dry.pressure > 0, 0.0, np.maximum(dry.gap, 0.0))
-    spots = spots_of(dry.pressure)
-    raised = lifted(problem, gap, spots, last.spot_film or None, last.ruptured) if last else lifted(problem, gap, spots)
-    trial = _filled(problem, raised, dry.pressure > 0, contact_load, dry)
-    wanted = problem.load - contact_load
-    return math.log(wanted / trial.film_load), trial
-
-
-def _too_thick(problem: Problem, log_lift: float, last: Trial | Before | None):
-    scale = max(float(problem.heights.std()), problem.contact.moes_film)
-    trial = _lifted(problem, scale * math.exp(log_lift), last)
-    return math.log(problem.load / trial.film_load), trial
-
-
-def _lifted(problem: Problem, lift: float, last: Trial | Before | None) -> Trial:
-    gap = np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
-    film = gap_film(problem, gap, last.ruptured if last else None)
-    return _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
-
-
-def _touching_film(problem: Problem) -> Trial:
-    """With the film that the first summit is taken to keep."""
-    return _lifted(problem, max(GUESS * problem.contact.moes_film, problem.floor), None)
-
-
-def _presses(problem: Problem, trial: Trial) -> bool:
-    """Whether the highest summit of bodies that are apart should carry: its film is too thin for its flow."""
-    height = float(trial.gap.min())
-    return surplus(problem, spots_of(trial.gap == height), height, trial.film) < 0
-
-
-def _filled(problem: Problem, raised: Lifted, closed, contact_load: float, dry) -> Trial:
-    lubricant, gap, film = problem.lubricant, raised.gap, raised.film
-    limit = pressure_limit(lubricant, gap, problem.sliding, problem.boundary_friction)
-    pressure = np.where(closed, 0.0, np.minimum(true_pressure(lubricant)(film.reduced), limit))
-    carried = float(pressure.sum()) * problem.spacing[0] / gap.shape[1] + film.inlet.load
-    return Trial(contact_load, dry, gap, closed, film, pressure, carried, raised.height)
-
-
-def _result(problem: Problem, at: Trial, apart: bool, root: Root, report: Report) -> OneWay:
+def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report) -> OneWay:
     lubricant, p, cell = problem.lubricant, at.pressure, problem.spacing[0] / at.gap.shape[1]
     wet = ~at.closed & ~at.film.ruptured
     tau = shear_stress(lubricant, p, problem.sliding / at.gap)
@@ -196,7 +166,9 @@ def _result(problem: Problem, at: Trial, apart: bool, root: Root, report: Report
         float(rolling[film_faces].sum()) / p.shape[1] + inlet.rolling,
         apart,
         at.spot_film,
-        root.x,
-        root.slope,
+        found.root.x,
+        problem.contact.moes_film,
+        found.root.slope,
+        found.tangent,
         report,
     )

@@ -25,17 +25,13 @@ LOOSE = {"film_deflection": "hydrodynamic", "tolerance": 0.1, "model": "auto", "
 SENSIBLE = 0.3  # above it the estimate is no number to quote
 
 
-def strip_rise(scene, balance: Balance) -> float:
-    """b²/(6R) over the mean gap [-]; 0 without contact."""
-    if balance.contact_load == 0:
-        return 0.0
-    return scene.bodies.half_width**2 / (6 * scene.bodies.radius) / max(balance.contact.mean_gap, 1e-300)
-
-
 def own_pressure_error(scene, balance: Balance) -> float:
     """Upper estimate of how much f changes, relative, when the whole load deflects the film instead of its own
     pressure."""
-    return strip_rise(scene, balance) * min(PER_SENSITIVITY * balance.forces.sensitivity, AT_MOST)
+    if balance.contact_load == 0:
+        return 0.0
+    rise = scene.bodies.strip_rise / max(balance.contact.mean_gap, 1e-300)
+    return rise * min(PER_SENSITIVITY * balance.forces.sensitivity, AT_MOST)
 
 
 def solved_as_deflected(

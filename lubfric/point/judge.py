@@ -6,9 +6,8 @@ import math
 
 from ..prepared import Prepared
 from ..validity.entry import Validity
-from ..validity.solution import STRIP_SHARE, of_deflection, of_heat, of_motion, of_pressure, of_shear, of_thickness
+from ..validity.solution import of_deflection, of_film, of_motion
 from .balance import Balance
-from .deflection import strip_rise
 
 
 def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:
@@ -18,11 +17,9 @@ def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple
     thickness = film.central_film if film is not None else math.nan
     entries = [*prepared.known, *of_motion(scene, speed, thickness)]
     if film is not None:
-        entries += of_pressure(scene.lubricant, float(film.pressure.max()))
-        entries += of_thickness(scene.bodies, thickness)
-        force = abs(balance.forces.coefficient) * scene.bodies.load
-        entries += of_shear(scene, balance.forces.shear, balance.film_load, force)
-        entries += of_heat(balance.forces.heat, scene.motion.slide_roll_ratio, scene.numerics.tolerance)
-        if scene.numerics.film_deflection == "hydrodynamic":
-            entries += of_deflection(strip_rise(scene, balance), STRIP_SHARE)
+        peak, found = float(film.pressure.max()), balance.forces
+        force = abs(found.coefficient) * scene.bodies.load
+        entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
+        if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
+            entries += of_deflection(scene, balance.contact.mean_gap)
     return tuple(entries)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from .. import validate
 from ..analytic import hertz
 from ..errors import InputError
-from ..show.brief import Brief
+from ..show.shown import Brief
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,6 +68,11 @@ class Bodies(Brief):
     def half_width(self) -> float:
         """Hertz half-width b [m] of the total load, b = sqrt(8 w R/(pi E'))."""
         return hertz.line_half_width(self.load / self.width, self.radius, self.e_prime)
+
+    @property
+    def strip_rise(self) -> float:
+        """b²/(6 R) [m]: what the undeformed cylinder rises over the Hertz strip, on average."""
+        return self.half_width**2 / (6 * self.radius)
 
     @property
     def mean_hertz_pressure(self) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .. import validate
 from ..errors import InputError
-from ..show.brief import Brief
+from ..show.shown import Brief
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import validate
-from ..show.brief import Brief
+from ..show.shown import Brief
 
 FASTEST = 1e6  # m/s
 

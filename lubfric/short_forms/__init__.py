@@ -6,14 +6,16 @@ for a file). It returns the plain fields of the section.
 
 from __future__ import annotations
 
-from . import bodies, lubricant, motion, numerics
+from . import bodies, lubricant, motion
+from .pairs import only_one
 
-SECTIONS = {"bodies": bodies, "lubricant": lubricant, "motion": motion, "numerics": numerics}
+SECTIONS = {"bodies": bodies, "lubricant": lubricant, "motion": motion}
+BEFORE = {"numerics": {"ehl_tolerance": "film_tolerance"}}  # names that keys had before
 
 
 def short_keys(section: str) -> tuple[str, ...]:
     """Keys of a section that are no fields of it."""
-    return SECTIONS[section].KEYS if section in SECTIONS else ()
+    return SECTIONS[section].KEYS if section in SECTIONS else tuple(BEFORE.get(section, ()))
 
 
 def resolve(section: str, given: dict, old=None) -> dict:
@@ -21,4 +23,9 @@ def resolve(section: str, given: dict, old=None) -> dict:
 
     Raises `InputError` where two keys say the same thing, one is missing its partner, or a value is out of range.
     """
-    return SECTIONS[section].resolve(dict(given), old) if section in SECTIONS else dict(given)
+    if section in SECTIONS:
+        return SECTIONS[section].resolve(dict(given), old)
+    names = BEFORE.get(section, {})
+    for before, today in names.items():
+        only_one(section, given, before, today)
+    return {names.get(key, key): value for key, value in given.items()}

@@ -6,8 +6,7 @@ from html import escape
 from typing import Any
 
 from ..quantities import key_unit
-from .brief import changed
-from .shown import Shown
+from .shown import Shown, changed
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")
 MANY = 8  # values of a list that are shown

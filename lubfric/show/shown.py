@@ -1,8 +1,11 @@
-"""How a result prints: one line, and a table where the reader is a notebook."""
+"""How a result prints: one line, and a table where the reader is a notebook; and a part of a scene: without the fields
+that are as they are by default."""
 
 from __future__ import annotations
 
+from dataclasses import MISSING, Field, fields
 from html import escape
+from typing import Any
 
 
 class Shown:
@@ -22,3 +25,21 @@ def table(facts: dict[str, str], title: str) -> str:
     """A two-column HTML table."""
     rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in facts.items())
     return f"<table><caption>{escape(title)}</caption><tbody>{rows}</tbody></table>"
+
+
+class Brief:
+    """A dataclass that prints as the call that makes it, its defaults left out."""
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name}={value!r}" for name, value in changed(self).items())
+        return f"{type(self).__name__}({told})"
+
+
+def changed(part: Any) -> dict[str, Any]:
+    """The fields of a dataclass that are not as they are by default, by name."""
+    values = {f.name: (getattr(part, f.name), _default(f)) for f in fields(part)}
+    return {name: value for name, (value, default) in values.items() if default is MISSING or value != default}
+
+
+def _default(field: Field) -> Any:
+    return field.default if field.default_factory is MISSING else field.default_factory()

@@ -16,6 +16,7 @@ from ..result import FrictionResult
 from ..store import digest
 from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
+from .table_row import CLEARANCE
 
 AUTO = "auto"
 MOST, CHOSEN = 25, 12  # speeds at most, and about
@@ -136,14 +137,21 @@ def _next(trail: Trail, tolerance: float) -> float | None:
 def samples_of(points: list[FrictionResult]) -> Samples:
     """What an interpolation needs of solved points, by ascending speed."""
     points = sorted(points, key=lambda point: abs(point.speed))
+    names = ("contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
+    columns = {name: np.array([getattr(p, name) for p in points]) for name in names}
     clearance = [np.nan if p.decision is None or p.decision.clearance is None else p.decision.clearance for p in points]
-    total = np.array([p.contact_load + p.film_load for p in points])
-    boundary = np.array([p.boundary_force for p in points]) / total
+    return samples_at(np.abs([p.speed for p in points]), columns | {CLEARANCE: np.array(clearance, dtype=float)})
+
+
+def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
+    """The same at ascending speeds [m/s], of the numbers of their points by name."""
+    total = columns["contact_load"] + columns["film_load"]
+    boundary = columns["boundary_force"] / total
     return Samples(
-        speed=np.array([abs(p.speed) for p in points]),
-        share=np.array([p.contact_load for p in points]) / total,
+        speed=speed,
+        share=columns["contact_load"] / total,
         boundary=boundary,
-        film=np.array([p.coefficient for p in points]) - boundary,
-        thickness=np.array([p.film_to_roughness_ratio for p in points]),
-        clearance=np.array(clearance, dtype=float),
+        film=columns["coefficient"] - boundary,
+        thickness=columns["film_to_roughness_ratio"],
+        clearance=columns[CLEARANCE],
     )

@@ -6,25 +6,22 @@ import time
 from pathlib import Path
 
 from .. import validate
-from ..console import keeping, put, say
+from ..console import Pace, keeping, put, say, say_written
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
 from .file import load_study
-from .pool import pool
+from .pool import MOST_WORKERS, pool
 from .result import StudyResult, open_study
 from .run import study
 from .table_row import CONVERGED, UNUSED
 from .tables import to_netcdf
-
-SAY_EVERY = 1.0  # s between two lines of progress
 
 
 def run_study(arguments) -> int:
     """Plan, solve and write study.csv (and study.nc, study.parquet); returns the exit code."""
     import sys
 
-    workers = validate.integer("--workers", arguments.workers, minimum=1)
-    validate.number("--workers", workers, "processes", maximum=1024)
+    workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
     plan = load_study(arguments.study)
     if arguments.explain:
         put(sys.stdout, plan.explain() + "\n")
@@ -34,7 +31,7 @@ def run_study(arguments) -> int:
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
     written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
-    say(f"wrote {', '.join(written)} to {arguments.out} in {time.perf_counter() - begun:.1f} s")
+    say_written(written, arguments.out, begun)
     if result.failed:
         first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
@@ -64,12 +61,10 @@ def _kept(folder) -> str:
 
 
 def _progress(begun: float):
-    last = [begun]
+    pace = Pace()
 
     def on_progress(done: int, total: int) -> None:
-        now = time.perf_counter()
-        if done == total or now - last[0] > SAY_EVERY:
-            last[0] = now
-            say(f"[{done}/{total}] {now - begun:.0f} s")
+        if pace.due(done == total):
+            say(f"[{done}/{total}] {time.perf_counter() - begun:.0f} s")
 
     return on_progress

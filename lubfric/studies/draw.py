@@ -6,7 +6,6 @@ import numpy as np
 
 from ..quantities import KEYS
 from ..show.axes import axes_or_new
-from .between import curve_of
 from .table_row import SPEED
 
 MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones
@@ -25,7 +24,7 @@ def curves_axes(result, ax=None, **style):
         speed = np.abs(result[SPEED][index] if result.chosen else result.coords[SPEED][1])
         good = np.flatnonzero(np.isfinite(result["coefficient"][index]) & (speed > 0))
         good = good[np.argsort(speed[good])]
-        f, curve = result["coefficient"][index][good], curve_of(result, index) if result.chosen else None
+        f, curve = result["coefficient"][index][good], result.curve(index) if result.chosen else None
         if curve is None:
             axes.plot(speed[good], f, "o-", ms=3, **own)
             continue

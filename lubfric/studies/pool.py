@@ -11,6 +11,7 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 
 WATCH = 0.2  # s between two looks at whether the command still lives
+MOST_WORKERS = 1024
 LAST = 2.0  # s that an interrupted process is waited for
 
 

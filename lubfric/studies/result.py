@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import validate
+from ..curve.interpolate import Interpolant, knee_of
 from ..errors import InputError
 from ..plain import plain
 from ..quantities import QUANTITIES
@@ -16,7 +17,7 @@ from ..scene import scene_as_dict
 from ..show import Shown
 from ..store import Records
 from ..version import __version__
-from .adaptive import AUTO
+from .adaptive import AUTO, FEWEST, samples_at
 from .journal import POINTS
 from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
@@ -122,17 +123,37 @@ class StudyResult(Shown):
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes, and over the speeds where these are several. NaN outside the speeds that a curve is known for."""
-        from .between import coefficient_at
-
-        return coefficient_at(self, speed)
+        speeds = validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
+        found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
+        for index in np.ndindex(*found.shape[:-1]):
+            curve = self.curve(index)
+            if curve is not None:
+                known, at = curve.samples.speed, np.abs(speeds)
+                inside = (at >= known[0] * (1 - 1e-9)) & (at <= known[-1] * (1 + 1e-9))
+                found[index][inside] = curve.at(at[inside])
+        return found[..., 0] if np.ndim(speed) == 0 else found
 
     @property
     def lift_off(self) -> np.ndarray:
         """The speed [m/s], over the axes, at which the film lifts the surfaces off each other; NaN where a curve does
         not reach it."""
-        from .between import lift_offs
+        found = np.full(self.status.shape[:-1], np.nan)
+        for index in np.ndindex(*found.shape):
+            curve = self.curve(index)
+            if curve is not None and curve.lift_off is not None:
+                found[index] = curve.lift_off
+        return found
 
-        return lift_offs(self)
+    def curve(self, index: tuple[int, ...]) -> Interpolant | None:
+        """The curve at one position along the axes, or None where fewer than three of its points are solved."""
+        columns = {name: values[index] for name, values in self.columns.items()}
+        speed = np.abs(columns[SPEED] if self.chosen else self.coords[SPEED][1])
+        good = np.flatnonzero(np.isfinite(columns["coefficient"]) & (speed > 0))
+        good = good[np.argsort(speed[good])]
+        if good.size < FEWEST or np.unique(speed[good]).size < good.size:
+            return None
+        samples = samples_at(speed[good], {name: values[good] for name, values in columns.items()})
+        return Interpolant(samples, knee_of(samples))
 
     def to_xarray(self):
         """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``

@@ -17,7 +17,7 @@ from .chain import Chain, run_chain
 from .journal import PLACE, Journal, record_of
 from .plan import Batch, Curve, StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
-from .spread import spread
+from .spread import checked_executor, spread
 from .table_row import named, row_of
 
 
@@ -84,8 +84,7 @@ def study(
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
     if plan is scene and (vary is not None or speeds is not None):
         raise InputError("vary and speeds belong to the plan; allowed: a scene with them, or a plan alone")
-    if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {executor!r}; allowed: None or a concurrent.futures.Executor")
+    executor = checked_executor(executor)
     with ExitStack() as stack:
         if store is not None:
             stack.enter_context(FolderLock(store))

@@ -6,6 +6,9 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
 
+from ..errors import InputError
+from ..validate import shown
+
 LOOK = 0.1  # s between two looks at what is under way, at least
 SHARE = 0.1  # of the time spent on looking, at most
 
@@ -52,6 +55,13 @@ def spread(
         executor.shutdown(wait=True)  # its other workers are gone before their pieces are looked at
     for piece in lost:
         yield work(piece if again is None else again(piece))
+
+
+def checked_executor(executor):
+    """``executor``, None or a `concurrent.futures.Executor`; raises `InputError` for anything else."""
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError(f"executor = {shown(executor)}; allowed: None or a concurrent.futures.Executor")
+    return executor
 
 
 def _ended(left: set, look: Callable | None) -> Iterator:

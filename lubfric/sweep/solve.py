@@ -8,7 +8,6 @@ import numpy as np
 
 from .. import validate
 from ..curve.span import film_ratio
-from ..errors import InputError
 from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
 from ..scene import Scene
@@ -17,6 +16,7 @@ from ..studies.adaptive import AUTO
 from ..studies.chain import Chain, make_chain
 from ..studies.plan import CHAIN
 from ..studies.solve import solve_chains
+from ..studies.spread import checked_executor
 from .auto import auto_curve
 from .points import judged
 from .result import StribeckResult, collected
@@ -55,8 +55,7 @@ def stribeck(
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
-    if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
+    executor = checked_executor(executor)
     if isinstance(speeds, str) and speeds == AUTO:
         found = auto_curve(at_tolerance(scene, tolerance, model), fields, store, on_point)
         return judged(found, raise_on_failure)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from ..console import keeping, say
+from ..console import Pace, keeping, say, say_written
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..output import made_of, npz_bytes
 from ..plain import plain
@@ -19,8 +19,6 @@ from .moment import UNITS
 from .plot import animate, plot_history
 from .result import TransientResult
 from .run import transient
-
-SAY_EVERY = 1.0  # s of wall time between two lines of progress
 
 
 def run_history(scene: Scene, out: Path, animation: bool) -> int:
@@ -53,7 +51,7 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
             say(text)
         _write(folder, scene, result, animation)
         folder.finish(_record(scene, prepared, result, time.perf_counter() - begun))
-    say(f"wrote {', '.join(sorted(folder.written))} to {out} in {time.perf_counter() - begun:.1f} s")
+    say_written(folder.written, out, begun)
     if failure:
         raise failure
     return 0
@@ -83,12 +81,11 @@ def plot_again(folder: Path) -> bool:
 
 
 def _progress(reached: list[float]):
-    last = [0.0]
+    pace = Pace()
 
     def on_step(now, duration, row):
         reached[0] = now
-        if row is not None and (time.perf_counter() - last[0] > SAY_EVERY or now >= duration):
-            last[0] = time.perf_counter()
+        if row is not None and pace.due(now >= duration):
             say(
                 f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = "
                 f"{row['coefficient']:.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, h_min = "

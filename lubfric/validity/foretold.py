@@ -41,4 +41,4 @@ def _of_film(scene, speed: float, film: float) -> list[Validity]:
     force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
     shear = ShearForce(force, 0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure))))
     total = max(force, bodies.boundary_friction_coefficient * bodies.load)
-    return [*of_pressure(lubricant, float(pressure.max())), *of_shear(scene, shear, bodies.load, total)]
+    return [*of_pressure(scene, float(pressure.max())), *of_shear(scene, shear, bodies.load, total)]

@@ -62,7 +62,15 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
             )
 
 
-def of_pressure(lubricant, peak: float) -> Iterator[Validity]:
+def of_film(scene, thickness: float, peak: float, shear, film_load: float, force: float, heat) -> Iterator[Validity]:
+    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
+    yield from of_pressure(scene, peak)
+    yield from of_thickness(scene, thickness)
+    yield from of_shear(scene, shear, film_load, force)
+    yield from of_heat(scene, heat)
+
+
+def of_pressure(scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
     if peak > NO_LIQUID:
         yield Validity(
@@ -75,7 +83,8 @@ def of_pressure(lubricant, peak: float) -> Iterator[Validity]:
             True,
         )
         return
-    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(lubricant.viscosity_law)
+    law = scene.lubricant.viscosity_law
+    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law)
     if limit is None or peak <= limit:
         return
     yield Validity(
@@ -83,18 +92,19 @@ def of_pressure(lubricant, peak: float) -> Iterator[Validity]:
         peak / 1e9,
         limit / 1e9,
         "GPa",
-        f"the {lubricant.viscosity_law} viscosity law is an extrapolation there",
+        f"the {law} viscosity law is an extrapolation there",
         "the film's friction rests on it: a measured limiting stress is safer",
     )
 
 
-def of_thickness(bodies, film: float) -> Iterator[Validity]:
+def of_thickness(scene, film: float) -> Iterator[Validity]:
     """Entries for the central film thickness ``film`` [m]."""
-    if not film > THICK * bodies.radius:
+    radius = scene.bodies.radius
+    if not film > THICK * radius:
         return
     yield Validity(
         "film over radius",
-        film / bodies.radius,
+        film / radius,
         THICK,
         "",
         "the film is not thin against the cylinder",
@@ -102,15 +112,16 @@ def of_thickness(bodies, film: float) -> Iterator[Validity]:
     )
 
 
-def of_deflection(change: float, limit: float, remedy: str = ANOTHER) -> Iterator[Validity]:
-    """Entries for a film that is deflected by its own pressure alone. ``change``: what its share of the load may be
-    wrong by [-]."""
-    if not change > limit:
+def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
+    """Entries for a film that is deflected by its own pressure alone, over a contact of that ``mean_gap`` [m]: what its
+    share of the load may be wrong by."""
+    change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
+    if not change > STRIP_SHARE:
         return
     yield Validity(
         "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,",
         change,
-        limit,
+        STRIP_SHARE,
         "",
         "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
         remedy,
@@ -153,11 +164,12 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
         )
 
 
-def of_heat(heat, slide_roll_ratio: float, tolerance: float) -> Iterator[Validity]:
+def of_heat(scene, heat) -> Iterator[Validity]:
     """``heat``: `lubfric.heat.point.Heat` of a point."""
+    tolerance = scene.numerics.tolerance
     if heat.used:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
-        beyond = abs(slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
+        beyond = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
         if beyond and spread > tolerance:
             yield Validity(
                 "difference of two published inlet heating factors",

@@ -67,7 +67,7 @@ def test_semiperiodic_coefficients_match_quadrature():
 
 @pytest.mark.parametrize("cells_per_wavelength", [1e3, 40, 3, 0.2])
 def test_bessel_cells_over_all_scales(cells_per_wavelength):
-    from lubfric.halfspace.semiperiodic import bessel_cells
+    from lubfric.halfspace.kernels import bessel_cells
 
     k = 2 * np.pi / cells_per_wavelength
     cells = bessel_cells(np.arange(12), np.full(12, k))

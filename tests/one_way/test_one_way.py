@@ -10,10 +10,11 @@ from lubfric.deterministic import lay_out
 from lubfric.deterministic.start import dry_contact
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, viscosity
-from lubfric.one_way.film import gap_film
+from lubfric.one_way.film import _order, gap_film
 from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
+from lubfric.one_way.together import together
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper").with_(
@@ -147,3 +148,29 @@ def test_what_it_does_not_take_is_refused(change):
 def test_a_transient_is_refused():
     with pytest.raises(lubfric.InputError, match="one-way"):
         lubfric.transient(SCENE, [0.0, 1e-3])
+
+
+def test_two_conditions_are_met_at_once_or_the_second_unknown_at_its_bound():
+    def f(x, last):
+        return np.array([np.sinh(x[0]) + 0.5 * x[1] - 1.0, 1.5 * x[1] + 0.2 * x[0] ** 2 - 0.7]), (last or 0) + 1
+
+    found = together(f, np.array([-2.0, 2.0]), None, lowest=-9.0, tolerances=np.array([1e-3, 1e-3]))
+    assert found.converged and found.payload == len(found.history) and np.abs(found.values).max() <= 1e-3
+    y = brentq(lambda y: 1.5 * y + 0.2 * np.arcsinh(1.0 - 0.5 * y) ** 2 - 0.7, -1, 2)
+    assert found.unknowns == pytest.approx([np.arcsinh(1 - 0.5 * y), y], abs=2e-3)
+    held = together(f, np.array([-2.0, 2.0]), None, lowest=1.0, tolerances=np.array([1e-3, 1e-3]))
+    assert held.converged and held.unknowns == pytest.approx([np.arcsinh(0.5), 1.0], abs=2e-3) and held.values[1] > 0
+
+
+@pytest.mark.parametrize("speed", [0.01, 0.003])
+def test_one_condition_nested_in_the_other_gives_the_same(speed, monkeypatch):
+    at_once = lubfric.friction(MODEL, speed)
+    monkeypatch.setattr("lubfric.one_way.together.MOST", 1)
+    nested = lubfric.friction(MODEL, speed)
+    assert at_once.coefficient == pytest.approx(nested.coefficient, rel=3e-3)
+    assert at_once.one_way[-1].spot_film == pytest.approx(nested.one_way[-1].spot_film, rel=1e-2)
+
+
+def test_the_order_of_elimination_has_every_cell_once():
+    for shape in ((1, 1), (5, 2), (7, 3), (12, 8)):
+        assert sorted(_order(*shape)) == list(range(shape[0] * shape[1]))

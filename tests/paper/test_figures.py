@@ -18,7 +18,7 @@ pytest.importorskip("PIL")
 
 
 def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
-    from lubfric.halfspace.free import love_coefficients
+    from lubfric.halfspace.kernels import love_coefficients
 
     count, step = 201, 1e-6
     kernel = love_coefficients((count, count), (step, step), spheres.E_PRIME)

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+import lubfric
 from verification import kept
-from verification.model import grids, loads
+from verification.model import grids, loads, measured
 from verification.model.measure import METHODS, REFERENCE, Point, Setting, all_points
 from verification.model.summary import deviations
 
@@ -94,3 +95,24 @@ def test_grids_and_heavy_loads_say_what_they_found():
     rows = loads.swept(24, "27.5 N, 1")
     assert [r[2] for r in rows] == list(loads.SPEEDS) and not any(r[-1] for r in rows)
     assert rows[-1][4] > rows[0][4]  # the asperities carry more of the load at the lowest speed
+
+
+def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
+    """The map turned by a quarter is the same map slid along the other axis."""
+    map_ = lubfric.generate_surface((64, 64), 90e-6 / 64, sq=100e-9, correlation_length=(5e-6, 12e-6), seed=4)
+    found = {}
+    for name, heights in (("as-it-is", map_.heights), ("turned", map_.heights.T)):
+        np.save(tmp_path / f"{name}.npy", heights)
+        surface = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "unit": "m", "sq": None}
+        scene = lubfric.load_scene("paper").with_(
+            surface=surface | {"correlation_length": None}, contact={"shape": None, "spacing": None}
+        )
+        items = list(measured.measured_map(scene, 24, (0.003,), tmp_path / name))
+        assert items[0].rows and items[1].measured == 0
+        for point in measured.kept_points(tmp_path / name):
+            found[point.setting.acf, point.method] = point.coefficient
+    assert len(found) == 20 and len({round(f, 6) for f in found.values()}) >= 8
+    for motion, method in found:
+        name, _, axis = motion.rpartition(" ")
+        turned = motion.replace("as-it-is", "turned")[:-1] + ("y" if axis == "x" else "x")
+        assert "as-it-is" not in name or found[motion, method] == pytest.approx(found[turned, method], rel=2e-3)

@@ -11,6 +11,10 @@ import argparse
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
+
+import lubfric
+from lubfric.scene import Scene
 
 from ..check import AT_MOST, TOLD, Check, Item, Table
 from ..frame import Command
@@ -38,19 +42,31 @@ COLUMNS = (
 
 def main(argv: list[str]) -> int:
     """The command."""
-    return run(Command("model", __doc__, STUDIES, "out/model", LEVELS, prepared=_kept), argv)
+    command = Command("model", __doc__, STUDIES, "out/model", LEVELS, add_options=_options, prepared=_kept)
+    return run(command, argv)
+
+
+def _options(parser: argparse.ArgumentParser) -> None:
+    words = "every model on the measured map of this scene, in place of the generated surfaces of model-error"
+    parser.add_argument("--map", metavar="SCENE", help=words)
 
 
 def _kept(study: Study, options: argparse.Namespace) -> Study:
     """Every study keeps what it has solved in the folder of the report."""
-    return replace(study, options={"folder": options.out / f"{study.name}-{options.level}"})
+    own: dict[str, Any] = {"folder": options.out / f"{study.name}-{options.level}"}
+    if study.name == "model-error" and options.map:
+        own["scene"] = lubfric.load_scene(options.map)
+    return replace(study, options=own)
 
 
-def model_error(level: str, folder: Path | None = None) -> Iterator[Item]:
+def model_error(level: str, folder: Path | None = None, scene: Scene | None = None) -> Iterator[Item]:
     """f, share of the contact and mean gap by every model, over surfaces, speeds and loads; kept in ``folder`` surface
-    by surface."""
-    from . import charts, held_out, measure, summary
+    by surface. With a ``scene``: over speeds on its measured map."""
+    from . import charts, held_out, measure, measured, summary
 
+    if scene is not None:
+        yield from measured.measured_map(scene, CELLS[level], SPEEDS, folder)
+        return
     found = measure.all_points(settings(level), None if folder is None else folder / "points.jsonl")
     gathered = summary.deviations(found)
     yield Table("model-error", "Each model against the deterministic film", COLUMNS, summary.rows(gathered))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import lubfric
+from lubfric.prepared import Prepared
 from lubfric.scene import Scene
-from lubfric.surface import Surface
 
 from .. import kept
 from ..parts import the
@@ -86,10 +87,13 @@ def scene_of(setting: Setting, method: str) -> Scene:
             "region": "box" if method == BOX else "hertz",
         },
     )
-    numerics = dict(METHODS[method]) | {"accept": True}
-    if method in OWN:
-        numerics["film_deflection"] = "hydrodynamic"
-    return base.with_(numerics=numerics)
+    return base.with_(numerics=numerics_of(method))
+
+
+def numerics_of(method: str) -> dict:
+    """Keys of ``[numerics]`` that make ``method``."""
+    own = {"film_deflection": "hydrodynamic"} if method in OWN else {}
+    return dict(METHODS[method]) | own | {"accept": True}
 
 
 def surface_of(setting: Setting):
@@ -100,9 +104,15 @@ def surface_of(setting: Setting):
     return fine.resampled(shape=(setting.cells, setting.cells))
 
 
-def all_points(settings: list[Setting], file: Path | None = None, methods=tuple(METHODS)) -> list[Point]:
+def all_points(
+    settings: list[Setting],
+    file: Path | None = None,
+    methods=tuple(METHODS),
+    prepared: Callable[[Setting, str], Prepared] | None = None,
+) -> list[Point]:
     """Every speed of all ``settings`` by every one of ``methods``, each speed started from the one before. Those of a
-    setting and method that are kept in ``file`` are not solved again."""
+    setting and method that are kept in ``file`` are not solved again. ``prepared``: the model of a setting by a method
+    (default: with `scene_of` and `surface_of`)."""
     where = {
         f"{setting}; {method}; {METHODS[method]}": (setting, method)
         for setting in settings
@@ -111,9 +121,12 @@ def all_points(settings: list[Setting], file: Path | None = None, methods=tuple(
     }
     surface = cache(surface_of)
 
+    def generated(setting: Setting, method: str) -> Prepared:
+        return lubfric.prepare(scene_of(setting, method), surface(setting))
+
     def solve(key: str) -> list[dict]:
         setting, method = where[key]
-        return [asdict(p) for p in _sweep(setting, method, surface(setting))]
+        return [asdict(p) for p in _sweep(setting, method, (prepared or generated)(setting, method))]
 
     found = zip(where.values(), kept.each(file, where, solve))
     return [_point(setting, row) for (setting, _), rows in found for row in rows]
@@ -125,8 +138,8 @@ def _point(setting: Setting, row: dict) -> Point:
     return Point(**numbers | {"setting": setting})
 
 
-def _sweep(setting: Setting, method: str, surface: Surface) -> list[Point]:
-    model, found, start = lubfric.prepare(scene_of(setting, method), surface), [], None
+def _sweep(setting: Setting, method: str, model: Prepared) -> list[Point]:
+    found, start = [], None
     for speed in setting.speeds:
         begun = time.process_time()
         try:

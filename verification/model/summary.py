@@ -114,7 +114,7 @@ def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
     for key in dict.fromkeys((d.load, d.acf, d.speed) for d in found):
         here = {d.method: d for d in found if (d.load, d.acf, d.speed) == key}
         reference = here[REFERENCE]
-        name = f"{key[0]:g}" + (", exponential" if key[1] == "exponential" else "")
+        name = f"{key[0]:g}" + ("" if key[1] == "gaussian" else f", {key[1]}")
         cells = [name, f"{key[2]:g}", f"{reference.share:.2f}", str(reference.surfaces)]
         cells += [f"{100 * here[m].mean:+.1f} / {100 * here[m].rms:.1f}" if m in here else "" for m in methods]
         rows.append(cells)

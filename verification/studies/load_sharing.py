@@ -9,8 +9,8 @@ import numpy as np
 
 import lubfric
 from lubfric.halfspace import HalfSpace
+from lubfric.halfspace.kernels import semiperiodic_coefficients
 from lubfric.halfspace.operator import _even_transform
-from lubfric.halfspace.semiperiodic import semiperiodic_coefficients
 from lubfric.prepared import Prepared, prepare
 
 from .. import parts, plotting

@@ -98,8 +98,20 @@ def model_error() -> Cells:
     return table(deviations(all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")))
 
 
+def measured_map() -> Cells:
+    """Every model on a measured map, by `python -m verification model --only model-error --map SCENE`."""
+    from ..model.measured import kept_points
+    from ..model.summary import deviations, table
+
+    points = kept_points(MODEL / "model-error-default")
+    if not points:
+        raise RuntimeError(f"{MODEL} holds no measured map: run python -m verification model --map SCENE first")
+    return table(deviations(points))
+
+
 TABLES: dict[str, Callable[[], Cells]] = {
     "model-error": model_error,
+    "measured-map": measured_map,
     "sampling-coverage": coverage,
     "sampling-numbers": other_numbers,
     "levels-saving": levels_saving,

@@ -17,7 +17,7 @@ from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...renamed import keyword_before
 from ...report import CONVERGED
-from ...validate import integer, number
+from ...validate import instance, integer, number
 from .equations import load_row
 from .mesh import Mesh, convolve, make_mesh
 from .newton import Solution, newton
@@ -95,8 +95,8 @@ def solve_differential_deflection(
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)
     effort = UniformEffort(Effort(tolerance, max_iterations=max_iterations), nodes, most_nodes, bandwidth)
-    if start is not None and not isinstance(start, EHLResult):
-        raise InputError(f"start = {type(start).__name__} is not an EHLResult; allowed: an EHLResult or None")
+    if start is not None:
+        instance("start", start, EHLResult, "an EHLResult or None")
     if domain is not None and inlet_length is not None:
         raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
     problem = make_problem(contact, inlet_length)

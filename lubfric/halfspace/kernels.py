@@ -1,20 +1,39 @@
-"""Free along one axis, periodic along the other: the kernel of a cylinder with a periodic roughness.
-
-Fourier series along the periodic axis y (exact for what the grid resolves, as in the fully periodic
-operator), exact cell integrals along the free axis x. Images of Love's cells would sum a slowly
-decaying tail and average the pressure over cells along y as well; the Bessel form needs no images,
-decays exponentially, and is exact along y.
-"""
+"""Deflection of a half-space by cells of uniform pressure, exact: both axes free, a line, one axis periodic."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .line import line_coefficients
-
 FAR = 42.0  # K0 beyond it is below 1e-19
 NEAR_CELLS, LONG_CELL = 4, 6.0  # from there on few points do, unless k times the cell exceeds LONG_CELL
 NEAR_RULE, FAR_RULE = np.polynomial.legendre.leggauss(24), np.polynomial.legendre.leggauss(7)
+
+
+def love_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
+    """Deflection [m/Pa] at cell centres (i, j) cells away from a cell under 1 Pa; (i, j) < ``shape``.
+
+    ``2/(pi E') ∬ dx' dy'/r`` over the cell, exact. With F(X, Y) = X ln(Y + r) + Y ln(X + r) it is the
+    second difference of F over the corners (A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377-420,
+    doi:10.1098/rsta.1929.0009). Deflection vanishes far away. spacing (dx, dy) [m], e_prime [Pa].
+    """
+    x = (np.arange(shape[0] + 1) - 0.5) * spacing[0]
+    y = (np.arange(shape[1] + 1) - 0.5) * spacing[1]
+    corner = x[:, None] * np.arcsinh(y[None, :] / np.abs(x)[:, None])
+    corner += y[None, :] * np.arcsinh(x[:, None] / np.abs(y)[None, :])
+    return 2 / (np.pi * e_prime) * np.diff(np.diff(corner, axis=0), axis=1)
+
+
+def line_coefficients(count: int, spacing: float, e_prime: float, reference_length: float) -> np.ndarray:
+    """Deflection [m/Pa] at ``count`` cell centres, 0, 1, ... cells away from a cell under 1 Pa.
+
+    ``-(4/(pi E')) ∫ ln(|x - x'|/reference_length) dx'`` over the cell, exact; spacing [m], e_prime
+    [Pa]. The half-space is unbounded, so u is known up to a constant: here u of a line load is zero
+    at the distance ``reference_length`` [m]. Source: paper, Eq. (6).
+    """
+    edge = np.arange(count) + 0.5
+    antiderivative = edge * (np.log(edge * (spacing / reference_length)) - 1)
+    cells = np.diff(antiderivative, prepend=-antiderivative[0])
+    return -4 / (np.pi * e_prime) * spacing * cells
 
 
 def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
@@ -23,6 +42,10 @@ def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
     ``(4/(pi E')) ∫ K0(|k_y (x - x')|) dx'`` over a cell of width dx, and for k_y = 0 the line kernel
     with u = 0 at the distance nx dx, the length of the box, from a line load. That gauge makes the
     operator positive definite for pressures inside the box. spacing (dx, dy) [m], e_prime [Pa].
+
+    A Fourier series along the periodic axis y (exact for what the grid resolves, as in the fully periodic operator),
+    exact cell integrals along the free axis x. Images of Love's cells would sum a slowly decaying tail and average the
+    pressure over cells along y as well; the Bessel form needs no images, decays exponentially, and is exact along y.
     """
     (nx, ny), (dx, dy) = shape, spacing
     kernel = np.zeros((nx, ny // 2 + 1))

@@ -1,0 +1,102 @@
+"""What is tried on the way to an operating point: a load of the contact, a film in its lifted gap, what they carry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact import ContactResult
+from ..deterministic.problem import Problem
+from ..deterministic.start import dry_contact
+from ..film.rigid import true_pressure
+from .film import GapFilm, gap_film
+from .lift import GUESS, Lifted, lifted, spots_of, surplus
+from .limit import pressure_limit
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A gap, what the contact carries in it, and its film."""
+
+    contact_load: float
+    contact: ContactResult | None
+    gap: np.ndarray
+    closed: np.ndarray
+    film: GapFilm
+    pressure: np.ndarray
+    film_load: float
+    spot_film: float
+
+    @property
+    def ruptured(self) -> np.ndarray:
+        """Where the film has ruptured (bool)."""
+        return self.film.ruptured
+
+
+@dataclass(frozen=True)
+class Before:
+    """What a first trial takes from a neighbour."""
+
+    ruptured: np.ndarray
+    spot_film: float
+    contact: None = None
+
+
+def both_conditions(problem: Problem, unknowns, last: Trial | Before):
+    """Both conditions at the share ``unknowns[0]`` of the film and ln(film on the spots) ``unknowns[1]``."""
+    split, height = float(unknowns[0]), math.exp(float(unknowns[1]))
+    contact_load, dry, gap = _dry(problem, split, last)
+    film = gap_film(problem, gap + height, last.ruptured)
+    trial = _filled(problem, Lifted(gap + height, film, height), dry.pressure > 0, contact_load, dry)
+    unmet = math.log((problem.load - contact_load) / trial.film_load)
+    return np.array([unmet, surplus(problem, spots_of(dry.pressure), height, film)]), trial
+
+
+def too_much_film(problem: Problem, split: float, last: Trial | Before):
+    """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
+    contact_load, dry, gap = _dry(problem, split, last)
+    spots = spots_of(dry.pressure)
+    raised = lifted(problem, gap, spots, last.spot_film or None, last.ruptured)
+    trial = _filled(problem, raised, dry.pressure > 0, contact_load, dry)
+    return math.log((problem.load - contact_load) / trial.film_load), trial
+
+
+def _dry(problem: Problem, split: float, last: Trial | Before) -> tuple[float, ContactResult, np.ndarray]:
+    """Load of the contact [N/m] beside a film of the share ``split``, the contact, and its gap [m]."""
+    contact_load = problem.load / (1 + math.exp(split))
+    lighter = replace(problem, contact=replace(problem.contact, load_per_width=contact_load))
+    dry = dry_contact(lighter, start=last.contact)
+    return contact_load, dry, np.where(dry.pressure > 0, 0.0, np.maximum(dry.gap, 0.0))
+
+
+def too_thick(problem: Problem, log_lift: float, last: Trial | Before | None):
+    scale = max(float(problem.heights.std()), problem.contact.moes_film)
+    trial = _lifted(problem, scale * math.exp(log_lift), last)
+    return math.log(problem.load / trial.film_load), trial
+
+
+def _lifted(problem: Problem, lift: float, last: Trial | Before | None) -> Trial:
+    gap = np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
+    film = gap_film(problem, gap, last.ruptured if last else None)
+    return _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
+
+
+def touching_film(problem: Problem) -> Trial:
+    """With the film that the first summit is taken to keep."""
+    return _lifted(problem, max(GUESS * problem.contact.moes_film, problem.floor), None)
+
+
+def presses(problem: Problem, trial: Trial) -> bool:
+    """Whether the highest summit of bodies that are apart should carry: its film is too thin for its flow."""
+    height = float(trial.gap.min())
+    return surplus(problem, spots_of(trial.gap == height), height, trial.film) < 0
+
+
+def _filled(problem: Problem, raised: Lifted, closed, contact_load: float, dry) -> Trial:
+    lubricant, gap, film = problem.lubricant, raised.gap, raised.film
+    limit = pressure_limit(lubricant, gap, problem.sliding, problem.boundary_friction)
+    pressure = np.where(closed, 0.0, np.minimum(true_pressure(lubricant)(film.reduced), limit))
+    carried = float(pressure.sum()) * problem.spacing[0] / gap.shape[1] + film.inlet.load
+    return Trial(contact_load, dry, gap, closed, film, pressure, carried, raised.height)

@@ -1,0 +1,49 @@
+"""Every model on a measured map that a scene of the user's names, slid along both axes of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import lubfric
+from lubfric.prepared import Prepared
+from lubfric.scene import Scene
+
+from .. import kept
+from ..check import AT_MOST, Check, Item, Table
+from . import summary
+from .measure import BOX, REFERENCE, WIDTH, Point, Setting, all_points, numerics_of
+
+AXES = ("x", "y")
+FILE = "measured-map.jsonl"
+
+
+def measured_map(scene: Scene, cells: int, speeds: tuple[float, ...], folder: Path | None) -> Iterator[Item]:
+    """Deviations of all models over ``speeds`` [m/s], on cells as long as ``cells`` of them on 90 µm, and points that
+    the reference did not solve. Kept in ``folder``."""
+    name = Path(scene.surface.file or "generated").stem
+    load, motions = scene.bodies.load, [f"{name} along {axis}" for axis in AXES]
+    settings = [Setting(0, motion, load, "that of the scene", speeds, cells) for motion in motions]
+    found = all_points(settings, folder and folder / FILE, prepared=partial(_prepared, scene))
+    gathered = summary.deviations(found)
+    yield Table("measured-map", f"Each model against the deterministic film: {name}", *summary.table(gathered))
+    failed = sum(d.failures for d in gathered if d.method == REFERENCE)
+    yield Check("points of the deterministic film that failed", failed, 0.0, 0.0, "the solver's own report", AT_MOST)
+
+
+def kept_points(folder: Path) -> list[Point]:
+    """What `measured_map` has kept in ``folder``."""
+    rows = [row for _, points in kept.read(folder / FILE) for row in points]
+    return [Point(**row | {"setting": Setting(**row["setting"] | {"speeds": ()})}) for row in rows]
+
+
+def _prepared(scene: Scene, setting: Setting, method: str) -> Prepared:
+    """The model of the whole map, one patch of it, without a sampling of lines."""
+    chosen = scene.with_(
+        surface=replace(scene.surface, motion_axis=setting.acf[-1]),
+        contact={"spacing": WIDTH / setting.cells, "region": "box" if method == BOX else "hertz"},
+        numerics={"sampling": "patch"} | numerics_of(method),
+    )
+    return lubfric.prepare(chosen)
