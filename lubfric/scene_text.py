@@ -11,8 +11,8 @@ from .errors import InputError
 from .history.kinds import History
 from .history.read import KINDS
 from .oil.oil import Oil
+from .show.scene import SECTIONS
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")
 ROUGH = ("surface", "counterface")  # of which keys that do not apply are refused: defaults are left out
 
 

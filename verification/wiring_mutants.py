@@ -140,7 +140,7 @@ MUTANTS = (
     Mutant(
         "transient_load",
         "load of a transient taken as load per width",
-        {"lubfric.unsteady.setup:_per_width": constant_load_per_width},
+        {"lubfric.unsteady.setup:_PerWidth": constant_load_per_width},
         TIME,
     ),
     Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.history.kinds:Ramp.at": still}, TIME),

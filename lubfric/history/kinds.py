@@ -49,11 +49,9 @@ class Constant(History):
         object.__setattr__(self, "value", validate.number("history value", self.value, "(SI)"))
 
     def at(self, time: float) -> float:
-        """Value at ``time`` [s]."""
         return self.value
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]."""
         return self.value, self.value
 
 
@@ -72,11 +70,9 @@ class Harmonic(History):
         object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
 
     def at(self, time: float) -> float:
-        """Value at ``time`` [s]."""
         return self.mean + self.amplitude * math.sin(2.0 * math.pi * self.frequency * time + self.phase)
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]."""
         if self.frequency * duration >= 1.0:
             return self.mean - abs(self.amplitude), self.mean + abs(self.amplitude)
         turns = (np.pi * (np.arange(-2, 6) + 0.5) - self.phase % (2 * np.pi)) / (2 * np.pi * self.frequency)
@@ -122,11 +118,9 @@ class Table(History):
         object.__setattr__(self, "values", tuple(float(v) for v in values))
 
     def at(self, time: float) -> float:
-        """Value just after ``time`` [s]."""
         return self._value(time, "right")
 
     def before(self, time: float) -> float:
-        """Value just before ``time`` [s]."""
         return self._value(time, "left")
 
     def _value(self, time: float, side: str) -> float:
@@ -157,7 +151,6 @@ class Table(History):
         return self.jumps(duration)
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]."""
         inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]
         values = [*inside, self.at(0.0), self.before(duration)]
         return min(values), max(values)
@@ -180,7 +173,6 @@ class Ramp(History):
         object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))
 
     def at(self, time: float) -> float:
-        """Value at ``time`` [s]."""
         share = min(max((time - self.begin) / (self.until - self.begin), 0.0), 1.0)
         return self.start + share * (self.end - self.start)
 
@@ -189,5 +181,4 @@ class Ramp(History):
         return tuple(t for t in (self.begin, self.until) if 0.0 < t < duration)
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]."""
         return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from .. import validate
 from .kinds import History
-from .read import check_history, history
+from .read import checked_history
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,6 @@ class Transient:
         for name, unit in (("speed", "m/s"), ("sliding", "m/s"), ("load", "N"), ("radius", "m"), ("viscosity", "Pa s")):
             given = getattr(self, name)
             if given is not None:
-                given = history(f"transient.{name}", given)
+                positive = unit in ("N", "m", "Pa s")
+                given = checked_history(f"transient.{name}", given, unit, self.duration, positive=positive)
                 object.__setattr__(self, name, given)
-                check_history(f"transient.{name}", unit, given, self.duration, positive=unit in ("N", "m", "Pa s"))

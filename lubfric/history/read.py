@@ -65,8 +65,9 @@ def _word(name: str, value) -> str:
     return value
 
 
-def check_history(name: str, unit: str, given: History, duration: float, *, positive: bool) -> None:
-    """The history lasts as long as the run and stays in its range."""
+def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
+    """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
+    given = history(name, value)
     if isinstance(given, Table) and not given.repeat and given.times[-1] < duration * (1 - 1e-9):
         raise InputError(
             f"{name}: the table ends at {given.times[-1]:g} s, the run lasts {duration:g} s; "
@@ -87,3 +88,4 @@ def check_history(name: str, unit: str, given: History, duration: float, *, posi
                 f"{name} reaches {value:g} {unit} during the run; allowed: magnitudes up to {most:g} {unit}"
                 f"{f', at least {least:g}' if positive else ''}"
             )
+    return given

@@ -11,7 +11,6 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..history import History
-from ..history.read import check_history, history
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 from .bdf import March, Solver, advance, restarted
 
@@ -60,13 +59,6 @@ def checked_times(times) -> np.ndarray:
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
         raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
     return times
-
-
-def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
-    """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
-    found = history(name, value)
-    check_history(name, unit, found, duration, positive=positive)
-    return found
 
 
 def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:

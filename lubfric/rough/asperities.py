@@ -99,12 +99,10 @@ class AsperityContact(RoughContact):
 
     @property
     def name(self) -> str:
-        """Which asperities."""
         return f"independent {self.definition}"
 
     @property
     def grid(self) -> Grid:
-        """Its cells."""
         return Grid(self.heights.shape, self.spacing)
 
     def again(self, scene: Scene, old: Scene) -> AsperityContact:

@@ -59,12 +59,10 @@ class FlatContact(RoughContact):
 
     @property
     def name(self) -> str:
-        """The curve that it is read from, in words."""
         return "flat periodic curve"
 
     @property
     def nominally_flat(self) -> bool:
-        """True: its load is spread evenly over the Hertz strip."""
         return True
 
     def again(self, scene: Scene, old: Scene) -> FlatContact:

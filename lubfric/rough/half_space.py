@@ -72,16 +72,13 @@ class HalfSpaceContact(HalfSpaceGrid):
 
     @property
     def name(self) -> str:
-        """Its name, as in ``numerics.contact_level``."""
         return "semi-periodic"
 
     @property
     def adjustable_tolerance(self) -> float:
-        """That of the contact solve."""
         return self.tolerance
 
     def tightened(self, tolerance: float) -> HalfSpaceContact:
-        """The same contact, solved to ``tolerance``."""
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:

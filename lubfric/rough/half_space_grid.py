@@ -40,12 +40,10 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
 
     @property
     def grid(self) -> Grid:
-        """Its cells."""
         return Grid(self.heights.shape, self.spacing)
 
     @cached_property
     def sq(self) -> float:
-        """Standard deviation [m] of the heights on this grid."""
         return float(self.heights.std())
 
     @cached_property

@@ -82,10 +82,11 @@ class Numerics(Brief):
             ("grid", GRIDS),
             ("sampling", SAMPLINGS),
             ("heat", HEATS),
+            ("closure", CLOSURES),
+            ("film_deflection", FILM_DEFLECTIONS),
+            ("cavitated_shear", CAVITATED_SHEAR),
         ):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
-        validate.choice("numerics.closure", self.closure, CLOSURES)
-        validate.choice("numerics.film_deflection", self.film_deflection, FILM_DEFLECTIONS)
         if self.film_deflection == "total":
             for name, allowed in (("closure", ("load",)), ("film_level", ("auto", "none", "ehl"))):
                 if getattr(self, name) not in allowed:
@@ -98,7 +99,6 @@ class Numerics(Brief):
         for name in ("film_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
-        validate.choice("numerics.cavitated_shear", self.cavitated_shear, CAVITATED_SHEAR)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
         validate.boolean("numerics.accept", self.accept)
 

@@ -16,7 +16,7 @@ from ..result import FrictionResult
 from ..store import digest
 from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
-from .table_row import CLEARANCE
+from .table_row import AT, CLEARANCE, CURVE, SPEED
 
 AUTO = "auto"
 MOST, CHOSEN = 25, 12  # speeds at most, and about
@@ -102,7 +102,7 @@ class Trail:
             outcome = (journal.fields(key) or outcome) if kept else outcome
         else:
             outcome = self._start_of(at)
-            place = {"curve": curve_key(search.name), "place": at, "speed": speed}
+            place = {CURVE: curve_key(search.name), AT: at, SPEED: speed}
             journal.keep(key, key, outcome, kept, place)
             outcome = outcome if kept else without_fields(outcome)
         self.outcomes.append(outcome)

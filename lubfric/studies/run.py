@@ -18,7 +18,7 @@ from .journal import PLACE, Journal, record_of
 from .plan import Batch, Curve, StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
 from .spread import checked_executor, spread
-from .table_row import named, row_of
+from .table_row import AT, COUNT, CURVE, SPEED, named, row_of
 
 
 @dataclass(frozen=True)
@@ -170,13 +170,13 @@ def _chosen(prepared, search, journal, known) -> dict[str, dict]:
     so far."""
     rows, key = {}, curve_key(search.name)
     for at, (speed, outcome) in enumerate(run_adaptive(prepared, search, journal, known)):
-        place = {"curve": key, "place": at, "speed": speed}
+        place = {CURVE: key, AT: at, SPEED: speed}
         rows[f"{key} {at}"] = row_of(record_of(outcome) | {PLACE: place})
     return rows | {key: _ended(key, len(rows), journal)}
 
 
 def _ended(key: str, points: int, journal) -> dict:
-    record = {PLACE: {"curve": key, "points": points}}
+    record = {PLACE: {CURVE: key, COUNT: points}}
     journal.add(key, record)
     return row_of(record)
 
@@ -187,7 +187,7 @@ def _all_failed(curve: Curve, error: LubfricError, journal, piece: Piece) -> dic
     keys = [key for chain in curve.chains for key in chain.keys[piece.done.get(chain.name, 0) :]]
     if not curve.chains:
         end = curve_key(curve.whole)
-        keys, record = [f"{end} 0"], record | {PLACE: {"curve": end, "place": 0, "speed": None}}
+        keys, record = [f"{end} 0"], record | {PLACE: {CURVE: end, AT: 0, SPEED: None}}
     for key in keys:
         journal.add(key, record)
     rows = dict.fromkeys(keys, row_of(record))

@@ -8,14 +8,14 @@ from .journal import PLACE
 SPEED, STATUS, CONVERGED = "speed", "status", "converged"
 MISSING = "not computed"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
-CURVE, AT, COUNT = "curve", "at", "count"  # of a point whose speed was chosen: its curve, its place; points in all
+CURVE, AT, COUNT = "curve", "place", "points"  # of a point whose speed was chosen: its curve, its place; points in all
 CLEARANCE = "clearance"
 
 
 def row_of(record: dict) -> dict:
     """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and its status in words. A
     point whose speed was chosen has its place on its curve too."""
-    place = _place(record[PLACE]) if PLACE in record else {}
+    place = {name: value for name, value in record.get(PLACE, {}).items() if value is not None}
     if "error" in record:
         return {STATUS: f"{record['error']}: {record['message']}", **place}
     if "report" not in record:  # a curve that is complete
@@ -30,13 +30,6 @@ def row_of(record: dict) -> dict:
 def named(rows: dict[str, dict]) -> dict[str, dict]:
     """``rows`` by key, where rows of chosen speeds go by their curve and place instead."""
     return {f"{row[CURVE]} {row[AT]}" if AT in row else key: row for key, row in rows.items()}
-
-
-def _place(found: dict) -> dict:
-    if "points" in found:
-        return {CURVE: found["curve"], COUNT: found["points"]}
-    speed = {} if found["speed"] is None else {SPEED: found["speed"]}
-    return {CURVE: found["curve"], AT: found["place"], **speed}
 
 
 def _numbers(record: dict) -> dict[str, float]:

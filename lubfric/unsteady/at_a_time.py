@@ -73,11 +73,9 @@ class WarmInlet(History):
     source: SceneInTime
 
     def at(self, time: float) -> float:
-        """Just after ``time`` [s]."""
         return _warm(self.source.at(time, before=False))
 
     def before(self, time: float) -> float:
-        """Just before ``time`` [s]."""
         return _warm(self.source.at(time))
 
     def stops(self, duration: float) -> tuple[float, ...]:

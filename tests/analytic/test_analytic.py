@@ -54,6 +54,7 @@ def test_point_hertz_is_self_consistent():
     a = hertz.point_radius(load, radius, e_prime)
     total = 2 * math.pi * integrate.quad(lambda r: r * hertz.point_pressure(r, load, radius, e_prime), 0, a)[0]
     assert total == pytest.approx(load, rel=1e-6)
+    assert hertz.point_mean_pressure(load, radius, e_prime) == pytest.approx(load / (math.pi * a**2))
     approach = hertz.point_approach(load, radius, e_prime)
     assert hertz.point_load(approach, radius, e_prime) == pytest.approx(load)
     assert hertz.point_load(-1e-9, radius, e_prime) == 0

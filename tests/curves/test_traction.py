@@ -2,6 +2,7 @@
 
 import csv
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -86,3 +87,31 @@ def test_a_map_over_two_keys_is_drawn(model, tmp_path):
     assert f[2, 1] == pytest.approx(single.coefficient, rel=0.01)
     with pytest.raises(lubfric.InputError, match="not varied"):
         plot_map(tmp_path / "x.png", study, "speed", "bodies.load")
+
+
+def test_a_map_needs_two_dimensions_and_marks_what_has_no_answer(tmp_path):
+    small = SCENE.with_(
+        numerics={"heat": "off"}, lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}
+    )
+    refused = lubfric.study(small, {"motion.slide_roll_ratio": [0.0, 1.0]}, [1.0, 30.0])
+    assert refused.failed == 2 and np.isnan(refused["coefficient"][1]).all()
+    plot_map(tmp_path / "map.png", refused, "speed", "motion.slide_roll_ratio")
+    with pytest.raises(lubfric.InputError, match="two dimensions"):
+        plot_map(tmp_path / "x.png", refused, "speed", "speed")
+
+
+def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
+    module = sys.modules["lubfric.curves.traction"]
+    real = module.friction
+
+    def friction(prepared, *arguments, **options):
+        if prepared.scene.motion.slide_roll_ratio == 1.0:
+            raise lubfric.ConvergenceError("lost")
+        return real(prepared, *arguments, **options)
+
+    monkeypatch.setattr(module, "friction", friction)
+    with pytest.raises(lubfric.ConvergenceError, match="slide-roll ratio|other ratios") as caught:
+        lubfric.traction(model, [0.0, 1.0], speed=3.0)
+    curve = caught.value.result
+    assert str(curve.errors[1]) == "lost" and curve.report.notes == ("slide-roll ratio 1: lost",)
+    assert "2 ratios" in repr(curve) and "failed 1" in repr(curve) and np.isfinite(curve.coefficient[0])

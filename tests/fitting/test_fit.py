@@ -50,6 +50,39 @@ def test_a_fit_prints_as_one_line_and_a_table(fitted):
     assert f"<td>{value:.4g}, 95 % interval {low:.4g} to {high:.4g}</td>" in fitted._repr_html_()
 
 
+def test_residuals_are_drawn_as_they_are(fitted):
+    from matplotlib.figure import Figure
+
+    (_, points) = fitted.plot_residuals(Figure().add_subplot()).lines
+    order = np.argsort(points.get_xdata())
+    miss = 100 * (fitted.measured.coefficient / fitted.predicted - 1)
+    np.testing.assert_allclose(points.get_ydata()[order], miss[np.argsort(fitted.measured.x)])
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (([0.1, 0.2], [0.1]), "1 values for 2 of x"),
+        (([0.1, 0.2], [0.1, 0.1], [0.01, 0.0]), "not positive"),
+    ],
+)
+def test_measured_arrays_belong_together(arguments, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.Measured(*map(np.array, arguments))
+
+
+def test_a_fit_takes_a_scene_a_measured_curve_and_known_starts():
+    measured = lubfric.Measured(np.array([0.1, 0.2, 0.3]), np.array([0.1, 0.1, 0.1]))
+    for call, words in (
+        (lambda: lubfric.fit(lubfric.prepare(SCENE), measured, BOUNDS), "not what lubfric.prepare did"),
+        (lambda: lubfric.fit(SCENE, 0.1, BOUNDS), "measured = 0.1"),
+        (lambda: lubfric.fit(SCENE, measured, BOUNDS, start={"bodies.load": 3.0}), "no parameter"),
+        (lambda: lubfric.fit(SCENE, measured, BOUNDS, executor=1), "executor = 1"),
+    ):
+        with pytest.raises(lubfric.InputError, match=words):
+            call()
+
+
 def test_the_fit_is_a_minimum(fitted):
     """No neighbour within the bounds comes closer to the data, judged by curves of another tolerance."""
 

@@ -68,6 +68,7 @@ def test_nahmes_formula_solves_its_own_equation():
         y = np.linspace(0, 1, 2001)
         rise = nahme.profile(y, number, 0.04)
         stress = nahme.stress_ratio(number)  # in units of eta_w dU/h; rate in dU/h
+        assert nahme.largest_rise(number, 0.04) == pytest.approx(rise.max(), rel=1e-9)
         rate = stress * np.exp(0.04 * rise)
         assert np.trapezoid(rate, y) == pytest.approx(1, rel=1e-6)
         curvature = np.diff(rise, 2) / (y[1] ** 2)

@@ -8,8 +8,9 @@ import pytest
 from lubfric import InputError
 from lubfric.ehl.limiter import FILM_STEP, VISCOSITY_STEP, step_length
 from lubfric.history import Table
+from lubfric.history.read import checked_history
 from lubfric.march.bdf import Level, March
-from lubfric.march.course import Progress, checked_history, checked_times, plan_of, report_of, steps
+from lubfric.march.course import Progress, checked_times, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)

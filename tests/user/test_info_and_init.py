@@ -92,3 +92,17 @@ def test_the_roller_of_the_examples_is_an_answer():
     assert 0.03 < curve.coefficient[0] < 0.04 and not any("not valid" in text for text in curve.validity)
     assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
     assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
+
+
+def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
+    still = describe_scene(HEAVY.with_(motion={"entrainment_speed": 0.0, "speeds": [0.0, 1.0]}))
+    assert "no entrainment: all contact" in still and "film: none, no entrainment" in still
+    assert "semi-periodic contact on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
+    one = HEAVY.with_(numerics={"model": "deterministic", "film_deflection": "hydrodynamic"})
+    assert "one gap and one pressure" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
+
+
+def test_a_command_says_what_it_lacks(capsys):
+    assert main(["oils", "show"]) == 2 and "needs a name" in capsys.readouterr().err
+    assert main(["run", "paper", "--ratios", "0.1", "--workers", "2"]) == 2
+    assert "--workers shares the speeds" in capsys.readouterr().err

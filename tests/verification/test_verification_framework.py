@@ -320,3 +320,17 @@ def test_a_solve_report_raises_with_what_it_has():
         report.raise_if_failed("result")
     assert stop.value.report is report and stop.value.result == "result"
     SolveReport("s", "converged", 3, 1e-7, 1e-6).raise_if_failed()
+
+
+def test_processor_time_is_that_of_the_stated_core(monkeypatch):
+    """The same work on a core of half the speed: twice the seconds, the same time on the stated core."""
+    from verification import pace
+
+    now = [0.0]
+    monkeypatch.setattr(pace.time, "process_time", lambda: now[0])
+
+    def seconds_on(speed):
+        monkeypatch.setattr(pace, "_pair", lambda: pace.PAIR / speed)
+        return pace.paced(lambda: now.__setitem__(0, now[0] + 3.0 / speed))[1]
+
+    assert seconds_on(1.0) == seconds_on(0.5) == 3.0

@@ -9,9 +9,10 @@ import numpy as np
 
 from ... import validate
 from ...errors import ConvergenceError, InputError
+from ...history.read import checked_history
 from ...lubricant import Lubricant
 from ...march.bdf import March
-from ...march.course import Plan, Progress, checked_history, checked_times, plan_of, report_of, steps
+from ...march.course import Plan, Progress, checked_times, plan_of, report_of, steps
 from ...renamed import keyword_before
 from ...report import CONVERGED, Report
 from ..result import smallest

@@ -18,10 +18,11 @@ from ...ehl.transient.setting import FIRST_STEP, WET
 from ...ehl.transient.solve import TransientFilm
 from ...errors import ConvergenceError
 from ...history import History
+from ...history.read import checked_history
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...march.bdf import Level, March, Memory
-from ...march.course import Plan, Progress, checked_history, checked_times, plan_of, report_of, steps
+from ...march.course import Plan, Progress, checked_times, plan_of, report_of, steps
 from ...renamed import keyword_before
 from ...report import CONVERGED
 from .equations import Squeeze

@@ -1,0 +1,101 @@
+"""A study file is read into the plan that it says, and what it cannot say is refused by name, before any work."""
+
+import numpy as np
+import pytest
+from scene_text import BODIES_AND_OIL
+
+import lubfric
+from lubfric.report import Report
+from lubfric.studies.file import load_study
+from lubfric.studies.journal import outcome_of, record_of
+from lubfric.validity import Validity
+
+SCENE = (
+    BODIES_AND_OIL
+    + """[motion]
+entrainment_speed = 0.01
+[surface]
+sq = 1e-7
+correlation_length = 4e-6
+[contact]
+shape = [48, 48]
+spacing = 1.1e-6
+"""
+)
+
+
+def read(folder, study, scene=SCENE):
+    (folder / "small.toml").write_text(scene)
+    (folder / "study.toml").write_text('scene = "small.toml"\n' + study)
+    return load_study(folder / "study.toml")
+
+
+def test_several_sampled_keys_go_together(tmp_path):
+    keys = "bodies.load = { low = 2.0, high = 4.0 }\nlubricant.viscosity = { low = 0.1, high = 1.0, scale = 'log' }\n"
+    plan = read(tmp_path, "speeds = [0.01, 0.1]\n[sample]\ncount = 4\nseed = 3\n" + keys)
+    (axis,) = plan.axes
+    assert axis.name == "case" and axis.keys == ("bodies.load", "lubricant.viscosity") and plan.points == 8
+    ranges = [lubfric.Between(2.0, 4.0), lubfric.Between(0.1, 1.0, "log")]
+    assert list(axis.values) == lubfric.sample(ranges, 4, seed=3)
+    assert [c.scene.bodies.load for b in plan.batches for c in b.curves] == [load for load, _ in axis.values]
+
+
+def test_maps_are_found_beside_the_file(tmp_path):
+    for name in ("one.npy", "two.npy"):
+        np.save(tmp_path / name, np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
+    measured = SCENE.replace("sq = 1e-7\ncorrelation_length = 4e-6", 'file = "one.npy"\nspacing = 1e-6')
+    plan = read(tmp_path, '[vary]\nsurface.file = ["one.npy", "two.npy"]\n', measured.split("[contact]")[0])
+    files = [curve.scene.surface.file for batch in plan.batches for curve in batch.curves]
+    assert files == [str(tmp_path / "one.npy"), str(tmp_path / "two.npy")] and plan.speeds == (0.01,)
+
+
+@pytest.mark.parametrize(
+    "study, words",
+    [
+        ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds or speed_range"),
+        ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
+        ("vary = 3\n", "keys of a scene with lists"),
+        ("[vary]\nbodies.load = 3\n", "a list of values"),
+        ("sample = 3\n", "must be a table"),
+        ("[sample]\nbodies.load = { low = 1.0, high = 2.0 }\n", "needs count"),
+        ("[sample]\ncount = 2\nbodies.load = { low = 1.0 }\n", "low = , high ="),
+        ('[vary]\nsurface.file = ["none.npy"]\n', "no such file"),
+        ("speeds = [0.1\n", "not valid TOML"),
+        ('speeds = "many"\n', "'auto'"),
+    ],
+)
+def test_what_a_study_cannot_say_is_refused(tmp_path, study, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        read(tmp_path, study)
+
+
+def test_a_study_needs_a_scene_and_a_file(tmp_path):
+    (tmp_path / "study.toml").write_text("speeds = [0.1]\n")
+    with pytest.raises(lubfric.InputError, match="needs scene"):
+        load_study(tmp_path / "study.toml")
+    with pytest.raises(lubfric.InputError, match="study .*none.toml' cannot be read"):
+        load_study(tmp_path / "none.toml")
+
+
+def test_a_plan_has_its_values_and_an_executor_can_submit(tmp_path):
+    plan = read(tmp_path, "")
+    with pytest.raises(lubfric.InputError, match="belong to the plan"):
+        lubfric.study(plan, {"bodies.load": [1.0]})
+    for call in (lambda: lubfric.study(plan, executor=3), lambda: lubfric.stribeck(plan.scene, [0.1], executor=3)):
+        with pytest.raises(lubfric.InputError, match="executor = 3; allowed: None or a concurrent"):
+            call()
+
+
+def test_every_outcome_comes_back_from_its_record():
+    entry = Validity("f", 2.0, 1.0, "", "too much", "less", True)
+    report = Report("a solver", "diverged", 3, float("inf"), 1e-3)
+    for error in (
+        lubfric.ValidityError("beyond", (entry,)),
+        lubfric.ConvergenceError("lost", report),
+        lubfric.InputError("wrong"),
+        lubfric.LubfricError("other"),
+    ):
+        back = outcome_of(record_of(error))
+        assert type(back) is type(error) and str(back) == str(error)
+        assert getattr(back, "entries", ()) == getattr(error, "entries", ())
+        assert getattr(back, "report", None) == getattr(error, "report", None)
