@@ -89,7 +89,7 @@ def test_a_full_disk_is_one_line(tmp_path):
     with open("/dev/full", "wb", buffering=0) as records._file:
         with pytest.raises(lubfric.OutputError, match="No space left") as caught:
             records.add("b", 2)
-    assert "\n" not in str(caught.value) and Records(tmp_path).keys() == {"a"}
+    assert "\n" not in str(caught.value) and [key for key, _ in Records(tmp_path).read()] == ["a"]
 
 
 @given(content=st.binary(max_size=200), data=st.data())
@@ -153,7 +153,7 @@ def test_a_damaged_line_is_absent_and_the_others_stay(tmp_path_factory, cut, byt
         again = Records(folder)
         found = dict(again.read())
         assert all(value == int(key) for key, value in found.items())
-        assert len(found) >= 5 - lost and again.damaged <= 2
+        assert len(found) >= 5 - lost
 
 
 def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
