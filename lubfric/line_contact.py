@@ -106,3 +106,29 @@ class LineContact:
             entrainment_speed=abs(self.entrainment_speed),
             viscosity=self.lubricant.viscosity,
         )
+
+
+class OfLineContact:
+    """Base of what is solved or found for a ``contact``, a `LineContact`: its numbers, by the names of a film."""
+
+    contact: LineContact
+
+    @property
+    def load(self) -> float:
+        """w [N/m]: what the film carries."""
+        return self.contact.load_per_width
+
+    @property
+    def radius(self) -> float:
+        """R [m]."""
+        return self.contact.radius
+
+    @property
+    def e_prime(self) -> float:
+        """E' [Pa]."""
+        return self.contact.e_prime
+
+    @property
+    def entrainment_speed(self) -> float:
+        """U [m/s]."""
+        return self.contact.entrainment_speed
