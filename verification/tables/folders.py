@@ -91,11 +91,23 @@ def growth() -> Cells:
 def model_error() -> Cells:
     """Every model of load sharing beside one gap with one pressure, by `python -m verification model`. Points that it
     kept are not solved again."""
-    from ..model import settings
-    from ..model.measure import all_points
     from ..model.summary import deviations, table
 
-    return table(deviations(all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")))
+    return table(deviations(_model_points()))
+
+
+def model_cost() -> Cells:
+    """Processor time of a point by every model, by `python -m verification model`."""
+    from ..model.summary import cost
+
+    return cost(_model_points())
+
+
+def _model_points():
+    from ..model import settings
+    from ..model.measure import all_points
+
+    return all_points(settings("default"), MODEL / "model-error-default" / "points.jsonl")
 
 
 def measured_map() -> Cells:
@@ -109,9 +121,41 @@ def measured_map() -> Cells:
     return table(deviations(points))
 
 
+def refinement() -> Cells:
+    """The film on 128, 256 and 512 cells across, by `python -m verification model --only grids --full`."""
+    found = [row for _, row in kept.read(MODEL / "grids-full" / "points.jsonl")]
+    if not found:
+        raise RuntimeError(f"{MODEL} holds no grids: run python -m verification model --only grids --full first")
+    rows = []
+    for speed in dict.fromkeys(row[0] for row in found):
+        mine = [row for row in found if row[0] == speed]
+        last, order, told = (np.abs([row[k] for row in mine]) for k in (5, 6, 7))
+        row = [f"{speed:g}", str(len(mine)), f"{last.max():.2f} %", f"{order.min():.1f} to {order.max():.1f}"]
+        row += [
+            f"{told.max():.2f} %",
+            f"{np.median([r[-2] for r in mine]):.0f} s",
+            f"{max(r[-1] for r in mine):.1f} GB",
+        ]
+        rows.append(row)
+    columns = ["U (m/s)", "surfaces", "largest change of f, 256 to 512", "order", "largest estimate told at 512"]
+    return [*columns, "processor time at 512, median", "memory"], rows
+
+
+def held_out() -> Cells:
+    """The told error of the model on surfaces it was not read off, by `python -m verification model`. Points that it
+    kept are not solved again."""
+    from ..model.held_out import COLUMNS, table
+
+    rows, _ = table("default", MODEL / "model-error-default" / "held-out.jsonl")
+    return COLUMNS, [[str(cell) for cell in row] for row in rows]
+
+
 TABLES: dict[str, Callable[[], Cells]] = {
+    "refinement": refinement,
+    "held-out": held_out,
     "model-error": model_error,
     "measured-map": measured_map,
+    "model-cost": model_cost,
     "sampling-coverage": coverage,
     "sampling-numbers": other_numbers,
     "levels-saving": levels_saving,

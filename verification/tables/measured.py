@@ -126,14 +126,6 @@ def _seconds(job: Callable[[], object]) -> float:
     return min(found)
 
 
-def held_out() -> Cells:
-    """How often the told error of the model holds on surfaces it was not read off (`verification.model.held_out`)."""
-    from ..model.held_out import COLUMNS, table
-
-    rows, _ = table("default")
-    return COLUMNS, [[str(cell) for cell in row] for row in rows]
-
-
 def mutants() -> Cells:
     """What catches each mutant (minutes)."""
     from .. import mutations
@@ -148,6 +140,5 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "hertz-line": hertz_line,
     "times": times,
     "contact-transforms": contact_transforms,
-    "held-out": held_out,
     "mutants": mutants,
 }
