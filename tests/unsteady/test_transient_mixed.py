@@ -205,10 +205,10 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
     assert start("whole") == 0 and not (tmp_path / "whole").exists()
     assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / STATE).is_file()
     assert start("killed") == 0 and not (tmp_path / "killed").exists()
-    whole, resumed = (np.load(tmp_path / f"{name}.npz") for name in ("whole", "killed"))
-    assert whole["calls"] == resumed["calls"] + 13
-    for name in set(whole.files) - {"calls"}:
-        np.testing.assert_array_equal(resumed[name], whole[name])
+    with np.load(tmp_path / "whole.npz") as whole, np.load(tmp_path / "killed.npz") as resumed:
+        assert whole["calls"] == resumed["calls"] + 13
+        for name in set(whole.files) - {"calls"}:
+            np.testing.assert_array_equal(resumed[name], whole[name])
 
 
 def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
