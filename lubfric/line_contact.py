@@ -93,16 +93,6 @@ class LineContact:
         return float(hertz.line_half_width(self.load_per_width, self.radius, self.e_prime))
 
     @cached_property
-    def peak_pressure(self) -> float:
-        """Hertz pressure 2 w/(pi b) [Pa] at the centre of the dry contact."""
-        return float(hertz.line_peak_pressure(self.load_per_width, self.radius, self.e_prime))
-
-    @cached_property
-    def mean_pressure(self) -> float:
-        """w/(2 b) [Pa] of the dry contact."""
-        return float(hertz.line_mean_pressure(self.load_per_width, self.radius, self.e_prime))
-
-    @cached_property
     def moes_film(self) -> float:
         """Moes' film h [m] where dp/dx = 0, a regression within some 5 to 10 % (`lubfric.analytic.film.moes_film`)."""
         return self.film_unit * film.moes_film(self.M, self.L)
@@ -116,3 +106,29 @@ class LineContact:
             entrainment_speed=abs(self.entrainment_speed),
             viscosity=self.lubricant.viscosity,
         )
+
+
+class OfLineContact:
+    """Base of what is solved or found for a ``contact``, a `LineContact`: its numbers, by the names of a film."""
+
+    contact: LineContact
+
+    @property
+    def load(self) -> float:
+        """w [N/m]: what the film carries."""
+        return self.contact.load_per_width
+
+    @property
+    def radius(self) -> float:
+        """R [m]."""
+        return self.contact.radius
+
+    @property
+    def e_prime(self) -> float:
+        """E' [Pa]."""
+        return self.contact.e_prime
+
+    @property
+    def entrainment_speed(self) -> float:
+        """U [m/s]."""
+        return self.contact.entrainment_speed

@@ -16,13 +16,13 @@ MICRO, NANO, GIGA = 1e-6, 1e-9, 1e9
 
 @dataclass(frozen=True)
 class Usual:
-    """Range of a quantity in SI, its unit, and units that are mistaken for it ("unit" or "unit|advice") with their
-    factors."""
+    """Range of a quantity in SI, its unit, and units that are mistaken for it with their factors, and what to give
+    instead."""
 
     low: float
     high: float
     unit: str
-    others: tuple[tuple[str, float], ...] = ()
+    others: tuple[tuple[str, float] | tuple[str, float, str], ...] = ()
 
     def holds(self, value: float) -> bool:
         """True inside the range."""
@@ -37,9 +37,9 @@ USUAL = {
     "bodies.e_prime": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
     "bodies.young_modulus": Usual(1e8, 1.3e12, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
     "bodies.hertz_pressure": Usual(1e6, 5e9, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
-    "bodies.hardness": Usual(2e7, 5e10, "Pa", (("GPa", GIGA), ("HV|give hardness_hv", 10.58e6), ("MPa", 1e6))),
+    "bodies.hardness": Usual(2e7, 5e10, "Pa", (("GPa", GIGA), ("HV", 10.58e6, "give hardness_hv"), ("MPa", 1e6))),
     "bodies.boundary_friction_coefficient": Usual(0.0, 0.5, "-", (("%", 1e-2),)),
-    "lubricant.viscosity": Usual(3e-4, 5.0, "Pa s", (("mPa s|for mm²/s give grade, or nu40 and nu100", 1e-3),)),
+    "lubricant.viscosity": Usual(3e-4, 5.0, "Pa s", (("mPa s", 1e-3, "for mm²/s give grade, or nu40 and nu100"),)),
     "lubricant.nu40": Usual(1e-6, 5e-3, "m²/s", (("mm²/s", MICRO),)),
     "lubricant.nu100": Usual(5e-7, 1e-3, "m²/s", (("mm²/s", MICRO),)),
     "lubricant.pressure_viscosity_coefficient": Usual(1e-9, 8e-8, "1/Pa", (("1/GPa", NANO), ("1/MPa", MICRO))),
@@ -51,7 +51,7 @@ USUAL = {
     "lubricant.density": Usual(700, 1300, "kg/m³", (("g/cm³", 1e3),)),
     "motion.entrainment_speed": Usual(0.0, 100.0, "m/s", (("mm/s", 1e-3),)),
     "motion.speeds": Usual(0.0, 100.0, "m/s", (("mm/s", 1e-3),)),
-    "motion.slide_roll_ratio": Usual(0.0, 2.0, "-", (("%|give slip_percent", 1e-2),)),
+    "motion.slide_roll_ratio": Usual(0.0, 2.0, "-", (("%", 1e-2, "give slip_percent"),)),
     "surface.sq": Usual(5e-10, 2e-5, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
     "surface.correlation_length": Usual(1e-8, 2e-3, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
     "surface.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
@@ -79,10 +79,9 @@ def slip(name: str, value) -> str | None:
     if usual is None or not strange or (strange[0] == 0 and name in NOUGHT):
         return None
     v = strange[0]
-    for unit, factor in usual.others:
+    for unit, factor, *advice in usual.others:
         if usual.holds(v * factor):
-            name, _, advice = unit.partition("|")
-            return f"{name} meant? {v:g} {name} = {v * factor:g} {usual.unit}{advice and '; ' + advice}"
+            return "; ".join((f"{unit} meant? {v:g} {unit} = {v * factor:g} {usual.unit}", *advice))
     return ""
 
 

@@ -17,6 +17,7 @@ from .surface.prepare import FORMS
 from .surface.table import DECIMALS
 from .surface.units import UNITS
 
+NEEDED = "either 'file', or 'sq' and 'correlation_length' in m"
 OUTLIERS = ("refuse", "keep", "mask")
 EXTENSIONS = ("none", "mirror")
 GENERATED = {  # fields of a generated map, and what they are where left out
@@ -93,7 +94,7 @@ class Roughness(Brief):
 
     def __post_init__(self):
         if self.file is None and (self.sq is None or self.correlation_length is None):
-            raise InputError("surface needs either 'file', or 'sq' and 'correlation_length' in m")
+            raise InputError(f"surface needs {NEEDED}")
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and not isinstance(self.file, str):

@@ -6,6 +6,7 @@ from dataclasses import MISSING, fields
 from typing import Any
 
 from .errors import InputError
+from .roughness import NEEDED
 from .short_forms import resolve
 
 INSTEAD = {  # of a missing key
@@ -17,7 +18,6 @@ INSTEAD = {  # of a missing key
     "bodies.e_prime": " in Pa, or material, or young_modulus and poisson_ratio",
     "motion.entrainment_speed": " in m/s, or surface_speeds of both bodies",
 }
-ROUGHNESS = "[surface] needs either 'file', or 'sq' and 'correlation_length' in m"
 
 
 def check_complete(name: str, table: dict, needed: dict[str, Any], rough: tuple[str, ...]) -> None:
@@ -46,4 +46,4 @@ def _of_section(section: str, kind, given: dict) -> list[str]:
 
 def _of_roughness(section: str, kind, given: dict) -> list[str]:
     complete = "file" in given or {"sq", "correlation_length"} <= set(given)
-    return [] if complete else [ROUGHNESS]
+    return [] if complete else [f"[{section}] needs {NEEDED}"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ..deterministic.point import deterministic_point
@@ -55,7 +56,7 @@ def _numbers(prepared: Prepared, speed: float, found: Refined) -> Resolved:
         mean_gap=result.mean_gap,
         load_residual=result.report.residuals["load"],
         report=result.report,
-        entries=_entries(prepared, speed, found),
+        entries=tuple(_entries(prepared, speed, found)),
     )
 
 
@@ -77,26 +78,23 @@ def _notes(found: Refined) -> tuple[str, ...]:
     )
 
 
-def _entries(prepared: Prepared, speed: float, found: Refined) -> tuple[Validity, ...]:
+def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Validity]:
     """Entries for all that does not hold; those of bodies and map first."""
     scene, result = prepared.scene, found.result
-    entries = [*prepared.known, *of_motion(scene, speed, result.central_gap)]
-    entries += of_pressure(scene, float(result.pressure[result.wet].max(initial=0.0)))
-    entries += of_thickness(scene, result.central_gap)
+    yield from prepared.known
+    yield from of_motion(scene, speed, result.central_gap)
+    yield from of_pressure(scene, float(result.pressure[result.wet].max(initial=0.0)))
+    yield from of_thickness(scene, result.central_gap)
     cut = (result.split.saturated - result.split.spots) / result.load
     if scene.lubricant.newtonian and cut > CUT:
         consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
-        entries.append(Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy))
+        yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
     if result.drawn > DRAWN:
-        consequence = "the film behind them is fed too well"
-        remedy = "finer cells (contact.spacing)"
-        entries.append(
-            Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
-        )
+        consequence, remedy = "the film behind them is fed too well", "finer cells (contact.spacing)"
+        yield Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
     error, tolerance = found.error, scene.numerics.tolerance
     if error is not None and error > tolerance:
         consequence = "the finest grid leaves more than the tolerance"
         remedy = "a finer contact.spacing, a larger tolerance"
-        entries.append(Validity("estimated error of the grid in f", error, tolerance, "", consequence, remedy))
-    return tuple(entries)
+        yield Validity("estimated error of the grid in f", error, tolerance, "", consequence, remedy)

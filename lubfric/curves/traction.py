@@ -40,7 +40,7 @@ class TractionResult(CurveResult):
         return self.columns[validate.choice("column", name, tuple(self.columns))]
 
     @property
-    def coefficient(self) -> np.ndarray:  # type: ignore[override]  # a number of the base, here read from its columns
+    def coefficient(self) -> np.ndarray:
         """Friction coefficient [-]."""
         return self.columns["coefficient"]
 

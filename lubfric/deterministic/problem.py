@@ -21,14 +21,14 @@ from functools import cached_property
 import numpy as np
 
 from ..halfspace import HalfSpace
-from ..line_contact import LineContact
+from ..line_contact import LineContact, OfLineContact
 from ..lubricant import Lubricant
 
 FLOOR = 1e-9  # m
 
 
 @dataclass(frozen=True)
-class Problem:
+class Problem(OfLineContact):
     """One operating point, plain values in SI units.
 
     contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
@@ -50,21 +50,6 @@ class Problem:
     def spacing(self) -> tuple[float, float]:
         """(dx, dy) [m]."""
         return self.operator.spacing
-
-    @property
-    def load(self) -> float:
-        """w [N/m]."""
-        return self.contact.load_per_width
-
-    @property
-    def radius(self) -> float:
-        """R [m]."""
-        return self.contact.radius
-
-    @property
-    def e_prime(self) -> float:
-        """E' [Pa]."""
-        return self.contact.e_prime
 
     @property
     def speed(self) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..line_contact import LineContact
+from ..line_contact import LineContact, OfLineContact
 from ..report import Report
 from ..show import Shown
 from .imposed import LinePressure, line_deflection
@@ -16,7 +16,7 @@ from .start import State
 
 
 @dataclass(frozen=True, repr=False)
-class EHLResult(Shown):
+class EHLResult(Shown, OfLineContact):
     """Steady film of a smooth line contact. Arrays are (n,), x ascending.
 
     Attributes
@@ -70,26 +70,6 @@ class EHLResult(Shown):
     state: State = field(repr=False)
     imposed: LinePressure | None = field(default=None, repr=False)
     rolling: Rolling | None = None
-
-    @property
-    def load(self) -> float:
-        """Load that the film carries [N/m]."""
-        return self.contact.load_per_width
-
-    @property
-    def radius(self) -> float:
-        """R [m]."""
-        return self.contact.radius
-
-    @property
-    def e_prime(self) -> float:
-        """E' [Pa]."""
-        return self.contact.e_prime
-
-    @property
-    def entrainment_speed(self) -> float:
-        """U [m/s]."""
-        return self.contact.entrainment_speed
 
     @property
     def load_number(self) -> float:

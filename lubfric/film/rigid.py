@@ -14,7 +14,7 @@ from functools import cache, lru_cache
 import numpy as np
 
 from ..analytic import rigid
-from ..line_contact import LineContact
+from ..line_contact import LineContact, OfLineContact
 from ..lubricant import Lubricant, log_viscosity_ratio, viscosity
 from ..report import CONVERGED, Report
 
@@ -25,7 +25,7 @@ FARTHEST = 1e4
 
 
 @dataclass(frozen=True)
-class RigidFilm:
+class RigidFilm(OfLineContact):
     """Steady rigid film, SI units, the names those of `EHLResult`; arrays (n,), x ascending.
 
     The nodes are x = sqrt(2 R h0) `unit_nodes`, then the cavitated ones; mirrored where entrainment_speed < 0.
@@ -39,10 +39,7 @@ class RigidFilm:
     central_film: float
     flow_film: float
     rupture: float
-    load: float
-    radius: float
-    e_prime: float
-    entrainment_speed: float
+    contact: LineContact
     report: Report
     cells: int = 0  # no grid to refine
     imposed: None = None  # nothing deflects it
@@ -173,9 +170,6 @@ def _film(line: LineContact, h0: float, law, solver: str) -> RigidFilm:
         central_film=h0,
         flow_film=constants.flow_film_ratio * h0,
         rupture=sign * scale * constants.rupture,
-        load=line.load_per_width,
-        radius=line.radius,
-        e_prime=line.e_prime,
-        entrainment_speed=line.entrainment_speed,
+        contact=line,
         report=Report(solver, CONVERGED, 0, residual, 1e-3, residuals={"load": residual}),
     )

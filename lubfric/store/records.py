@@ -27,12 +27,11 @@ class Records:
 
     Lines are forced to the disk by `close`, and by the first line that is added a second or more after the last
     forcing. A loss of power can take the lines since then. A line that was cut or overwritten fails its checksum and
-    counts as absent. ``damaged`` is how many of these the last `read` met.
+    counts as absent.
     """
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        self.damaged = 0
         self._file = None
         self._synced = 0.0
 
@@ -56,20 +55,14 @@ class Records:
 
     def read(self) -> Iterator[tuple[str, dict]]:
         """Every whole record as (key, value), each key once: the first found."""
-        self.damaged, seen = 0, set()
+        seen = set()
         for path in sorted(self.folder.glob("*.jsonl")):
             with saying(f"{path} was not read"), path.open("rb") as file:
                 for line in file:
                     record = _parsed(line)
-                    if record is None:
-                        self.damaged += 1
-                    elif record["key"] not in seen:
+                    if record is not None and record["key"] not in seen:
                         seen.add(record["key"])
                         yield record["key"], record["value"]
-
-    def keys(self) -> set[str]:
-        """The keys of all whole records."""
-        return {key for key, _ in self.read()}
 
     def close(self) -> None:
         """Close the file of this writer; the next `add` begins another."""

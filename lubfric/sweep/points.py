@@ -43,7 +43,6 @@ class CurveResult(Shown):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
-    coefficient: np.ndarray
 
     @property
     def _swept(self) -> Swept:
@@ -65,9 +64,9 @@ class CurveResult(Shown):
 
     def _facts(self) -> dict[str, str]:
         symbol, values, unit, plural = self._swept
-        facts, good = {"": f"{values.size} {plural}"}, np.isfinite(self.coefficient)
+        facts, good = {"": f"{values.size} {plural}"}, np.array([point is not None for point in self.points])
         if good.any():
-            known, f = values[good], self.coefficient[good]
+            known, f = values[good], np.array([point.coefficient for point in self.points if point is not None])
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"failed": str(len(self.errors)), "not held": str(len(self.validity))}
 

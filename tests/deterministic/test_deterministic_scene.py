@@ -126,6 +126,6 @@ def test_the_command_writes_its_fields(tmp_path):
     text = text.replace("shape = [200, 200]", "shape = [32, 32]").replace("spacing = 0.45e-6", "spacing = 2.8125e-6")
     scene.write_text(text + 'model = "deterministic"\ngrid = "given"\n')
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--speeds", "0.01,0.003", "--fields", "0.003"]) == 0
-    fields = np.load(tmp_path / "out" / "fields.npz")
-    assert fields["pressure_0"].shape == fields["gap_0"].shape and fields["speed"] == 0.003
+    with np.load(tmp_path / "out" / "fields.npz") as fields:
+        assert fields["pressure_0"].shape == fields["gap_0"].shape and fields["speed"] == 0.003
     assert (tmp_path / "out" / "contact.png").stat().st_size > 10_000

@@ -30,6 +30,7 @@ from lubfric.store import (
     write_whole,
 )
 from lubfric.store.codec import from_plain, to_plain
+from lubfric.studies.journal import Journal
 
 ROOT = Path(__file__).parents[2]
 SCENE = lubfric.load_scene("paper").with_(
@@ -89,7 +90,7 @@ def test_a_full_disk_is_one_line(tmp_path):
     with open("/dev/full", "wb", buffering=0) as records._file:
         with pytest.raises(lubfric.OutputError, match="No space left") as caught:
             records.add("b", 2)
-    assert "\n" not in str(caught.value) and Records(tmp_path).keys() == {"a"}
+    assert "\n" not in str(caught.value) and [key for key, _ in Records(tmp_path).read()] == ["a"]
 
 
 @given(content=st.binary(max_size=200), data=st.data())
@@ -153,7 +154,7 @@ def test_a_damaged_line_is_absent_and_the_others_stay(tmp_path_factory, cut, byt
         again = Records(folder)
         found = dict(again.read())
         assert all(value == int(key) for key, value in found.items())
-        assert len(found) >= 5 - lost and again.damaged <= 2
+        assert len(found) >= 5 - lost
 
 
 def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
@@ -250,6 +251,17 @@ def test_a_neighbour_started_from_a_stored_balance_is_the_same_to_the_last_bit(s
     if before.balance.film is not None:
         here, there = (lubfric.friction(model, 1.2 * speed, start=start) for start in (before, again))
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
+
+
+@pytest.mark.parametrize("name", ["lubfric.report.Report", "lubfric.report.Gone", "lubfric.gone.Report"])
+def test_what_another_version_stored_is_told_and_solved_again(tmp_path, name):
+    tree = json.dumps({"class": name, "solver": "x"}).encode()
+    content = len(tree).to_bytes(8, "little") + tree
+    with pytest.raises(ValueError, match="another version|no dataclass"):
+        decode(content)
+    journal = Journal(tmp_path)
+    write_checked(tmp_path / "states" / "chain.bin", content)
+    assert journal.state("chain") == ("", None)
 
 
 def test_nothing_but_dataclasses_of_the_package_is_built():

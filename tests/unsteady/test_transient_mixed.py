@@ -16,6 +16,7 @@ from lubfric.cli import main
 from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
 from lubfric.prepared import prepare
+from lubfric.store import write_checked
 from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
 
@@ -205,10 +206,10 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
     assert start("whole") == 0 and not (tmp_path / "whole").exists()
     assert start("killed", "die") == -signal.SIGKILL and (tmp_path / "killed" / STATE).is_file()
     assert start("killed") == 0 and not (tmp_path / "killed").exists()
-    whole, resumed = (np.load(tmp_path / f"{name}.npz") for name in ("whole", "killed"))
-    assert whole["calls"] == resumed["calls"] + 13
-    for name in set(whole.files) - {"calls"}:
-        np.testing.assert_array_equal(resumed[name], whole[name])
+    with np.load(tmp_path / "whole.npz") as whole, np.load(tmp_path / "killed.npz") as resumed:
+        assert whole["calls"] == resumed["calls"] + 13
+        for name in set(whole.files) - {"calls"}:
+            np.testing.assert_array_equal(resumed[name], whole[name])
 
 
 def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
@@ -227,6 +228,9 @@ def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
     assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
+    write_checked(tmp_path / STATE, b"the state of another version")
+    with pytest.raises(lubfric.InputError, match="version differ"):
+        again.load()
 
 
 def test_any_damage_of_a_checkpoint_is_refused(tmp_path):

@@ -80,7 +80,7 @@ def waviness(level: str) -> Iterator[Item]:
     """Both responses over |x| < b/2, and what is left of the waves at x = 0."""
     rows = []
     for case in CASES[level]:
-        for row in compared(case, refinements=2, fineness=1.0):
+        for row in compared(case):
             rows.append((case.name, *row))
             name = f"{case.name}: waves of {row[0]:g} b at rest, rms of the film beside finite elements"
             yield Check(name, row[-1], 0.0, ALLOWED, SOURCE, ABSOLUTE, note="of their height")
@@ -89,7 +89,7 @@ def waviness(level: str) -> Iterator[Item]:
 
 
 def compared(
-    case: Case, lengths=LENGTHS, judged: Case | None = None, **mesh
+    case: Case, lengths=LENGTHS, judged: Case | None = None, refinements: int = 2, fineness: float = 1.0
 ) -> Iterator[tuple[float, float, float, float, float]]:
     """Wavelength, |h1|/A at x = 0 by lubfric, by finite elements (of the case ``judged``) and in an even film, and the
     rms of the difference."""
@@ -98,7 +98,7 @@ def compared(
     flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))
     smooth = lay_out(flat, line, sliding=2 * case.speed, boundary_friction=0.09, ends=(3 * b, 2 * b))
     base = solve_point(smooth, tolerance=PRECISION)
-    solution = ehl.solve_ehl((judged or case).elements, **mesh)[-1]
+    solution = ehl.solve_ehl((judged or case).elements, refinements=refinements, fineness=fineness)[-1]
     near = np.flatnonzero(np.abs(base.x) < 0.5 * b)
     middle = near[np.argmin(np.abs(base.x[near]))]
     pick = solution.body.line.probes(base.x[None, near] / b)

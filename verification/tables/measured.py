@@ -126,6 +126,18 @@ def _seconds(job: Callable[[], object]) -> float:
     return min(found)
 
 
+def waviness() -> Cells:
+    """Small waves at rest in an elastic film: what it keeps of them (`verification.studies.waviness`)."""
+    from ..studies.waviness import CASES, COLUMNS, compared
+
+    rows = [
+        [case.name, f"{length:g}", *(f"{part:.3f}" for part in parts), f"{rms:.4f}"]
+        for case in CASES["default"]
+        for length, *parts, rms in compared(case)
+    ]
+    return COLUMNS, rows
+
+
 def mutants() -> Cells:
     """What catches each mutant (minutes)."""
     from .. import mutations
@@ -135,6 +147,7 @@ def mutants() -> Cells:
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
+    "waviness": waviness,
     "stribeck": stribeck,
     "film-load-of-patches": film_load_of_patches,
     "hertz-line": hertz_line,

@@ -40,12 +40,10 @@ def alternating(
     """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 
     update : "repeat" takes epsilon straight from Eq. (8) over the lubricated area, as described in the paper. An error
-        in
-        epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That is
+        in epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That is
         nothing in an elastic periodic cell, and nearly all of it under a cylinder, where the iteration creeps. "root"
         (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with epsilon, so
-            there
-        is exactly one.
+        there is exactly one.
     max_iterations : of the outer loop
 
     The other arguments, the result, its residuals and the errors raised are those of
