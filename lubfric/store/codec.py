@@ -52,9 +52,12 @@ def encode(value) -> list:
 
 
 def decode(content: bytes):
-    """What `encode` was given, from its pieces joined."""
+    """What `encode` was given, from its pieces joined. Raises `ValueError` for what another version stored."""
     end = LENGTH + int.from_bytes(content[:LENGTH], "little")
-    return from_plain(json.loads(content[LENGTH:end]), memoryview(content)[end:])
+    try:
+        return from_plain(json.loads(content[LENGTH:end]), memoryview(content)[end:])
+    except (KeyError, AttributeError, ImportError) as error:
+        raise ValueError(f"stored by another version ({error})") from None
 
 
 def _array(placed, content: memoryview) -> np.ndarray:

@@ -15,10 +15,9 @@ from ..plain import plain
 from ..quantities import QUANTITIES
 from ..scene import scene_as_dict
 from ..show import Shown
-from ..store import Records
 from ..version import __version__
 from .adaptive import AUTO, FEWEST, samples_at
-from .journal import POINTS
+from .journal import Journal
 from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
 
 PLAN = "study.json"
@@ -206,7 +205,7 @@ def open_study(folder) -> StudyResult:
         raise InputError(
             f"{path} is damaged; allowed: run the study again on this store, which writes it anew"
         ) from None
-    rows = {key: row_of(value) for key, value in Records(Path(folder) / POINTS).read()}
+    rows = {key: row_of(record) for key, record in Journal(folder).records().items()}
     rows = {key: row for key, row in rows.items() if key in keys or row.get(CURVE) in keys}
     return StudyResult.of_rows(plan, rows)
 

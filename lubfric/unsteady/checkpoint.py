@@ -53,7 +53,10 @@ class Checkpoint:
         content = read_checked(path)
         if content is None:
             raise self._damaged(path)
-        kept = decode(content)
+        try:
+            kept = decode(content)
+        except ValueError:  # of another version
+            kept = {"fingerprint": None}
         if kept["fingerprint"] != self.fingerprint:
             raise InputError(
                 f"checkpoint in {self.folder} belongs to another run (scene, height map, times or version differ); "

@@ -19,7 +19,7 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
     usual = USUAL[name]
     middle = (max(usual.low, usual.high / 1e6) * usual.high) ** 0.5
     assert slip(name, middle) is None
-    for unit, factor in usual.others:
+    for _, factor, *_ in usual.others:
         if not usual.holds(middle / factor):
             meant = slip(name, middle / factor)
             assert meant and usual.unit in meant

@@ -30,6 +30,7 @@ from lubfric.store import (
     write_whole,
 )
 from lubfric.store.codec import from_plain, to_plain
+from lubfric.studies.journal import Journal
 
 ROOT = Path(__file__).parents[2]
 SCENE = lubfric.load_scene("paper").with_(
@@ -250,6 +251,17 @@ def test_a_neighbour_started_from_a_stored_balance_is_the_same_to_the_last_bit(s
     if before.balance.film is not None:
         here, there = (lubfric.friction(model, 1.2 * speed, start=start) for start in (before, again))
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
+
+
+@pytest.mark.parametrize("name", ["lubfric.report.Report", "lubfric.report.Gone", "lubfric.gone.Report"])
+def test_what_another_version_stored_is_told_and_solved_again(tmp_path, name):
+    tree = json.dumps({"class": name, "solver": "x"}).encode()
+    content = len(tree).to_bytes(8, "little") + tree
+    with pytest.raises(ValueError, match="another version|no dataclass"):
+        decode(content)
+    journal = Journal(tmp_path)
+    write_checked(tmp_path / "states" / "chain.bin", content)
+    assert journal.state("chain") == ("", None)
 
 
 def test_nothing_but_dataclasses_of_the_package_is_built():

@@ -16,6 +16,7 @@ from lubfric.cli import main
 from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
 from lubfric.prepared import prepare
+from lubfric.store import write_checked
 from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
 
@@ -227,6 +228,9 @@ def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
     assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
+    write_checked(tmp_path / STATE, b"the state of another version")
+    with pytest.raises(lubfric.InputError, match="version differ"):
+        again.load()
 
 
 def test_any_damage_of_a_checkpoint_is_refused(tmp_path):
