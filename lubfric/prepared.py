@@ -117,6 +117,15 @@ def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Prepared:
     return Prepared(scene, surface, contact, levels, beforehand(scene, surface), lines)
 
 
+def on_halved_cells(prepared: Prepared) -> Prepared:
+    """``prepared`` with lines on cells half as long, no shorter than the scene's own."""
+    if prepared.lines is None:
+        raise ValueError("a model of one patch has no lines")
+    lines = prepared.lines.halved()
+    surface, contact = pilot(prepared.scene, lines)
+    return replace(prepared, surface=surface, contact=contact, lines=lines)
+
+
 def scene_of(scene: Scene | Prepared) -> Scene:
     """The scene that was prepared, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Prepared):

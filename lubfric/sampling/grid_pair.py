@@ -119,6 +119,17 @@ def grid_step(
     )
 
 
+def lost_summits(lines, surface, point: OperatingPoint, film: Film) -> float:
+    """By how much [m] the highest summit of ``surface``, which has the scene's own cells, stands nearer to a ``film``
+    above it than on the cells of the ``lines``."""
+    gaps = []
+    for factors in ((1, 1), lines.cells.factors):
+        contact = thinned(lines.scene, surface, lines.cells, factors)
+        thickness, under = point.film_on(contact, film)
+        gaps.append(contact.close(thickness, 0.0, None, under).mean_gap)
+    return gaps[0] - gaps[1]
+
+
 def _ratio(fine, coarse, step, correlation) -> tuple[float, float]:
     """Ratio of the means of two fields along y, and its relative standard error."""
     if not coarse.any() or not fine.any():

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from ..lines.cells import Cells
 from ..lines.pieces import line_contact
 from ..point.adapt import Solved, solved
 from ..point.balance import Balance, Lubricated, balanced, separated
 from ..point.deflection import solved_as_deflected
 from ..point.split import divided
-from ..prepared import Prepared
+from ..prepared import Prepared, on_halved_cells
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
@@ -38,9 +39,11 @@ class Used:
 
 @dataclass(frozen=True)
 class LineStart:
-    """What a neighbouring speed starts from: the balance of the pilot, the further lines, and what the grid changed."""
+    """What a neighbouring speed starts from: the balance of the pilot, the ``cells`` of its lines, the further lines,
+    and what the grid changed."""
 
     first: Balance
+    cells: Cells
     used: tuple[Used, ...] = ()
     grid: tuple[GridStep, ...] = ()
 
@@ -53,7 +56,8 @@ class LineStart:
 class LineFound:
     """The balance that follows from all lines together and the grid, and what is known of its error.
 
-    - ``first``: the balance of the pilot line as it is; ``used``: the further lines.
+    - ``first``: the balance of the pilot line as it is; ``cells``: those of the lines; ``used``: the further lines.
+    - ``too_coarse``: finer cells are needed.
     - ``response``: None where there is no contact; ``gap_error``: standard error of the mean gap [m] at given load.
     - ``missed``: contact that the lines may have missed by chance where none was found, as what it would add to f,
       relative.
@@ -62,12 +66,14 @@ class LineFound:
 
     point: Solved
     first: Balance
+    cells: Cells
     together: Pooled
     response: Response | None = None
     gap_error: BlockError = BlockError(0.0, 1)
     grid: tuple[GridStep, ...] = ()
     missed: float = 0.0
     map_ends: bool = False
+    too_coarse: bool = False
     used: tuple[Used, ...] = ()
 
     @property
@@ -80,16 +86,28 @@ class LineFound:
     @property
     def start(self) -> LineStart:
         """For a neighbouring speed."""
-        return LineStart(self.first, self.used, self.grid)
+        return LineStart(self.first, self.cells, self.used, self.grid)
 
 
 def line_friction(prepared: Prepared, speed: float, start: LineStart | None = None) -> tuple[Prepared, LineFound]:
     """Solve ``prepared`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
-    ``numerics.sampling_tolerance``.
+    ``numerics.sampling_tolerance``, and on finer cells until what they change can be corrected.
 
     Returns the model, with the deflection of its film chosen, and a `LineFound`. ``start``: what was found of the same
     model at a neighbouring speed.
     """
+    chosen, found = _on_cells(prepared, speed, start)
+    while found.too_coarse:
+        prepared = on_halved_cells(prepared)
+        chosen, found = _on_cells(prepared, speed, found.start)
+    return chosen, found
+
+
+def _on_cells(prepared: Prepared, speed: float, start: LineStart | None) -> tuple[Prepared, LineFound]:
+    """`line_friction` on the cells that the lines have. Of a neighbour on other cells only the balance serves."""
+    cells = lines_of_model(prepared).cells
+    if start is not None and start.cells != cells:
+        start = LineStart(start.first, cells)
     before = start.grid if start else ()
     prepared, first = solved_as_deflected(prepared, speed, start.first if start else None, given_grid=True)
     sample = Sample(prepared, speed, first).with_line(prepared.contact, first, before)
@@ -104,7 +122,7 @@ def line_friction(prepared: Prepared, speed: float, start: LineStart | None = No
             found = _on_line(sample, contact, state)
         sample = sample.with_line(contact, found, before)
         used = (*used, Used(length, contact, replace(found.balance.contact, fields=None)))
-    return prepared, replace(_found(sample), used=used)
+    return prepared, replace(_found(sample), used=used, too_coarse=sample.too_coarse)
 
 
 def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
@@ -150,21 +168,22 @@ def _looseness(sample: Sample) -> float:
     """Volume residual (G - h)/(G + h) of a further line whose correction moves f by `LINE_BALANCE` of the sampling
     tolerance."""
     anchor = sample.known
-    moved = anchor.response.relative("coefficient", 2 * anchor.point.balance.contact.mean_film)  # f, per residual
+    moved = anchor.response.per_gap("coefficient") * 2 * anchor.point.balance.contact.mean_film  # f, per residual
     allowed = LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance
     return min(allowed / moved, LOOSEST_LINE) if moved else LOOSEST_LINE
 
 
 def _found(sample: Sample) -> LineFound:
-    together, anchor, first = sample.together, sample.anchor, sample.first
+    together, anchor, first, cells = sample.together, sample.anchor, sample.first, sample.lines.cells
     if first.balance.film is None:
-        return LineFound(first, first.balance, together, sample.known.response)
+        return LineFound(first, first.balance, cells, together, sample.known.response)
     ended = sample.reached > sample.prepared.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
-        return LineFound(first, first.balance, together, missed=sample.missed, map_ends=ended)
+        return LineFound(first, first.balance, cells, together, missed=sample.missed, map_ends=ended)
     return LineFound(
         _divided(sample, together),
         first.balance,
+        cells,
         together,
         anchor.response,
         sample.gap_error,

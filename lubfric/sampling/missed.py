@@ -51,8 +51,21 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     if scale == 0:
         return 0.0
     rate = -math.expm1(-math.exp(min(place / scale, 50.0)))  # of blocks that touch
-    spot = 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * scale**1.5 * OVERLAP
+    spot = _spot(heights, spacing, e_prime, scale) * OVERLAP
     return rate * spot / (size * step) * width
+
+
+def hidden_share(prepared, found, surface, depth: float) -> float:
+    """What the highest summit of a piece of ``surface``, pressed ``depth`` [m] into a body, would add to f, relative to
+    it, where every such piece has one."""
+    bodies = prepared.scene.bodies
+    load = _spot(surface.heights, surface.spacing, bodies.e_prime, depth) / surface.size[1] * bodies.width
+    return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
+
+
+def _spot(heights, spacing, e_prime: float, depth: float) -> float:
+    """Load [N] of the highest summit, as a sphere that is pressed in by ``depth`` [m]."""
+    return 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * depth**1.5
 
 
 def summit_radius(heights, spacing) -> float:

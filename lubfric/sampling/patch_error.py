@@ -109,7 +109,7 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
     if response is None:
         return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
     volume = 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
-    per_gap = response.relative("coefficient", 1.0)
+    per_gap = response.per_gap("coefficient")
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
     area = 0.0 if decision.grid_error is None else math.nan
     return Numerical(

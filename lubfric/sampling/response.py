@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ from ..point.balance import Balance
 from ..rough.contract import ContactState
 
 STEP = 0.05  # of s = ln(F_H/F_C), each way, for rates of the film
+LARGEST = 50.0  # of s: beyond it nothing is known
 LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
 
 
@@ -27,23 +29,39 @@ class Slopes:
 
 @dataclass(frozen=True)
 class Response:
-    """Linear answers of a balance.
+    """Answers of a balance.
 
     ``slopes``: those of its contact; ``split``: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at
-    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name. Without a film the
-    split does not change.
+    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C.
+    Without a film the split does not change.
     """
 
     slopes: Slopes
     split: float = 0.0
     rates: dict[str, float] | None = None
+    odds: float = 0.0
+
+    def per_gap(self, name: str) -> float:
+        """Relative change of quantity ``name`` over that of the gap [1/m], where it is small; 0 without a film."""
+        return abs(self.rates[name] * self.split) if self.rates else 0.0
 
     def relative(self, name: str, gap_error: float) -> float:
-        """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film."""
-        rate = self.rates[name] * self.split if self.rates else 0.0
-        return (
-            abs(rate * gap_error) if rate else 0.0
-        )  # a quantity that does not move is known, however far the gap is off
+        """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
+
+        The load of a light contact follows the gap exponentially. Where s falls by m, it grows by
+        (1 + F_H/F_C)/(1 + exp(-m) F_H/F_C) - 1, which is more than to first order.
+        """
+        rate = self.per_gap(name)
+        if not rate:  # a quantity that does not move is known, however far the gap is off
+            return 0.0
+        return rate * abs(gap_error) * self._growth(abs(self.split * gap_error))
+
+    def _growth(self, moved: float) -> float:
+        """By how much the contact load grows more than to first order where s falls by ``moved``; at least 1."""
+        if not 0 < moved < LARGEST or not self.odds:
+            return 1.0
+        more = (1 + self.odds) / (1 + math.exp(-moved) * self.odds) - 1
+        return max(1.0, more * (1 + self.odds) / (moved * self.odds))
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
@@ -69,7 +87,8 @@ def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[
     total = balance.contact_load + balance.film_load
     load_rate = -balance.contact_load * balance.film_load / (total * width)
     rates = {name: _log_rate(low[name], high[name]) for name in low}
-    return Response(slopes, -1.0 / (slopes.gap * load_rate - film_rate), rates)
+    split = -1.0 / (slopes.gap * load_rate - film_rate)
+    return Response(slopes, split, rates, balance.film_load / balance.contact_load)
 
 
 def touched_length(state: ContactState) -> float:

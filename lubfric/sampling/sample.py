@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from .. import budget
@@ -15,10 +16,10 @@ from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import FEWEST, GridStep, gap_left, grid_step, mean_error
+from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of
 from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
-from .missed import missed_share
+from .missed import hidden_share, missed_share
 from .response import Response, respond, slopes_of
 from .uncertainty import FEW
 
@@ -27,6 +28,8 @@ MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
 KEPT = 0.5  # of the share of the grid: what pieces taken at a neighbouring speed may leave open
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 LEAST_MORE = 0.25  # of the length so far
+FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
+CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells of a line
 
 
 @dataclass(frozen=True)
@@ -107,12 +110,38 @@ class Sample:
         asked = self.prepared.scene.numerics.sampling_tolerance
         return self.anchor is not None and self.together.participation < FEW and self.reached > MATTERS * asked
 
+    @property
+    def too_coarse(self) -> bool:
+        """Whether the cells of the lines change the division of the load by more than can be corrected: that of the
+        anchor or, where the film clears the summits, of those that the cells cut off."""
+        if self.lines.cells.factors == (1, 1) or self.first.balance.film is None:
+            return False
+        if self.anchor is None:
+            return len(self.records) == 1 and self._summits_lost
+        return abs(self.anchor.response.split * mean_of(self.anchor.grid, "gap", 0.0)) > FARTHEST
+
+    @cached_property
+    def _summits_lost(self) -> bool:
+        """Whether cells of the scene's own would touch under the film of the pilot by more than f allows: a piece of
+        the surface stands out further on them than on those of the lines, by more than its clearance."""
+        prepared, balance = self.prepared, self.first.balance.lubricated
+        if balance is None:
+            return False
+        clearance = balance.contact.mean_film - balance.contact.mean_gap
+        if clearance > CLOSE * prepared.surface.sq:
+            return False
+        point = at(prepared, self.speed, prepared.contact, balance)
+        piece = self.lines.pair(0, PAIR * self.lines.lengths[1])
+        depth = lost_summits(self.lines, piece, point, balance.film) - clearance
+        allowed = budget.CONTACT_GRID * prepared.scene.numerics.tolerance
+        return depth > 0 and hidden_share(prepared, balance.forces, piece, depth) > allowed
+
     def wanted(self) -> float:
         """Length [m] of the next line. 0 where no more is needed, or no more can be had."""
         lines, asked, so_far = self.lines, self.prepared.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
         reached = self.doubted
-        if room < LEAST_MORE * so_far or (reached <= asked and not self.few):
+        if self.too_coarse or room < LEAST_MORE * so_far or (reached <= asked and not self.few):
             return 0.0
         contact: Any = self.prepared.contact  # of half-spaces, on the cells of the line
         held = MOST_CELLS / contact.heights.shape[0] * contact.spacing[1]
@@ -180,7 +209,7 @@ def _grid(prepared, speed: float, found: Solved, response: Response, before) -> 
     if lines.cells.factors == (1, 1) or balance is None:
         return ()
     load = balance.contact_load
-    per_gap = response.relative("coefficient", 1.0)
+    per_gap = response.per_gap("coefficient")
     enough = budget.CONTACT_GRID * numerics.tolerance / per_gap
     scatter = PAIR_SHARE * numerics.sampling_tolerance / per_gap
     near = tuple(step.at_load(load) for step in before)

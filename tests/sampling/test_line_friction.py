@@ -12,9 +12,12 @@ from lubfric.cli import main
 from lubfric.describe import describe_scene
 from lubfric.lines.outlook import foretold
 from lubfric.point.adapt import solved
+from lubfric.prepared import on_halved_cells
 from lubfric.rough.height_map import contact_map
+from lubfric.sampling import line_friction as lines_solved
 from lubfric.sampling.grid_pair import gap_left, mean_of
 from lubfric.sampling.line_friction import line_friction
+from lubfric.sampling.response import Response, Slopes, touched_length
 from lubfric.sampling.sample import response_of
 from lubfric.table import read_table
 
@@ -165,3 +168,50 @@ def test_what_the_cells_change_is_known_at_a_neighbouring_speed(speed, neighbour
     if kept:  # on the same line
         coefficients = [found.point.balance.forces.coefficient for found in (alone, after)]
         assert coefficients[1] == pytest.approx(coefficients[0], rel=2e-3)
+
+
+def test_a_contact_that_long_cells_hide_is_solved_on_shorter_ones(tmp_path):
+    """Sharp summits of a measured map just below lift-off. On the cells of the line, 16 x 4 of the map's, few cells
+    touch. What these change of the gap moves the load by e^2: more than can be corrected. The map's own cells are the
+    judge; and no spot carries what steel cannot."""
+    heights = lubfric.generate_surface(
+        (320, 240), (0.32e-6, 0.16e-6), sq=77e-9, correlation_length=(20e-6, 2.2e-6), acf="exponential", seed=4
+    ).heights
+    np.save(tmp_path / "map.npy", heights)
+    scene = lubfric.load_scene(
+        {
+            "bodies": {"radius": 6e-3, "width": 8e-3, "load": 1500.0, "material": "steel"}
+            | {"boundary_friction_coefficient": 0.12},
+            "lubricant": {"viscosity": 0.012, "pressure_viscosity_coefficient": 1.6e-8, "eyring_stress": 5e6}
+            | {"limiting_stress_coefficient": 0.06},
+            "motion": {"entrainment_speed": 3.5, "slip_percent": 4},
+            "surface": {"file": str(tmp_path / "map.npy"), "spacing": [0.32e-6, 0.16e-6], "extension": "mirror"},
+        }
+    )
+    model = lubfric.prepare(scene)
+    first, (chosen, found) = lines_solved._on_cells(model, 3.5, None)[1], line_friction(model, 3.5)
+    assert first.too_coarse and not found.too_coarse
+    while chosen.lines.cells.factors != (1, 1):
+        chosen = on_halved_cells(chosen)
+    judge = line_friction(chosen, 3.5)[1]
+    assert judge.grid == ()  # nothing to correct
+
+    def of(line):
+        area = touched_length(line.point.balance.contact) * scene.bodies.width
+        return line.point.balance.forces.coefficient, line.point.balance.contact_load, area
+
+    (f, load, area), (f_fine, load_fine, _), (_, load_coarse, area_coarse) = of(found), of(judge), of(first)
+    assert f == pytest.approx(f_fine, rel=5e-3)
+    assert load == pytest.approx(load_fine, rel=0.5)
+    assert load / area < 6e9 < load_coarse / area_coarse  # Pa
+
+
+@pytest.mark.parametrize("odds", [0.3, 1.0, 30.0])
+def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(odds):
+    """F_C = F/(1 + e^s) in closed form, s moved by the error of the gap; to first order where little changes."""
+    rate = -odds / (1 + odds)  # d ln F_C/ds
+    response = Response(Slopes(0.0, 0.0, 0.0), 1.0, {"contact_load": rate}, odds)
+    for moved in (1e-3, 0.5, 3.0):
+        exact = (1 + odds) / (1 + odds * np.exp(-moved)) - 1
+        assert response.relative("contact_load", moved) == pytest.approx(max(exact, -rate * moved), rel=1e-9)
+    assert response.per_gap("contact_load") == -rate
