@@ -141,6 +141,21 @@ def refinement() -> Cells:
     return [*columns, "processor time at 512, median", "memory"], rows
 
 
+def heavy_loads() -> Cells:
+    """The deterministic film at heavy loads, by `python -m verification model --only loads`."""
+    found = [row for _, rows in kept.read(MODEL / "loads-default" / "surfaces.jsonl") for row in rows]
+    if not found:
+        raise RuntimeError(f"{MODEL} holds no loads: run python -m verification model --only loads first")
+    rows = []
+    for kind in dict.fromkeys(row[0] for row in found):
+        mine = [row for row in found if row[0] == kind]
+        seconds = [row[-2] for row in mine]
+        failed = [f"surface {row[1]} at {row[2]:g} m/s" for row in mine if row[-1]]
+        row = [kind, str(len({row[1] for row in mine})), f"{len(mine) - len(failed)} of {len(mine)}"]
+        rows.append([*row, f"{np.median(seconds):.1f} s", f"{max(seconds):.1f} s", ", ".join(failed)])
+    return ["load", "surfaces", "points solved", "median processor time", "longest", "not solved"], rows
+
+
 def held_out() -> Cells:
     """The told error of the model on surfaces it was not read off, by `python -m verification model`. Points that it
     kept are not solved again."""
@@ -152,6 +167,7 @@ def held_out() -> Cells:
 
 TABLES: dict[str, Callable[[], Cells]] = {
     "refinement": refinement,
+    "heavy-loads": heavy_loads,
     "held-out": held_out,
     "model-error": model_error,
     "measured-map": measured_map,
