@@ -93,6 +93,16 @@ class LineContact:
         return float(hertz.line_half_width(self.load_per_width, self.radius, self.e_prime))
 
     @cached_property
+    def peak_pressure(self) -> float:
+        """Hertz pressure 2 w/(pi b) [Pa] at the centre of the dry contact."""
+        return float(hertz.line_peak_pressure(self.load_per_width, self.radius, self.e_prime))
+
+    @cached_property
+    def mean_pressure(self) -> float:
+        """w/(2 b) [Pa] of the dry contact."""
+        return float(hertz.line_mean_pressure(self.load_per_width, self.radius, self.e_prime))
+
+    @cached_property
     def moes_film(self) -> float:
         """Moes' film h [m] where dp/dx = 0, a regression within some 5 to 10 % (`lubfric.analytic.film.moes_film`)."""
         return self.film_unit * film.moes_film(self.M, self.L)

@@ -84,7 +84,7 @@ def prepare(
         check_resolved_gap(scene)
     if like is not None:
         instance("like", like, Prepared, "what lubfric.prepare returned")
-    levels = tuple(film_levels) if like is None else like.film_levels
+    levels = _levels(film_levels) if like is None else like.film_levels
     _check_levels(scene, levels)
     if like is not None:
         _check_likeness(scene, like.scene, surface, contact)
@@ -156,6 +156,13 @@ def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the prepared scene to be used again; allowed: {b!r}")
+
+
+def _levels(given) -> tuple[FilmLevel, ...]:
+    levels = given if isinstance(given, (list, tuple)) else [given]
+    for i, level in enumerate(levels):
+        instance(f"film_levels[{i}]", level, FilmLevel, "an object of a class that inherits from it")
+    return tuple(levels)
 
 
 def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:

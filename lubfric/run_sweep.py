@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -110,13 +111,19 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
 
 
 def _doubts(curve) -> tuple[str, ...]:
-    """What the errors of f say in words: at how many speeds, and in full for the first of them."""
-    told = [(p.speed, p.uncertainty.notes) for p in curve.points if p is not None and p.uncertainty.notes]
+    """What the errors of f say in words: at how many speeds, and in full for the least sure of them; and at how many
+    too few spots carry the load."""
+    told = [p for p in curve.points if p is not None and p.uncertainty.notes]
     if not told:
         return ()
-    more = len(told) - 1
-    others = f" and {more} other {'speeds' if more > 1 else 'speed'}" if more else ""
-    return (f"at {told[0][0]:g} m/s{others}, how sure f is: {'; '.join(told[0][1])}",)
+    worst = max(told, key=lambda p: p.uncertainty.sampling if math.isfinite(p.uncertainty.sampling) else math.inf)
+    first = f"at {worst.speed:g} m/s, how sure f is: {'; '.join(worst.uncertainty.notes)}"
+    if others := len(told) - 1:
+        first += f" (the least sure; {others} other {'speeds' if others > 1 else 'speed'}: see result.json)"
+    few = [p.speed for p in told if p.uncertainty.few_spots]
+    if not few or few == [worst.speed]:
+        return (first,)
+    return first, f"few spots carry the load at {', '.join(f'{u:g}' for u in few)} m/s: these intervals are too narrow"
 
 
 def _unsolved(curve) -> ConvergenceError:
@@ -182,8 +189,13 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
         f"1 <= count <= {MOST_SPEEDS}, in m/s"
     )
     ranged = ":" in text
+    words = text.split(":" if ranged else ",")
+    if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
+        raise InputError(
+            f"{option} {validate.shown(text)}: a comma separates speeds; allowed: a point in decimals, 0.01"
+        )
     try:
-        numbers = [float(word) for word in text.split(":" if ranged else ",")]
+        numbers = [float(word) for word in words]
     except ValueError:
         raise refusal from None
     for speed in numbers[:2] if ranged else numbers:

@@ -6,6 +6,7 @@ import math
 
 PILOT = 180.0  # correlation lengths along y of the first line
 LONGEST = 1900.0  # of one line
+PAIR = 42.0  # of a piece on the scene's own cells
 GROWTH = 4.0  # times the length so far: a standard error from few blocks is no guide further
 SAFETY = 1.15
 MOST = 256 * PILOT  # of all lines together

@@ -6,9 +6,10 @@ import math
 
 from ..scene import Scene
 from .contract import Lines
-from .length import MOST, PILOT, SAFETY
+from .length import MOST, PAIR, PILOT, SAFETY
 
 CELL_SECONDS = 2.5e-6  # processor time of a cell of a line in balance, about
+PIECE_SECONDS = 1.3e-6  # of a cell of a piece on finer and finer cells, of the finest
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
@@ -39,13 +40,21 @@ def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float
     return error, min(length, lines.available, MOST * ly)
 
 
+def piece_cells(lines: Lines) -> float:
+    """Cells of a piece of the surface on the scene's own cells; 0 where the lines have these."""
+    (fx, fy), step = lines.cells.factors, lines.cells.coarse[1]
+    return lines.cells.count * fx * fy * min(PAIR * lines.lengths[1], lines.available) / step if fx * fy > 1 else 0.0
+
+
 def in_words(scene: Scene, lines: Lines, sq: float, speed: float) -> str:
     """One line for `lubfric info`."""
     error, length = foretold(scene, lines, sq, speed)
-    cells = length / lines.cells.coarse[1] * lines.cells.count
+    asked, first = scene.numerics.sampling_tolerance, min(PILOT * lines.lengths[1], lines.available)
+    seconds = CELL_SECONDS * lines.cells.count * length / lines.cells.coarse[1] + PIECE_SECONDS * piece_cells(lines)
     dx, dy = lines.cells.coarse
+    ends = length == lines.available and error**2 * first > asked**2 * length
+    enough = f"line of {1e3 * length:.2g} mm, where the map ends" if ends else f"line of about {1e3 * length:.2g} mm"
     return (
-        f"line of about {1e3 * length:.2g} mm for {100 * scene.numerics.sampling_tolerance:g} % (the first "
-        f"{PILOT:g} correlation lengths: {100 * error:.1g} %), cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um, about "
-        f"{max(cells * CELL_SECONDS, 0.01):.1g} s"
+        f"{enough} for {100 * asked:g} % (the first {1e3 * first:.2g} mm: {100 * error:.2g} %), cells of "
+        f"{dx * 1e6:.3g} x {dy * 1e6:.3g} um, about {max(seconds, 0.01):.1g} s"
     )

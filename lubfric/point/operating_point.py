@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..errors import InputError
 from ..film.contract import Film, FilmLevel
 from ..heat.point import film_lubricant
 from ..line_contact import LineContact
@@ -132,13 +133,20 @@ class OperatingPoint:
     def film(self, film_load: float, start: Start, imposed=None) -> Film:
         """The film that carries ``film_load`` [N], deflected by the line pressure ``imposed`` too."""
         near = start.film if start.film is not None and start.film.cells else self.alone
-        return self.settings.level.solve(
+        found = self.settings.level.solve(
             self.line(film_load),
             tolerance=self.settings.film_tolerance,
             cells=max(self.settings.film_cells, start.least_cells),
             imposed=imposed,
             start=near,
         )
+        if found.entrainment_speed != self.speed:  # its shear would be that of other surfaces
+            raise InputError(
+                f"film level {self.settings.level.name!r} gives a film with entrainment_speed = "
+                f"{found.entrainment_speed:g} m/s; allowed: that of its line, {self.speed:g} m/s (of a film solved at "
+                "another one: dataclasses.replace(film, contact=line))"
+            )
+        return found
 
     @staticmethod
     def _trial(film_load: float, contact_load: float, film: Film, contact: ContactState, start: Start) -> Trial:

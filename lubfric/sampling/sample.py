@@ -9,7 +9,7 @@ from typing import Any
 
 from .. import budget
 from ..lines.contract import Lines
-from ..lines.length import LONGEST, MOST, MOST_CELLS, next_length
+from ..lines.length import LONGEST, MOST, MOST_CELLS, PAIR, next_length
 from ..point.adapt import Solved
 from ..point.balance import Balance
 from ..point.split import divided
@@ -21,12 +21,10 @@ from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import hidden_share, missed_share
 from .response import Response, respond, slopes_of
-from .uncertainty import FEW
+from .uncertainty import FEW, MATTERS
 
-PAIR = 42.0  # correlation lengths along y of a piece on the scene's own cells
 MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
 KEPT = 0.5  # of the share of the grid: what pieces taken at a neighbouring speed may leave open
-MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 LEAST_MORE = 0.25  # of the length so far
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells of a line

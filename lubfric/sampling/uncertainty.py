@@ -9,6 +9,7 @@ import numpy as np
 
 CONFIDENCE = 0.95
 FEW = 10.0  # participation below which an interval covers less often than it says
+MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,11 @@ class Uncertainty:
     area_needed: float = 1.0
     model_form: float = math.nan
     notes: tuple[str, ...] = ()
+
+    @property
+    def few_spots(self) -> bool:
+        """Whether so few spots carry the load that the interval is too narrow more often than it says."""
+        return 0 < self.participation < FEW and self.sampling > MATTERS * self.tolerance
 
     @property
     def text(self) -> str:

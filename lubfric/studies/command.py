@@ -14,7 +14,7 @@ from .pool import MOST_WORKERS, pool
 from .result import StudyResult, open_study
 from .run import study
 from .table_row import CONVERGED, UNUSED
-from .tables import to_netcdf
+from .tables import check_tools, to_netcdf
 
 
 def run_study(arguments) -> int:
@@ -26,6 +26,7 @@ def run_study(arguments) -> int:
     if arguments.explain:
         put(sys.stdout, plan.explain() + "\n")
         return 0
+    check_tools(arguments.netcdf, arguments.parquet)
     say(plan.explain())
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:

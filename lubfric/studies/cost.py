@@ -19,7 +19,7 @@ from ..ehl.solve import solve_line_contact
 from ..lines.contract import Lines
 from ..lines.length import PILOT
 from ..lines.make import lines_of, takes_line
-from ..lines.outlook import foretold
+from ..lines.outlook import foretold, piece_cells
 from ..rough.height_map import contact_map
 from ..scene import Scene
 
@@ -27,7 +27,8 @@ LIFTED, LIFTED_LINE = 3.5, 5.0  # Moes' film over Sq beyond which a patch, and a
 CLEAR = 0.4  # films of a point that is clear of contact, in those solved from nothing
 FILMS, MORE_FILMS = 1.0, 2.0  # of a point in contact: a + b times Moes' film over Sq
 TRANSFORMS, MORE_TRANSFORMS = 4.0, 4.0  # the same of the patch
-PILOT_TRANSFORMS, LINE_TRANSFORMS = 100.0, 25.0  # of the first line, and of as much length again
+PILOT_TRANSFORMS, LINE_TRANSFORMS = 60.0, 25.0  # of the first line, and of as much length again
+PIECE_TRANSFORMS = 12.0  # of a piece on the scene's own cells
 CURVE_FILMS, MORE_CURVE_FILMS = 0.4, 0.6  # of a point that is read from a contact curve
 CURVE = 75.0  # transforms of a contact curve
 REPEATS = 3
@@ -38,7 +39,8 @@ class Ground:
     """What the curves on one map share.
 
     ``sq`` [m]; ``shape`` of the grid; ``transform`` [s]: one Fourier transform there and back on it; ``lines``: where
-    the map is a long line; ``curve``: whether contacts are read from one curve.
+    the map is a long line; ``curve``: whether contacts are read from one curve; ``piece``: cells of
+    a piece on the scene's own cells over those of the grid.
     """
 
     sq: float
@@ -46,6 +48,7 @@ class Ground:
     transform: float
     lines: Lines | None = None
     curve: bool = False
+    piece: float = 0.0
 
     @property
     def making(self) -> float:
@@ -66,7 +69,7 @@ def ground_of(scene: Scene, curve: bool) -> Ground:
     lines = lines_of(scene)
     length = min(PILOT * lines.lengths[1], lines.available)
     shape = lines.cells.count, max(2, round(length / lines.cells.coarse[1]))
-    return Ground(surface.sq, shape, _transform(shape), lines)
+    return Ground(surface.sq, shape, _transform(shape), lines, piece=piece_cells(lines) / math.prod(shape))
 
 
 def film_clock(scene: Scene, speed: float) -> float:
@@ -92,7 +95,7 @@ def point_seconds(scene: Scene, ground: Ground, speed: float, film: float) -> fl
     if ratio > LIFTED_LINE:
         return CLEAR * film
     length = foretold(scene, ground.lines, ground.sq, speed)[1] / (PILOT * ground.lines.lengths[1])
-    transforms = PILOT_TRANSFORMS + LINE_TRANSFORMS * max(length - 1.0, 0.0)
+    transforms = PILOT_TRANSFORMS + LINE_TRANSFORMS * max(length - 1.0, 0.0) + PIECE_TRANSFORMS * ground.piece
     return (FILMS + MORE_FILMS * ratio) * film + transforms * ground.transform
 
 

@@ -78,8 +78,14 @@ def _heading(name: str) -> str:
     return heading(name) if name in KEYS | QUANTITIES else name
 
 
+def check_tools(netcdf: bool, parquet: bool) -> None:
+    """Raise `InputError` where a package that these tables need is not there."""
+    for name in (*(("xarray", "netCDF4") if netcdf else ()), *(("pandas", "pyarrow") if parquet else ())):
+        _tool(name)
+
+
 def _tool(name: str):
     try:
         return import_module(name)
     except ImportError:
-        raise InputError(f"this table needs {name}; allowed after: pip install 'lubfric[study]'") from None
+        raise InputError(f"this table needs the package {name}: pip install 'lubfric[study]'") from None

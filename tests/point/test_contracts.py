@@ -1,7 +1,7 @@
 """A film and a rough contact from outside run through `lubfric.friction` with no edit of lubfric."""
 
 import ast
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.film.contract import LeftOut
+from lubfric.film.contract import FilmLevel, LeftOut
 from lubfric.film.levels import LEVELS, higher, lowest_level
 from lubfric.line_contact import LineContact
 from lubfric.report import ITERATION_LIMIT, Report
@@ -147,3 +147,33 @@ def test_loads_and_gaps_along_the_line_come_from_the_fields():
     loads, gaps = state.along_y(model.contact.weight, 8)
     assert loads.sum() == pytest.approx(1.0) and gaps.mean() == pytest.approx(state.mean_gap, rel=1e-12)
     assert loads.size == gaps.size == 8 and np.ptp(loads) > 0
+
+
+class Slower(FilmLevel):
+    """The numerical film at half the speed. Its own speed is that of the line only where it is ``put_back``."""
+
+    name, words, numerical = "slower", "full EHL at half the speed", True
+
+    def __init__(self, put_back: bool):
+        self.put_back = put_back
+
+    def solve(self, line, *, tolerance, cells=0, imposed=None, start=None):
+        slower = replace(line, entrainment_speed=0.5 * line.entrainment_speed)
+        film = LEVELS[-1].solve(slower, tolerance=tolerance, cells=cells, imposed=imposed, start=start)
+        return replace(film, contact=line) if self.put_back else film
+
+
+def test_a_film_of_another_speed_is_refused():
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+    with pytest.raises(lubfric.InputError, match=r"'slower' gives a film with entrainment_speed = 0.15 m/s; .*0.3 m/s"):
+        lubfric.friction(lubfric.prepare(scene, film_levels=(Slower(False),)), 0.3)
+    found = lubfric.friction(lubfric.prepare(scene, film_levels=Slower(True)), 0.3)
+    half = lubfric.friction(scene, 0.15)
+    assert found.min_film == pytest.approx(half.min_film, rel=2e-3)
+    assert found.couette_force == pytest.approx(2 * half.couette_force, rel=0.02)  # of the whole sliding speed
+
+
+@pytest.mark.parametrize("given", [Slower, "ehl", [LEVELS[-1], None]])
+def test_what_is_no_film_level_is_refused(given):
+    with pytest.raises(lubfric.InputError, match=r"film_levels\[\d\]"):
+        lubfric.prepare(lubfric.load_scene("paper"), film_levels=given)

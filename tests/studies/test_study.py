@@ -410,7 +410,7 @@ def test_zarr_round_trip(serial, tmp_path):
 
 def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(lubfric.InputError, match=r"needs xarray; allowed after: pip install 'lubfric\[study\]'"):
+    with pytest.raises(lubfric.InputError, match=r"needs the package xarray: pip install 'lubfric\[study\]'"):
         serial.to_xarray()
 
 
