@@ -15,7 +15,7 @@ from .start import dry_contact, dry_start
 from .state import State
 
 TOLERANCE = 1e-5
-FROM_NEIGHBOUR, DIRECT, MARCHED = 25, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
+FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
