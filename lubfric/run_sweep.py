@@ -227,13 +227,14 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
 
 
 def _with_chosen(speeds, chosen):
-    """``speeds`` with the chosen ones put in, and the chosen ones as they stand among them."""
-    own = []
+    """``speeds`` with the chosen ones put in, in order where they stand in order, and the chosen ones as they stand
+    among them."""
+    own, rising = [], list(speeds) == sorted(speeds)
     for speed in chosen:
         near = [u for u in speeds if math.isclose(u, speed, rel_tol=1e-9)]
         own.append(near[0] if near else speed)
         speeds = speeds if near else [*speeds, speed]
-    return speeds, own
+    return (sorted(speeds) if rising else speeds), own
 
 
 def _progress(done, total, speed, outcome) -> None:
