@@ -61,6 +61,7 @@ def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
         "line_scatter": found.line_scatter,
         "participation": found.participation,
         "line_length": found.length,
+        "model_form_error": found.model_form,
     }
 
 

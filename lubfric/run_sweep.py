@@ -21,6 +21,7 @@ from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
 from .result import FrictionResult
 from .run_folder import RunFolder, drawn, run_folder
+from .sampling.uncertainty import Uncertainty, percent
 from .scene import FASTEST, Scene
 from .short_forms.motion import MOST_SPEEDS
 from .show.report import report_page
@@ -100,7 +101,7 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
         record = curve_record(prepared, curve, time.perf_counter() - begun)
         _write_more(folder, prepared, curve, record, more)
         folder.finish(record)
-    for text in (*curve.validity, *_doubts(curve)):
+    for text in (*curve.validity, *_doubts(curve), *_beside(curve)):
         say(text)
     if scene.numerics.accept and any(e.severe for i in range(curve.speed.size) for e in curve.entries(i)):
         say("accepted although outside the range of the model: these coefficients are marked, and are no answers")
@@ -124,6 +125,22 @@ def _doubts(curve) -> tuple[str, ...]:
     if not few or few == [worst.speed]:
         return (first,)
     return first, f"few spots carry the load at {', '.join(f'{u:g}' for u in few)} m/s: these intervals are too narrow"
+
+
+def _beside(curve) -> tuple[str, ...]:
+    """What the intervals leave out: the estimated error of load sharing itself, where it is more than they say."""
+    told = [p for p in curve.points if p is not None and p.uncertainty.model_form > _stated(p.uncertainty)]
+    if not told:
+        return ()
+    worst = max(told, key=lambda p: p.uncertainty.model_form)
+    places = f"{len(told)} speeds, {percent(worst.uncertainty.model_form)} at {worst.speed:g} m/s"
+    return (f"not in the intervals: the model itself (load sharing) may be off by more than they say at {places}",)
+
+
+def _stated(found: Uncertainty) -> float:
+    """Relative half-width of an interval."""
+    low, high = found.interval
+    return abs(high - low) / abs(high + low) if high + low else math.nan
 
 
 def _unsolved(curve) -> ConvergenceError:

@@ -42,6 +42,8 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         raise InputError(f"{name} = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)")
     low = validate.positive(f"{name} lowest", value[0], "m/s")
-    high = validate.number(f"{name} highest", value[1], "m/s", above=low)
+    high = validate.positive(f"{name} highest", value[1], "m/s")
+    if high <= low:
+        raise InputError(f"{name} = {validate.shown(value)}: highest = {high:g} m/s; allowed: above lowest, swapped?")
     count = validate.integer(f"{name} count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

@@ -11,6 +11,7 @@ import pytest
 
 import lubfric
 from lubfric.cli import main
+from lubfric.table import read_table
 
 SCENE = """
 [bodies]
@@ -240,3 +241,13 @@ def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_
 def test_a_decimal_comma_is_no_list_of_speeds(tmp_path, capsys):
     assert main(["run", "paper", "--speeds", "0,01", "--out", str(tmp_path / "out")]) == 2
     assert "a point in decimals" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_the_error_of_the_model_stands_beside_the_intervals(tmp_path, capsys):
+    assert main(["run", "paper", "--speeds", "0.03,0.3", "--fields", "0.3", "--out", str(tmp_path)]) == 0
+    curve = lubfric.stribeck(lubfric.load_scene("paper"), [0.03, 0.3])
+    column = read_table(tmp_path / "stribeck.csv")["model_form_error"]
+    assert column == pytest.approx(curve.uncertainty.model_form, rel=1e-12)
+    half = np.abs(np.diff(curve.uncertainty.interval)[:, 0]) / 2 / curve.coefficient
+    assert column[0] > half[0]
+    assert f"{100 * column.max():.2g} %" in capsys.readouterr().err.partition("not in the intervals")[2]
