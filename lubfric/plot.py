@@ -23,6 +23,13 @@ def new_figure(*args, **kwargs):
     return figure
 
 
+def interval_band(ax, over: np.ndarray, columns) -> None:
+    """The intervals of f as a band ``over`` speeds or ratios, where ``columns`` have them."""
+    if np.isfinite(columns.get("interval_low", np.array([np.nan]))).any():
+        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
+        ax.fill_between(over, columns["interval_low"], columns["interval_high"], **band)
+
+
 def friction_lines(axes, x, parts, **style) -> None:
     """f, and the parts of it from the contact spots and from the film, over ``x``: ``parts``, three arrays; ``style``:
     of the first."""
@@ -64,9 +71,7 @@ def plot_stribeck(
     speed, total = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
     figure = new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
-    if np.isfinite(c.get("interval_low", np.array([np.nan]))).any():
-        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
-        top.fill_between(speed, c["interval_low"], c["interval_high"], **band)
+    interval_band(top, speed, c)
     parts = c["coefficient"], c["boundary_force"] / total, c["shear_force"] / total
     friction_lines(top, speed, parts, marker="o", ms=4)
     top.set_xscale("log")

@@ -6,9 +6,11 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
+
 from ..console import say, say_written
 from ..errors import ConvergenceError
-from ..output import made_of
+from ..output import made_of, uncertainty_columns
 from ..plain import plain
 from ..prepared import Prepared, prepare
 from ..quantities import heading
@@ -32,7 +34,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
         folder.clear()
         folder.write("traction.csv", _csv(found))
         if len(found.errors) < found.ratio.size:
-            columns = {"ratio": found.ratio, "validity": _told(found)} | found.columns
+            columns = {"ratio": found.ratio, "validity": _told(found)} | _numbers(found)
             title = f"{scene.name}, U = {found.speed:g} m/s"
             folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
         folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
@@ -48,7 +50,8 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
 
 
 def _progress(done, total, ratio, outcome) -> None:
-    text = f"failed: {outcome}" if isinstance(outcome, Exception) else f"f = {outcome.coefficient:.5g}"
+    failed = isinstance(outcome, Exception)
+    text = f"failed: {outcome}" if failed else outcome.uncertainty.short(outcome.coefficient)
     say(f"[{done}/{total}] slide-roll ratio {ratio:.4g}: {text}")
 
 
@@ -56,9 +59,15 @@ def _told(found: TractionResult) -> list[str]:
     return [" | ".join(entry.text for entry in found.entries(i)) for i in range(found.ratio.size)]
 
 
+def _numbers(found: TractionResult) -> dict[str, np.ndarray]:
+    """Every quantity, and how sure f is, by name."""
+    return {name: found[name] for name in QUANTITIES} | uncertainty_columns(found.uncertainty)
+
+
 def _csv(found: TractionResult) -> bytes:
-    columns = {heading(name): found[name] for name in QUANTITIES}
-    return table_bytes({"ratio [-]": found.ratio} | columns | {"validity": _told(found)})
+    columns = {heading(name): values for name, values in _numbers(found).items()}
+    told = {"validity": _told(found), "uncertainty": list(found.uncertainty.text)}
+    return table_bytes({"ratio [-]": found.ratio} | columns | told)
 
 
 def _record(prepared: Prepared, found: TractionResult, seconds: float) -> dict:
@@ -67,6 +76,6 @@ def _record(prepared: Prepared, found: TractionResult, seconds: float) -> dict:
         "report": found.report.as_dict(),
         "validity": list(found.validity),
         "ratio": found.ratio,
-        "columns": found.columns,
+        "columns": _numbers(found),
         "entries": [[asdict(entry) for entry in found.entries(i)] for i in range(found.ratio.size)],
     }

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
-from ..plot import GREEN, GREY, RED, friction_lines, new_figure
+from ..plot import GREEN, GREY, RED, friction_lines, interval_band, new_figure
 from ..quantities import KEYS
 
 
@@ -18,6 +18,7 @@ def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: 
     c = {name: column[order] for name, column in columns.items() if name != "validity"}
     figure = new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2]})
+    interval_band(top, c["ratio"], c)
     parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
     friction_lines(top, c["ratio"], parts, marker="o", ms=4)
     told = columns.get("validity")

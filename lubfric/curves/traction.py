@@ -10,6 +10,7 @@ from .. import validate
 from ..errors import LubfricError
 from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import Report
+from ..sampling.uncertainty import UncertaintyCurve, curve_of
 from ..scene import Scene
 from ..steady import FrictionResult, friction
 from ..sweep.points import CurveResult, Swept, columns_of, judged, report_of
@@ -43,6 +44,11 @@ class TractionResult(CurveResult):
     def coefficient(self) -> np.ndarray:
         """Friction coefficient [-]."""
         return self.columns["coefficient"]
+
+    @property
+    def uncertainty(self) -> UncertaintyCurve:
+        """How sure f is at every ratio: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
+        return curve_of([None if point is None else point.uncertainty for point in self.points])
 
     @property
     def _swept(self) -> Swept:

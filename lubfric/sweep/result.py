@@ -106,6 +106,13 @@ class StribeckResult(CurveResult):
 
         return curve_axes(self, ax, **style)
 
+    def to_csv(self, path) -> None:
+        """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
+        from ..output import csv_bytes
+        from ..store import write_whole
+
+        write_whole(path, csv_bytes(self))
+
 
 def collected(speeds, points, errors) -> StribeckResult:
     """The curve of ``points`` (None where failed) and ``errors`` {index: exception} at ``speeds`` [m/s]."""

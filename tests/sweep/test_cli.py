@@ -251,3 +251,14 @@ def test_the_error_of_the_model_stands_beside_the_intervals(tmp_path, capsys):
     half = np.abs(np.diff(curve.uncertainty.interval)[:, 0]) / 2 / curve.coefficient
     assert column[0] > half[0]
     assert f"{100 * column.max():.2g} %" in capsys.readouterr().err.partition("not in the intervals")[2]
+
+
+def test_a_curve_writes_the_table_of_the_command(tmp_path):
+    assert (
+        main(["run", "paper", "--speeds", "0.1,0.3", "--fields", "0.3", "--out", str(tmp_path), "--workers", "1"]) == 0
+    )
+    lubfric.stribeck(lubfric.load_scene("paper"), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
+    own, command = (read_table(tmp_path / name) for name in ("own.csv", "stribeck.csv"))
+    assert list(own) == list(command)
+    for name in set(own) - {"seconds"}:
+        assert np.array_equal(own[name], command[name], equal_nan=own[name].dtype.kind == "f"), name
