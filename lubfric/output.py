@@ -1,4 +1,4 @@
-"""Results as the contents of files: result.json, stribeck.csv, fields.npz."""
+"""Results as the contents of files: result.json, fields.npz."""
 
 from __future__ import annotations
 
@@ -10,13 +10,10 @@ import numpy as np
 
 from .plain import plain
 from .prepared import Prepared
-from .quantities import heading
 from .result import FrictionResult
-from .sampling.uncertainty import UncertaintyCurve
 from .scene import Scene, scene_as_dict
 from .surface import Surface, rms_slope
 from .sweep import QUANTITIES, StribeckResult
-from .table import table_bytes
 from .version import __version__
 
 
@@ -40,29 +37,6 @@ def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
     versions = {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
     versions["python"] = platform.python_version()
     return {"scene": scene_as_dict(scene), "surface": map_, "versions": versions}
-
-
-def csv_bytes(curve: StribeckResult) -> bytes:
-    """One row a speed, one column a quantity, the unit in the heading; the last columns say what does not hold
-    there, and how sure f is."""
-    columns = {name: getattr(curve, name) for name in QUANTITIES} | uncertainty_columns(curve.uncertainty)
-    told = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
-    named = {heading(name): values for name, values in columns.items()}
-    return table_bytes(named | {"validity": told, "uncertainty": list(curve.uncertainty.text)})
-
-
-def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
-    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
-    return {
-        "interval_low": found.interval[:, 0],
-        "interval_high": found.interval[:, 1],
-        "numerical_error": found.numerical,
-        "sampling_error": found.sampling,
-        "line_scatter": found.line_scatter,
-        "participation": found.participation,
-        "line_length": found.length,
-        "model_form_error": found.model_form,
-    }
 
 
 def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:

@@ -16,7 +16,7 @@ from .console import keeping, say, say_written
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
-from .output import csv_bytes, curve_record, fields_bytes
+from .output import curve_record, fields_bytes
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import prepare
 from .result import FrictionResult
@@ -28,6 +28,7 @@ from .show.report import report_page
 from .store import fingerprint
 from .studies.pool import MOST_WORKERS, pool, processors
 from .sweep import AUTO, stribeck
+from .sweep.table import csv_bytes
 from .table import read_table
 from .vtk import vtk_bytes
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..console import say, say_written
 from ..errors import ConvergenceError
-from ..output import made_of, uncertainty_columns
+from ..output import made_of
 from ..plain import plain
 from ..prepared import Prepared, prepare
 from ..quantities import heading
@@ -19,6 +19,7 @@ from ..run_sweep import parse_speeds
 from ..scene import Scene
 from ..store import fingerprint
 from ..sweep import QUANTITIES
+from ..sweep.table import uncertainty_columns
 from ..table import table_bytes
 from .draw import plot_traction
 from .traction import TractionResult, traction

@@ -108,8 +108,8 @@ class StribeckResult(CurveResult):
 
     def to_csv(self, path) -> None:
         """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
-        from ..output import csv_bytes
         from ..store import write_whole
+        from .table import csv_bytes
 
         write_whole(path, csv_bytes(self))
 

@@ -1,0 +1,33 @@
+"""A curve as a table: stribeck.csv."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..quantities import heading
+from ..sampling.uncertainty import UncertaintyCurve
+from ..table import table_bytes
+from .points import QUANTITIES
+
+
+def csv_bytes(curve) -> bytes:
+    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading; the last columns
+    say what does not hold there, and how sure f is."""
+    columns = {name: getattr(curve, name) for name in QUANTITIES} | uncertainty_columns(curve.uncertainty)
+    told = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+    named = {heading(name): values for name, values in columns.items()}
+    return table_bytes(named | {"validity": told, "uncertainty": list(curve.uncertainty.text)})
+
+
+def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
+    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
+    return {
+        "interval_low": found.interval[:, 0],
+        "interval_high": found.interval[:, 1],
+        "numerical_error": found.numerical,
+        "sampling_error": found.sampling,
+        "line_scatter": found.line_scatter,
+        "participation": found.participation,
+        "line_length": found.length,
+        "model_form_error": found.model_form,
+    }
