@@ -11,8 +11,8 @@ from .points import QUANTITIES
 
 
 def csv_bytes(curve) -> bytes:
-    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading; the last columns
-    say what does not hold there, and how sure f is."""
+    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading; the last
+    columns say what does not hold there, and how sure f is."""
     columns = {name: getattr(curve, name) for name in QUANTITIES} | uncertainty_columns(curve.uncertainty)
     told = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
     named = {heading(name): values for name, values in columns.items()}
