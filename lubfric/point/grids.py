@@ -13,13 +13,13 @@ from ..rough.contract import ContactState, RoughContact
 from .balance import Balance
 from .one_grid import Stage, on_grid
 from .operating_point import OperatingPoint
+from .split import growth
 from .tolerances import balance_tolerance, felt_gap
 
 LEAST_ROUGHNESS = 0.9  # of Sq, kept by the averages over the largest cells
 LEAST_CONTACT = 1e-6  # of the load: less is next to separation on this grid
 WORST_GRID = 2.0  # relative error of the film's load that the coarsest grid may make
 SEEN, FEW_CELLS = 0.3, 64  # of what summits have lost; touching cells below which all of that counts
-LARGEST_GROWTH = 50.0  # of ln(F_H/F_C): beyond it nothing is known
 LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
 
 
@@ -170,15 +170,10 @@ def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: f
     d2, d1 = abs(changes[-2]) if len(changes) > 1 else 0.0, abs(changes[-1])
     ratio = min(max(d1 / d2, 0.25), 0.75) if d2 > 0 else 0.5
     rest = max(d1 * ratio / (1 - ratio), d2 / 12, _by_chance(balance.contact, lost))
-    return 2 * balance.gap_sensitivity * rest * _growth(rest / abs(balance.slope) if balance.slope else 0.0)
+    return 2 * balance.gap_sensitivity * rest * growth(rest / abs(balance.slope) if balance.slope else 0.0)
 
 
 def _by_chance(contact: ContactState, lost: float) -> float:
     """Volume residual that ``lost`` [m] summits leave unseen, however alike the contact is on two grids."""
     cells = FEW_CELLS if contact.pressure is None else np.count_nonzero(contact.pressure)
     return SEEN * lost / (2 * contact.mean_film) * min(1.0, FEW_CELLS / max(cells, 1))
-
-
-def _growth(moved: float) -> float:
-    """By how much the contact load changes more than to first order where ln(F_H/F_C) moves by ``moved``."""
-    return math.expm1(min(moved, LARGEST_GROWTH)) / moved if moved > 0 else 1.0

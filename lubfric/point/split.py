@@ -11,6 +11,7 @@ from .operating_point import OperatingPoint
 
 BOUNDS = (-40.0, 30.0)  # film shares down to 4e-18, contact shares to 1e-13
 NUDGE = 1e-3  # of the film's load, for the exponent of Moes' film
+LARGEST_GROWTH = 50.0  # of ln(F_H/F_C): beyond it nothing is known
 STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
 
 
@@ -56,3 +57,14 @@ def _moes(line: LineContact, share: float) -> tuple[float, float]:
     film = moes_film(share * line.M, line.L)
     heavier = moes_film((1 + NUDGE) * share * line.M, line.L)
     return line.film_unit * film, -math.log(heavier / film) / math.log1p(NUDGE)
+
+
+def growth(moved: float, odds: float = math.inf) -> float:
+    """By how much the contact load grows more than to first order where ln(F_H/F_C) falls by ``moved`` >= 0 from the
+    ln of the ``odds`` F_H/F_C. As F_C = F_T/(1 + F_H/F_C), that is less than 1 where the contact carries most."""
+    moved = min(moved, LARGEST_GROWTH)
+    if not moved or not odds:
+        return 1.0
+    if odds == math.inf:
+        return math.expm1(moved) / moved
+    return ((1 + odds) / (1 + math.exp(-moved) * odds) - 1) * (1 + odds) / (moved * odds)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..point.balance import Balance
+from ..point.split import growth
 from ..rough.contract import ContactState
 
 STEP = 0.05  # of s = ln(F_H/F_C), each way, for rates of the film
-LARGEST = 50.0  # of s: beyond it nothing is known
 LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
 
 
@@ -54,14 +53,7 @@ class Response:
         rate = self.per_gap(name)
         if not rate:  # a quantity that does not move is known, however far the gap is off
             return 0.0
-        return rate * abs(gap_error) * self._growth(abs(self.split * gap_error))
-
-    def _growth(self, moved: float) -> float:
-        """By how much the contact load grows more than to first order where s falls by ``moved``; at least 1."""
-        if not 0 < moved < LARGEST or not self.odds:
-            return 1.0
-        more = (1 + self.odds) / (1 + math.exp(-moved) * self.odds) - 1
-        return max(1.0, more * (1 + self.odds) / (moved * self.odds))
+        return rate * abs(gap_error) * max(1.0, growth(abs(self.split * gap_error), self.odds))
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
