@@ -1,4 +1,4 @@
-"""The bodies and the oil of the small scene files that several tests write."""
+"""Parts of the small scene files that several tests write: the bodies and the oil, and a small rough patch."""
 
 BODIES_AND_OIL = """
 [bodies]
@@ -10,4 +10,11 @@ boundary_friction_coefficient = 0.09
 [lubricant]
 viscosity = 0.36
 pressure_viscosity_coefficient = 25e-9
+"""
+SMALL_PATCH = """[surface]
+sq = 1e-7
+correlation_length = 4e-6
+[contact]
+shape = [48, 48]
+spacing = 1.1e-6
 """

@@ -13,14 +13,12 @@ from ..errors import ConvergenceError
 from ..output import made_of
 from ..plain import plain
 from ..prepared import Prepared, prepare
-from ..quantities import heading
 from ..run_folder import run_folder
 from ..run_sweep import parse_speeds
 from ..scene import Scene
 from ..store import fingerprint
 from ..sweep import QUANTITIES
-from ..sweep.table import uncertainty_columns
-from ..table import table_bytes
+from ..sweep.table import curve_table, uncertainty_columns
 from .draw import plot_traction
 from .traction import TractionResult, traction
 
@@ -33,9 +31,9 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     with run_folder(out, fingerprint(prepared, asked, "traction")) as folder:
         found = traction(prepared, asked, on_point=_progress, raise_on_failure=False)
         folder.clear()
-        folder.write("traction.csv", _csv(found))
+        folder.write("traction.csv", curve_table(found, {"ratio": found.ratio} | _numbers(found)))
         if len(found.errors) < found.ratio.size:
-            columns = {"ratio": found.ratio, "validity": _told(found)} | _numbers(found)
+            columns = {"ratio": found.ratio, "validity": found.told} | _numbers(found)
             title = f"{scene.name}, U = {found.speed:g} m/s"
             folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
         folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
@@ -56,19 +54,9 @@ def _progress(done, total, ratio, outcome) -> None:
     say(f"[{done}/{total}] slide-roll ratio {ratio:.4g}: {text}")
 
 
-def _told(found: TractionResult) -> list[str]:
-    return [" | ".join(entry.text for entry in found.entries(i)) for i in range(found.ratio.size)]
-
-
 def _numbers(found: TractionResult) -> dict[str, np.ndarray]:
     """Every quantity, and how sure f is, by name."""
     return {name: found[name] for name in QUANTITIES} | uncertainty_columns(found.uncertainty)
-
-
-def _csv(found: TractionResult) -> bytes:
-    columns = {heading(name): values for name, values in _numbers(found).items()}
-    told = {"validity": _told(found), "uncertainty": list(found.uncertainty.text)}
-    return table_bytes({"ratio [-]": found.ratio} | columns | told)
 
 
 def _record(prepared: Prepared, found: TractionResult, seconds: float) -> dict:

@@ -24,8 +24,7 @@ def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float
     independent heights. f follows by the share of the load that the rigid film of the whole load would carry if it were
     as thick as the gap.
     """
-    lx, ly = lines.lengths
-    pilot = min(PILOT * ly, lines.available)
+    (lx, ly), pilot = lines.lengths, pilot_length(lines)
     if speed == 0:
         return 0.0, pilot
     film = scene.line_contact(speed).moes_film
@@ -40,6 +39,11 @@ def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float
     return error, min(length, lines.available, MOST * ly)
 
 
+def pilot_length(lines: Lines) -> float:
+    """Length [m] of the first line."""
+    return min(PILOT * lines.lengths[1], lines.available)
+
+
 def piece_cells(lines: Lines) -> float:
     """Cells of a piece of the surface on the scene's own cells; 0 where the lines have these."""
     (fx, fy), step = lines.cells.factors, lines.cells.coarse[1]
@@ -49,7 +53,7 @@ def piece_cells(lines: Lines) -> float:
 def in_words(scene: Scene, lines: Lines, sq: float, speed: float) -> str:
     """One line for `lubfric info`."""
     error, length = foretold(scene, lines, sq, speed)
-    asked, first = scene.numerics.sampling_tolerance, min(PILOT * lines.lengths[1], lines.available)
+    asked, first = scene.numerics.sampling_tolerance, pilot_length(lines)
     seconds = CELL_SECONDS * lines.cells.count * length / lines.cells.coarse[1] + PIECE_SECONDS * piece_cells(lines)
     dx, dy = lines.cells.coarse
     ends = length == lines.available and error**2 * first > asked**2 * length

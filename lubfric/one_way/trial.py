@@ -71,7 +71,9 @@ def _dry(problem: Problem, split: float, last: Trial | Before) -> tuple[float, C
     return contact_load, dry, np.where(dry.pressure > 0, 0.0, np.maximum(dry.gap, 0.0))
 
 
-def too_thick(problem: Problem, log_lift: float, last: Trial | Before | None):
+def too_thick(problem: Problem, log_lift: float, last: Trial | Before | None) -> tuple[float, Trial]:
+    """ln of the load over what the film carries under bodies that are apart, at the ln of their lift; it increases with
+    the lift."""
     scale = max(float(problem.heights.std()), problem.contact.moes_film)
     trial = _lifted(problem, scale * math.exp(log_lift), last)
     return math.log(problem.load / trial.film_load), trial

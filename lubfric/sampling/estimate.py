@@ -12,7 +12,7 @@ from .grid_pair import gap_left, mean_of
 from .influence import BlockError
 from .line_record import Pooled
 from .response import Response
-from .uncertainty import FEW, MATTERS, FieldErrors, Uncertainty, field_errors_of, interval, percent
+from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, percent, too_few
 
 FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
 SHEAR = ("shear_force", "couette_force", "rolling_force")
@@ -139,8 +139,7 @@ def uncertainty_of(
         )
     elif sampling > asked:
         notes.append(f"more than the {percent(asked)} asked")
-    few = 0 < together.participation < FEW and sampling > MATTERS * asked
-    if few:
+    if too_few(together.participation, sampling, asked):
         notes.append(
             f"few spots carry the load (participation {together.participation:.2g}, below {FEW:g}): the interval "
             "is too narrow more often than it says"

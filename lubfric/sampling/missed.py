@@ -28,7 +28,7 @@ def missed_share(prepared, film, found, correlation_length: float) -> float:
         bodies.width,
         correlation_length,
     )
-    return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
+    return _share(bodies, load, found)
 
 
 def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
@@ -60,7 +60,13 @@ def hidden_share(prepared, found, surface, depth: float) -> float:
     it, where every such piece has one."""
     bodies = prepared.scene.bodies
     load = _spot(surface.heights, surface.spacing, bodies.e_prime, depth) / surface.size[1] * bodies.width
-    return bodies.boundary_friction_coefficient * load / (bodies.load * abs(found.coefficient))
+    return _share(bodies, load, found)
+
+
+def _share(bodies, load: float, found) -> float:
+    """What a contact ``load`` [N] would add to f, relative to it."""
+    friction = bodies.load * abs(found.coefficient)
+    return bodies.boundary_friction_coefficient * load / friction if friction else math.inf
 
 
 def _spot(heights, spacing, e_prime: float, depth: float) -> float:

@@ -21,7 +21,7 @@ from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import hidden_share, missed_share
 from .response import Response, respond, slopes_of
-from .uncertainty import FEW, MATTERS
+from .uncertainty import too_few
 
 MOST_PAIRS, PAIR_SHARE = 12, 0.5  # of the sampling tolerance
 KEPT = 0.5  # of the share of the grid: what pieces taken at a neighbouring speed may leave open
@@ -106,7 +106,7 @@ class Sample:
     def few(self) -> bool:
         """Whether too few spots carry the load for an honest interval, where that matters."""
         asked = self.prepared.scene.numerics.sampling_tolerance
-        return self.anchor is not None and self.together.participation < FEW and self.reached > MATTERS * asked
+        return self.anchor is not None and too_few(self.together.participation, self.reached, asked)
 
     @property
     def too_coarse(self) -> bool:

@@ -45,8 +45,8 @@ class Uncertainty:
 
     @property
     def few_spots(self) -> bool:
-        """Whether so few spots carry the load that the interval is too narrow more often than it says."""
-        return 0 < self.participation < FEW and self.sampling > MATTERS * self.tolerance
+        """Whether `too_few` spots carry the load."""
+        return too_few(self.participation, self.sampling, self.tolerance)
 
     @property
     def text(self) -> str:
@@ -67,6 +67,12 @@ class Uncertainty:
             f"f = {coefficient:.{min(digits, 7)}f} ± {both:.1g} "
             f"(numerical {percent(self.numerical)}, surface {percent(self.sampling)})"
         )
+
+
+def too_few(participation: float, reached: float, asked: float) -> bool:
+    """Whether so few spots carry the load, 0 where nothing touches, that an interval is too narrow more often than it
+    says, where the standard error ``reached`` matters beside the one ``asked``."""
+    return 0 < participation < FEW and reached > MATTERS * asked
 
 
 NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed", "model_form")

@@ -19,7 +19,7 @@ from ..ehl.solve import solve_line_contact
 from ..lines.contract import Lines
 from ..lines.length import PILOT
 from ..lines.make import lines_of, takes_line
-from ..lines.outlook import foretold, piece_cells
+from ..lines.outlook import foretold, piece_cells, pilot_length
 from ..rough.height_map import contact_map
 from ..scene import Scene
 
@@ -39,8 +39,8 @@ class Ground:
     """What the curves on one map share.
 
     ``sq`` [m]; ``shape`` of the grid; ``transform`` [s]: one Fourier transform there and back on it; ``lines``: where
-    the map is a long line; ``curve``: whether contacts are read from one curve; ``piece``: cells of
-    a piece on the scene's own cells over those of the grid.
+    the map is a long line; ``curve``: whether contacts are read from one curve; ``piece``: cells of a piece on
+    the scene's own cells over those of the grid.
     """
 
     sq: float
@@ -67,8 +67,7 @@ def ground_of(scene: Scene, curve: bool) -> Ground:
     if not takes_line(scene):
         return Ground(surface.sq, surface.shape, _transform(surface.shape), curve=curve)
     lines = lines_of(scene)
-    length = min(PILOT * lines.lengths[1], lines.available)
-    shape = lines.cells.count, max(2, round(length / lines.cells.coarse[1]))
+    shape = lines.cells.count, max(2, round(pilot_length(lines) / lines.cells.coarse[1]))
     return Ground(surface.sq, shape, _transform(shape), lines, piece=piece_cells(lines) / math.prod(shape))
 
 

@@ -11,7 +11,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..result import FrictionResult
 from ..show import Shown
 from ..show.cite import together
-from ..validity.entry import Validity, entries_of, gathered
+from ..validity.entry import Validity, entries_of, gathered, in_a_cell
 
 NOT_NUMBERS = (
     "report",
@@ -51,6 +51,11 @@ class CurveResult(Shown):
     def entries(self, index: int) -> tuple[Validity, ...]:
         """Assumptions that do not hold at one of the points, refused or not."""
         return entries_of(self.points[index], self.errors.get(index))
+
+    @property
+    def told(self) -> list[str]:
+        """The entries of each point in one cell of a table."""
+        return [in_a_cell(self.entries(i)) for i in range(len(self.points))]
 
     @property
     def validity(self) -> tuple[str, ...]:

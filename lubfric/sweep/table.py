@@ -1,4 +1,4 @@
-"""A curve as a table: stribeck.csv."""
+"""Curves as tables: stribeck.csv, traction.csv."""
 
 from __future__ import annotations
 
@@ -13,10 +13,14 @@ from .points import QUANTITIES
 def csv_bytes(curve) -> bytes:
     """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading; the last
     columns say what does not hold there, and how sure f is."""
-    columns = {name: getattr(curve, name) for name in QUANTITIES} | uncertainty_columns(curve.uncertainty)
-    told = [" | ".join(entry.text for entry in curve.entries(i)) for i in range(curve.speed.size)]
+    columns = {name: getattr(curve, name) for name in QUANTITIES}
+    return curve_table(curve, columns | uncertainty_columns(curve.uncertainty))
+
+
+def curve_table(curve, columns: dict[str, np.ndarray]) -> bytes:
+    """``columns`` of a curve under their headings, what does not hold at each point, and how sure f is."""
     named = {heading(name): values for name, values in columns.items()}
-    return table_bytes(named | {"validity": told, "uncertainty": list(curve.uncertainty.text)})
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
 
 
 def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:

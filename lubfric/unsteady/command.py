@@ -14,6 +14,7 @@ from ..run_folder import CHECKPOINT, RunFolder, run_folder
 from ..scene import Scene
 from ..store import fingerprint
 from ..table import read_table, table_bytes
+from ..validity.entry import in_a_cell
 from .checkpoint import STATE
 from .moment import UNITS
 from .plot import animate, plot_history
@@ -61,8 +62,8 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
     """All but the result."""
     folder.clear()
     columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
-    texts = [" | ".join(entry.text for entry in entries) for entries in result.entries]
-    folder.write("history.csv", table_bytes(columns | {"validity": texts}))
+    told = {"validity": [in_a_cell(entries) for entries in result.entries]}
+    folder.write("history.csv", table_bytes(columns | told))
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.write("fields.npz", npz_bytes(fields))
     if result.time.size > 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,6 +63,11 @@ def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     found = point if refused is None else refused
     return () if found is None else found.validity
+
+
+def in_a_cell(entries: Iterable[Validity]) -> str:
+    """The texts of ``entries`` in one cell of a table."""
+    return " | ".join(entry.text for entry in entries)
 
 
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from lubfric.rough.height_map import contact_map
 from lubfric.sampling import line_friction as lines_solved
 from lubfric.sampling.grid_pair import gap_left, mean_of
 from lubfric.sampling.line_friction import line_friction
+from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.response import Response, Slopes, touched_length
 from lubfric.sampling.sample import response_of
 from lubfric.table import read_table
@@ -215,3 +217,10 @@ def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(odds):
         exact = (1 + odds) / (1 + odds * np.exp(-moved)) - 1
         assert response.relative("contact_load", moved) == pytest.approx(max(exact, -rate * moved), rel=1e-9)
     assert response.per_gap("contact_load") == -rate
+
+
+def test_contact_that_cells_hide_matters_most_where_there_is_no_friction():
+    """Its share of f falls as 1/f; of no friction at all it is everything."""
+    model = lubfric.prepare(PAPER)
+    shares = [hidden_share(model, SimpleNamespace(coefficient=f), model.surface, 1e-9) for f in (0.02, 0.01, 0.0)]
+    assert shares[1] == pytest.approx(2 * shares[0], rel=1e-12) and 0 < shares[0] < shares[2] == math.inf

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.cli import main
@@ -20,13 +20,8 @@ SCENE = (
     BODIES_AND_OIL
     + """[motion]
 entrainment_speed = 0.001
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-[contact]
-shape = [48, 48]
-spacing = 1.1e-6
 """
+    + SMALL_PATCH
 )
 STUDY = """
 scene = "small.toml"

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.report import Report
@@ -14,13 +14,8 @@ SCENE = (
     BODIES_AND_OIL
     + """[motion]
 entrainment_speed = 0.01
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-[contact]
-shape = [48, 48]
-spacing = 1.1e-6
 """
+    + SMALL_PATCH
 )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric import table
@@ -23,13 +23,8 @@ SCENE = (
     + """[motion]
 entrainment_speed = 0.01
 speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-[contact]
-shape = [48, 48]
-spacing = 1.1e-6
 """
+    + SMALL_PATCH
 )
 HISTORY = (
     "[transient]\nduration = 0.01\noutputs = 10\n"
