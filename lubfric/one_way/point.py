@@ -17,6 +17,7 @@ from ..deterministic.problem import Problem
 from ..lubricant import shear_stress
 from ..report import CONVERGED, Report
 from ..roots import Root, increasing_root
+from .film import Kept
 from .lift import GUESS
 from .lift import TOLERANCE as LIFT_TOLERANCE
 from .together import Together, together
@@ -75,7 +76,7 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
     """
     if start is None:
         touching = touching_film(problem)
-        first, before = touching.film_load > problem.load, Before(touching.ruptured, 0.0)
+        first, before = touching.film_load > problem.load, Before(touching.kept, 0.0)
     else:
         first, before = start.lifted, _before(problem, start)
     tried = []
@@ -135,12 +136,16 @@ def _both(problem: Problem, near: OneWay | None, before: Before, tolerance: floa
 
 
 def _before(problem: Problem, near: OneWay) -> Before:
-    """The film of ``near`` on the cells of ``problem``, the nearest of its own."""
+    """The film of ``near`` on the cells of ``problem``."""
+    return Before(Kept(on_cells(near, problem.x, problem.heights.shape[1])), near.spot_film)
+
+
+def on_cells(near: OneWay, x, columns: int) -> np.ndarray:
+    """Where the film of ``near`` has ruptured, on cells at ``x`` [m] in so many ``columns``: the nearest of its own."""
     (nx, ny), step = near.ruptured.shape, near.x[1] - near.x[0]
-    along = np.clip(np.rint((problem.x - near.x[0]) / step).astype(int), 0, nx - 1)
-    columns = problem.heights.shape[1]
+    along = np.clip(np.rint((x - near.x[0]) / step).astype(int), 0, nx - 1)
     across = ((np.arange(columns) + 0.5) * ny / columns).astype(int)
-    return Before(near.ruptured[along][:, across], near.spot_film)
+    return near.ruptured[along][:, across]
 
 
 def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report) -> OneWay:

@@ -11,7 +11,7 @@ from ..contact import ContactResult
 from ..deterministic.problem import Problem
 from ..deterministic.start import dry_contact
 from ..film.rigid import true_pressure
-from .film import GapFilm, gap_film
+from .film import GapFilm, Kept, gap_film
 from .lift import GUESS, Lifted, lifted, spots_of, surplus
 from .limit import pressure_limit
 
@@ -30,16 +30,16 @@ class Trial:
     spot_film: float
 
     @property
-    def ruptured(self) -> np.ndarray:
-        """Where the film has ruptured (bool)."""
-        return self.film.ruptured
+    def kept(self) -> Kept:
+        """What its film leaves a neighbour."""
+        return self.film.kept
 
 
 @dataclass(frozen=True)
 class Before:
     """What a first trial takes from a neighbour."""
 
-    ruptured: np.ndarray
+    kept: Kept
     spot_film: float
     contact: None = None
 
@@ -48,7 +48,7 @@ def both_conditions(problem: Problem, unknowns, last: Trial | Before):
     """Both conditions at the share ``unknowns[0]`` of the film and ln(film on the spots) ``unknowns[1]``."""
     split, height = float(unknowns[0]), math.exp(float(unknowns[1]))
     contact_load, dry, gap = _dry(problem, split, last)
-    film = gap_film(problem, gap + height, last.ruptured)
+    film = gap_film(problem, gap + height, last.kept)
     trial = _filled(problem, Lifted(gap + height, film, height), dry.pressure > 0, contact_load, dry)
     unmet = math.log((problem.load - contact_load) / trial.film_load)
     return np.array([unmet, surplus(problem, spots_of(dry.pressure), height, film)]), trial
@@ -58,7 +58,7 @@ def too_much_film(problem: Problem, split: float, last: Trial | Before):
     """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
-    raised = lifted(problem, gap, spots, last.spot_film or None, last.ruptured)
+    raised = lifted(problem, gap, spots, last.spot_film or None, last.kept)
     trial = _filled(problem, raised, dry.pressure > 0, contact_load, dry)
     return math.log((problem.load - contact_load) / trial.film_load), trial
 
@@ -81,7 +81,7 @@ def too_thick(problem: Problem, log_lift: float, last: Trial | Before | None) ->
 
 def _lifted(problem: Problem, lift: float, last: Trial | Before | None) -> Trial:
     gap = np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
-    film = gap_film(problem, gap, last.ruptured if last else None)
+    film = gap_film(problem, gap, last.kept if last else None)
     return _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
 
 
