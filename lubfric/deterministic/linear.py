@@ -125,9 +125,7 @@ class System:
         return Step(pressure, fill, dent, approach, gap, iterations, left)
 
 
-def gmres(
-    apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES
-) -> tuple[np.ndarray, int, float]:
+def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES) -> tuple[np.ndarray, int, float]:
     """Solve ``apply(x) = right`` by right-preconditioned GMRES until |residual| <= accuracy |right|; restarted after
     ``most`` iterations, in all ``cycles`` times begun.
 

@@ -28,7 +28,7 @@ from ..report import STAGNATED, Report
 
 SETS = 400  # of active cells tried
 SETTLED = 3e-4  # change of ∫ Q from set to set, relative
-RIGHT = 3e-4  # of what `LOST` bounds, at which ∫ Q was met to move by 2e-4 at most with the next set
+RIGHT = 3e-4  # of what `LOST` bounds: with that f was met to be .6 % off at most, which serves on the way to a balance
 LOST = 1e-2  # flow beyond what fills the gap, of that which enters; and ∫ Q where it pulls, of the whole
 NO_PIVOTS = {
     "diag_pivot_thresh": 0.0,
@@ -41,8 +41,8 @@ LONGER = 8  # cells, at most, by which a film that begins too late is made longe
 
 @dataclass(frozen=True)
 class Kept:
-    """What the film of a neighbouring gap leaves: where it has ruptured (bool) (nx, ny), and the factors and unknowns of
-    its last linear system, of the same cells (None: not kept)."""
+    """What the film of a neighbouring gap leaves: where it has ruptured (bool) (nx, ny), and the factors and unknowns
+    of its last linear system, of the same cells (None: not kept)."""
 
     ruptured: np.ndarray
     factors: SuperLU | None = None
@@ -66,27 +66,27 @@ class GapFilm:
         return self.kept.ruptured
 
 
-def gap_film(problem: Problem, gap, near: Kept | None = None) -> GapFilm:
+def gap_film(problem: Problem, gap, near: Kept | None = None, right: float = 0.0) -> GapFilm:
     """The film of ``gap`` > 0 [m] (nx, ny) at the viscosity of ambient pressure, as Q asks; ``near``: of a neighbouring
     gap, to start from.
 
     Stops when no cell changes sides; or when both what does not fit into ruptured cells and what pulls in full ones is
-    at most `LOST`, and ∫ Q has changed by no more than `SETTLED` (not asked for where both are at most `RIGHT`, which
-    moved it by less). Raises `ConvergenceError` after `SETS`.
+    at most `LOST`, and ∫ Q has changed by no more than `SETTLED` (not asked for where both are at most ``right``).
+    Raises `ConvergenceError` after `SETS`.
     """
     problem = problem.with_lubricant(Lubricant(problem.lubricant.viscosity, viscosity_law="constant"))
     system = _system(problem, gap)
     carried, entering = math.inf, float(system.entering.sum())
     kept = Kept(_outlet(problem, gap)) if near is None else near
     for count in range(1, SETS + 1):
-        kept = system.solve(kept)
-        out, unknown = kept.ruptured, kept.unknown
+        unknown, kept = system.solve(kept)
+        out = kept.ruptured
         new = np.where(out, unknown <= 1, unknown < 0)
         Q, fill = np.where(out, 0.0, np.maximum(unknown, 0.0)), np.where(out, np.clip(unknown, 0.0, 1.0), 1.0)
         before, carried = carried, float(Q.sum())
         lost = float((np.where(out, np.abs(unknown - fill), 0.0) * system.carried).sum()) / entering
         wrong = max(lost, float((Q - np.where(out, 0.0, unknown)).sum()) / carried)
-        settled = wrong <= RIGHT or wrong <= LOST and abs(carried - before) <= SETTLED * carried
+        settled = wrong <= right or wrong <= LOST and abs(carried - before) <= SETTLED * carried
         if settled or np.array_equal(new, out):
             first = np.maximum(first_film(problem, gap), problem.floor)
             return GapFilm(Q, fill, inlet(problem, Q[0], first), kept, count)
@@ -121,27 +121,24 @@ class _System:
     carried: np.ndarray
     entering: np.ndarray
 
-    def solve(self, start: Kept) -> Kept:
-        """θ where the film has ruptured, Q elsewhere; by the factors of ``start`` where it has any that lead there in
-        `FEW` iterations."""
+    def solve(self, start: Kept) -> tuple[np.ndarray, Kept]:
+        """θ where the film has ruptured, Q elsewhere, and what to keep; by the factors of ``start`` where it has any
+        that lead there in `FEW` iterations."""
         out = start.ruptured
         order, matrix, rows = self._linear(out)
         size, factors = float(np.linalg.norm(rows)), start.factors
-        unknown = np.empty(out.size)
         if factors is not None and start.unknown is not None:
             guess = start.unknown.ravel()[order]
             rest = rows - matrix @ guess
-            accuracy = ACCURATE * size / float(np.linalg.norm(rest))
+            accuracy = ACCURATE * size / max(float(np.linalg.norm(rest)), 1e-300)
             if accuracy >= 1:
-                return start
+                return start.unknown, start
             change, _, left = gmres(matrix.__matmul__, factors.solve, rest, accuracy, FEW, 1)
             if left <= accuracy:
-                unknown[order] = guess + change
-                return Kept(out, factors, unknown.reshape(out.shape))
+                return _put(guess + change, order, factors, out)
         # columns add up to nothing or more and only their diagonal is positive: no pivoting is needed
         factors = splu(matrix, permc_spec="NATURAL", **NO_PIVOTS)
-        unknown[order] = factors.solve(rows)
-        return Kept(out, factors, unknown.reshape(out.shape))
+        return _put(factors.solve(rows), order, factors, out)
 
     def _linear(self, out) -> tuple[np.ndarray, csc_matrix, np.ndarray]:
         """Order of elimination, and in that order the matrix and the right side where the film is ``out``."""
@@ -156,6 +153,14 @@ class _System:
         rows = self.entering - full
         rows[1:] += full[:-1]
         return order, matrix, rows.ravel()[order]
+
+
+def _put(values, order, factors: SuperLU, out) -> tuple[np.ndarray, Kept]:
+    """``values`` of unknowns in the ``order`` of elimination by cells, and what to keep."""
+    unknown = np.empty(out.size)
+    unknown[order] = values
+    unknown = unknown.reshape(out.shape)
+    return unknown, Kept(out, factors, unknown)
 
 
 @lru_cache(maxsize=8)

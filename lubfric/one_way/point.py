@@ -25,6 +25,7 @@ from .trial import Before, Trial, both_conditions, presses, too_much_film, too_t
 
 TOLERANCE = 2e-3  # of the load
 SHARES, LIFTS = (-9.0, 9.0), (-9.0, 9.0)  # ln(F_H/F_C); ln(lift/scale)
+THINNER = 0.5  # of the load over the lift, in logarithms, roughly: 1 between smooth bodies
 PRESSED = 50e6  # Pa: a Newtonian film above it is sheared at no more than f_b p
 
 
@@ -94,7 +95,9 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
         {"load": abs(root.value)}, root.history, root.payload.film.sets,
         ("the bodies are lifted off each other, undeformed",) if apart else (),
     )  # fmt: skip
-    result = _result(problem, root.payload, apart, found, report)
+    result = _result(
+        problem, root.payload, apart, found, report, start.slope if start and start.lifted == apart else None
+    )
     report.raise_if_failed(result)
     return result
 
@@ -115,7 +118,7 @@ def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, to
             step=0.7,
             bounds=LIFTS if apart else SHARES,
             tolerance=tolerance,
-            slope=near.slope if near else None,
+            slope=(near.slope if near else None) or (THINNER if apart else None),
             first=(None, before),
         )
     )
@@ -148,7 +151,7 @@ def on_cells(near: OneWay, x, columns: int) -> np.ndarray:
     return near.ruptured[along][:, across]
 
 
-def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report) -> OneWay:
+def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report, slope: float | None) -> OneWay:
     lubricant, p, cell = problem.lubricant, at.pressure, problem.spacing[0] / at.gap.shape[1]
     wet = ~at.closed & ~at.film.ruptured
     tau = shear_stress(lubricant, p, problem.sliding / at.gap)
@@ -173,7 +176,7 @@ def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Rep
         at.spot_film,
         found.root.x,
         problem.contact.moes_film,
-        found.root.slope,
+        found.root.slope or slope,
         found.tangent,
         report,
     )
