@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -65,7 +66,7 @@ class Predictor:
         pieces = [Piece(prepared, run, self.measured.x[run], speeds) for run in _split(order, executor)]
         if base is not None:
             pieces = [replace(piece, starts=tuple(base.points[i] for i in piece.indices)) for piece in pieces]
-        found = {i: point for points in spread(executor, solved, pieces) for i, point in points}
+        found = dict(spread(executor, solved, pieces))
         points = tuple(found[i] for i in range(order.size))
         return Curve(unit.copy(), np.array([point.coefficient for point in points]), points)
 
@@ -81,18 +82,18 @@ class Piece:
     starts: tuple[FrictionResult, ...] = ()
 
 
-def solved(piece: Piece) -> list[tuple[int, FrictionResult]]:
-    """The points of a piece, each from its start or, without one, from the point before it."""
-    found: list[tuple[int, FrictionResult]] = []
+def solved(piece: Piece) -> Iterator[tuple[int, FrictionResult]]:
+    """Yield the points of a piece, each from its start or, without one, from the point before it."""
+    start = None
     for at, (index, x) in enumerate(zip(piece.indices, piece.x)):
-        start = piece.starts[at] if piece.starts else found[-1][1] if found else None
+        start = piece.starts[at] if piece.starts else start
         start = start if start is not None and start.starts else None
         prepared, speed = piece.prepared, float(x)
         if not piece.speeds:
             moved = prepared.scene.with_(motion={"slide_roll_ratio": float(x)})
             prepared, speed = prepare(moved, like=prepared), moved.motion.entrainment_speed
-        found.append((int(index), friction(prepared, speed, start=start)))
-    return found
+        start = friction(prepared, speed, start=start)
+        yield int(index), start
 
 
 def _split(order: np.ndarray, executor) -> list[np.ndarray]:

@@ -20,8 +20,6 @@ def explain(plan) -> str:
 
     The maps are made, and one film is solved as a clock of this machine. No point is solved.
     """
-    curves = [curve for batch in plan.batches for curve in batch.curves]
-    chains = sum(len(curve.chains) for curve in curves)
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     about = "" if plan.speeds else "about "
     lines = [f"study of {plan.scene.name}: {about}{plan.points} points"]
@@ -31,8 +29,8 @@ def explain(plan) -> str:
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
-        longest = max(len(c.speeds) for k in curves for c in k.chains)
-        started = f"{chains} warm-started chains of at most {longest} points"
+        longest = max(len(walk.speeds) for walk in plan.walks)
+        started = f"{len(plan.walks)} warm-started chains of at most {longest} points"
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
         started = "each point started from the nearest of its curve"
@@ -73,7 +71,7 @@ def _costs(plan) -> tuple[int, float, list[str]]:
         ground = grounds[name]
         if ground is not None:
             seconds += ground.making
-            curves += [(curve.scene, ground) for curve in batch.curves]
+            curves += [(scene, ground) for scene in {walk.index: walk.scene for walk in batch.walks}.values()]
     some = curves[:: max(1, len(curves) * len(plan.speeds) // SAMPLED)]
     if some:
         seconds += len(curves) / len(some) * _points(some, plan.speeds)
