@@ -32,7 +32,7 @@ def plot_residuals(result, ax=None):
     axes.plot(np.abs(result.measured.x), miss, "o", ms=4, color=RED)
     reach = 1.15 * max(np.abs(miss).max(), 1e-3)
     axes.set_ylim(-reach, reach)
-    _finish(axes, result, "measured over fitted, less one (%)")
+    _finish(axes, result, "measured - fit (%)")
     return axes
 
 

@@ -8,7 +8,7 @@ from ..curve.span import first_speeds
 from ..errors import InputError
 from ..scene import Scene
 from .adaptive import CHOSEN
-from .cost import Ground, by_curve, film_clock, ground_of, point_seconds
+from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
 
 SAMPLED = 2000  # points at most whose cost is foretold one by one
 RECORD = 4000  # bytes of a point on disk
@@ -51,7 +51,7 @@ def _foretold(plan, seconds: float) -> str:
         return "not foretold where the fluid between the asperities is solved for"
     most = len(plan.batches)
     shared = f", divided by the number of processes up to {most}" if most > 1 else ", in one process: it is one batch"
-    return f"about {_time(seconds)} on one core (within a factor of 3){shared}"
+    return f"about {in_words(seconds)} on one core (within a factor of 3){shared}"
 
 
 def _costs(plan) -> tuple[int, float, list[str]]:
@@ -82,8 +82,7 @@ def _costs(plan) -> tuple[int, float, list[str]]:
 def _points(curves: list[tuple[Scene, Ground]], speeds: tuple[float, ...]) -> float:
     """Processor seconds of the points of some curves. ``speeds`` [m/s] is empty where each curve chooses its own."""
     scene, ground = curves[len(curves) // 2]
-    known = [abs(u) for u in (speeds or first_speeds(scene, ground.sq)) if u]
-    film = film_clock(scene, float(np.exp(np.mean(np.log(known)))) if known else 0.0)
+    film = film_clock(scene, mean_speed(speeds or first_speeds(scene, ground.sq)))
     found = 0.0
     for scene, ground in curves:
         at = speeds or first_speeds(scene, ground.sq)
@@ -99,13 +98,6 @@ def _count(things, name: str) -> str:
 def _short(value) -> str:
     text = f"{value:.4g}" if isinstance(value, float) else str(value)
     return text if len(text) < 50 else text[:47] + "..."
-
-
-def _time(seconds: float) -> str:
-    for unit, size in (("h", 3600.0), ("min", 60.0)):
-        if seconds > 2 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
 
 
 def _size(count: float) -> str:
