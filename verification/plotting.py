@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lubfric.plot import plain_ticks
+
 from .check import Figure
 from .rates import fitted_order
 
@@ -47,6 +49,8 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     import matplotlib
 
     stream = io.BytesIO()
+    for axis in (axis for a in canvas.axes for axis in (a.xaxis, a.yaxis)):
+        plain_ticks(axis)
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
