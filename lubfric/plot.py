@@ -51,13 +51,11 @@ def load_shares(axes, x, share) -> None:
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
-    from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
     low, high = sorted(axis.get_view_interval())
     if axis.get_scale() == "log" and 0 < low and high < 100 * low and isinstance(axis.get_major_locator(), LogLocator):
-        axis.set_major_locator(
-            LogLocator(subs=(1, 2, 5)) if high > 5 * low else MaxNLocator(5, steps=(1, 2, 2.5, 5, 10))
-        )
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 3, 4, 5, 7)))
         axis.set_major_formatter(FormatStrFormatter("%g"))
         axis.set_minor_formatter(NullFormatter())
 

@@ -70,8 +70,8 @@ class Predictor:
         if base is not None:
             pieces = [replace(piece, starts=tuple(base.points[i] for i in piece.indices)) for piece in pieces]
         found: dict[int, FrictionResult] = {}
-        for some in spread(executor, solved, pieces) if executor else ([pair] for p in pieces for pair in _solve(p)):
-            found |= dict(some)
+        for index, point in spread(executor, solved, pieces):
+            found[index] = point
             if self.on_points:
                 self.on_points(len(found))
         points = tuple(found[i] for i in range(order.size))
@@ -89,13 +89,9 @@ class Piece:
     starts: tuple[FrictionResult, ...] = ()
 
 
-def solved(piece: Piece) -> list[tuple[int, FrictionResult]]:
-    """The points of a piece, with their numbers in the curve."""
-    return list(_solve(piece))
-
-
-def _solve(piece: Piece) -> Iterator[tuple[int, FrictionResult]]:
-    """Each point as it ends: solved from its start or, without one, from the point before it."""
+def solved(piece: Piece) -> Iterator[tuple[int, FrictionResult]]:
+    """Each point as it ends, with its number in the curve: solved from its start or, without one, from the point before
+    it."""
     last: FrictionResult | None = None
     for at, (index, x) in enumerate(zip(piece.indices, piece.x)):
         start = piece.starts[at] if piece.starts else last

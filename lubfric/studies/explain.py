@@ -10,9 +10,10 @@ import numpy as np
 from ..curve.span import first_speeds
 from ..errors import InputError
 from ..scene import Scene
-from .adaptive import CHOSEN, curve_key
+from .adaptive import CHOSEN
 from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
 from .journal import Journal
+from .walk import Batch
 
 SAMPLED = 2000  # points at most whose cost is foretold one by one
 RECORD = 4000  # bytes of a point on disk
@@ -26,8 +27,6 @@ def explain(plan, store=None) -> str:
 
     The maps are made, and one film is solved as a clock of this machine. No point is solved.
     """
-    curves = [curve for batch in plan.batches for curve in batch.curves]
-    chains = sum(len(curve.chains) for curve in curves)
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     about = "" if plan.speeds else "about "
     lines = [f"study of {plan.scene.name}: {about}{plan.points} points"]
@@ -36,8 +35,8 @@ def explain(plan, store=None) -> str:
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
-        longest = max(len(c.speeds) for k in curves for c in k.chains)
-        started = f"{_count(range(chains), 'chain')} of up to {longest} speeds, each started from its neighbour"
+        longest = max(len(walk.speeds) for walk in plan.walks)
+        started = f"{_count(plan.walks, 'chain')} of up to {longest} speeds, each started from its neighbour"
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
         started = "each point started from the nearest of its curve"
@@ -73,18 +72,17 @@ def _foretold(plan, seconds: float) -> str:
     return f"about {in_words(seconds)} on one core (within a factor of 3){shared}"
 
 
-def _left(curve, known) -> tuple[float, ...] | None:
-    """The speeds [m/s] of a curve that are not ``known``: none where it will choose them; None: it is complete."""
-    if not curve.chains:
-        return None if curve_key(curve.whole) in known else ()
-    return tuple(u for c in curve.chains for u, key in zip(c.speeds, c.keys) if key not in known) or None
+def _left(batch: Batch, known) -> list[tuple[Scene, tuple[float, ...]]]:
+    """Scene and speeds [m/s] of what is left of the walks of a batch; no speeds where a walk chooses them."""
+    left = [(walk, tuple(u for u, key in zip(walk.speeds, walk.keys) if key not in known)) for walk in batch.walks]
+    return [(walk.scene, speeds) for walk, speeds in left if not walk.ended(known)]
 
 
 def _costs(plan, known: dict[str, Any] | None = None) -> tuple[int, float, list[str]]:
     """(cells of the largest grid, processor seconds, reasons of maps that cannot be made) of what is not ``known``."""
     grounds: dict[str, Ground | None] = {}
     failed: list[str] = []
-    curves, seconds = [], 0.0
+    walks, seconds = [], 0.0
     for batch in plan.batches:
         leader = batch.leader
         name = repr((leader.surface, leader.counterface, leader.contact, leader.numerics, leader.bodies))
@@ -95,25 +93,24 @@ def _costs(plan, known: dict[str, Any] | None = None) -> tuple[int, float, list[
                 grounds[name] = None
                 failed.append(str(error))
         ground = grounds[name]
-        asked = [(curve.scene, ground, _left(curve, known or {})) for curve in batch.curves]
-        left = [(scene, ground, speeds) for scene, ground, speeds in asked if ground is not None and speeds is not None]
+        left = _left(batch, known or {})
         if left and ground is not None:
             seconds += ground.making
-            curves += left
-    some = curves[:: max(1, len(curves) * len(plan.speeds) // SAMPLED)]
+            walks += [(scene, ground, speeds) for scene, speeds in left]
+    some = walks[:: max(1, sum(len(speeds) for *_, speeds in walks) // SAMPLED)]
     if some:
-        seconds += len(curves) / len(some) * _points(some)
+        seconds += len(walks) / len(some) * _points(some)
     largest = max((int(np.prod(ground.shape)) for ground in grounds.values() if ground is not None), default=0)
     return largest, seconds, failed
 
 
-def _points(curves: list[tuple[Scene, Ground, tuple[float, ...]]]) -> float:
-    """Processor seconds of the points of some curves, at their speeds [m/s], which are empty where each curve chooses
-    its own."""
-    scene, ground, speeds = curves[len(curves) // 2]
+def _points(walks: list[tuple[Scene, Ground, tuple[float, ...]]]) -> float:
+    """Processor seconds of the points of some walks, at their speeds [m/s], which are empty where each chooses its
+    own."""
+    scene, ground, speeds = walks[len(walks) // 2]
     film = film_clock(scene, mean_speed(speeds or first_speeds(scene, ground.sq)))
     found = 0.0
-    for scene, ground, speeds in curves:
+    for scene, ground, speeds in walks:
         at = speeds or first_speeds(scene, ground.sq)
         found += sum(point_seconds(scene, ground, u, film) for u in at) * (1.0 if speeds else CHOSEN / len(at))
     return found
