@@ -61,11 +61,12 @@ class StudyPlan:
                 found[(*walk.index, at[speed])] = key
         return found
 
-    def explain(self) -> str:
-        """Points, what they share, predicted cost and disk, in words."""
+    def explain(self, store=None) -> str:
+        """Points, what they share, predicted cost and disk, in words. ``store``: the folder of the study, whose points
+        are not counted in the cost."""
         from .explain import explain
 
-        return explain(self)
+        return explain(self, store)
 
 
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:

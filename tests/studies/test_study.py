@@ -15,6 +15,7 @@ import pytest
 import lubfric
 from lubfric.studies import run as run_module
 from lubfric.studies import trail
+from lubfric.studies.explain import _costs
 from lubfric.studies.journal import Journal, outcome_of
 from lubfric.studies.run import rows_of
 from lubfric.studies.trail import Trail, points_of
@@ -363,12 +364,40 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     monkeypatch.setattr("lubfric.studies.trail.prepare", None)
     plan = lubfric.plan_study(SCENE, VARY | {"lubricant.viscosity": [0.1] * 5}, np.geomspace(1e-3, 1, 60))
     text = plan.explain()
-    for words in ("1200 points", "2 x bodies.load from 3 to 5.5", "60 speeds", "2 height maps", "60 warm-started"):
+    for words in (
+        "1200 points",
+        "2 x bodies.load 3, 5.5",
+        "60 speeds",
+        "2 height maps",
+        "60 chains of up to 20 speeds",
+    ):
         assert words in text, text
-    assert "divided by the number of processes up to" in text and " batches, each of one map" in text
+    assert "processes share it" in text and " batches, each of one map" in text
     one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
-    assert "cannot be solved: correlation_length" in one and "1 height map (" in one
-    assert "in one process: it is one batch" in one and "up to 1" not in one
+    assert "cannot be solved: correlation_length" in one and "1 height map, " in one
+    assert "1 batch, each of" in one and "processes share it" not in one
+    sampled = lubfric.sample([lubfric.Between(0.05, 0.4)], 16)
+    drawn = [value for (value,) in sampled]
+    many = lubfric.plan_study(SCENE, {"lubricant.viscosity": sampled}, [0.01]).explain()
+    assert f"16 x lubricant.viscosity {min(drawn):.4g} to {max(drawn):.4g}" in many
+
+
+@pytest.mark.parametrize("speeds", [np.geomspace(1e-3, 0.3, 4), "auto"])
+def test_explain_leaves_out_what_the_store_holds(tmp_path, speeds):
+    """Half of a study is solved in a store: the rest of the whole costs what the other half costs alone."""
+    half, other = ({"lubricant.viscosity": [0.1]}, {"lubricant.viscosity": [0.3]})
+    both = lubfric.plan_study(SCENE, {"lubricant.viscosity": [0.1, 0.3]}, speeds)
+    lubfric.study(SCENE, half, speeds, store=tmp_path)
+    count, what = (1, "curves") if isinstance(speeds, str) else (len(speeds), "points")
+    assert f"{count} of {2 * count} {what} are in {tmp_path}" in both.explain(tmp_path)
+    known = Journal(tmp_path).records()
+    alone, rest = lubfric.plan_study(SCENE, other, speeds), [_costs(both, known)[1] for _ in range(3)]
+    assert 0.4 < np.median(rest) / np.median([_costs(alone)[1] for _ in range(3)]) < 2.5
+    assert np.median(rest) < np.median([_costs(both)[1] for _ in range(3)])
+    lubfric.study(both, store=tmp_path)
+    assert "nothing is left to solve" in both.explain(tmp_path) and _costs(both, Journal(tmp_path).records())[1] == 0
+    assert not (tmp_path / "nowhere").exists() and "kept" not in both.explain(tmp_path / "nowhere")
+    assert not (tmp_path / "nowhere").exists()
 
 
 # tables
