@@ -46,7 +46,7 @@ class Validity:
             if math.isfinite(self.limit)
             else f"{self.value:.3g}{unit}"
         )
-        return f"{head}: {self.what} {numbers}: {self.consequence}; {self.remedy}"
+        return f"{head}: {self.what} is {numbers}: {self.consequence}; {self.remedy}"
 
 
 def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
