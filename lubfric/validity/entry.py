@@ -39,7 +39,7 @@ class Validity:
     def text(self) -> str:
         """One sentence; "caution: ..." or "not valid: ..."."""
         head = "not valid" if self.severe else "caution"
-        unit = f" {self.unit}" if self.unit else ""
+        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
         numbers = (
             f"{self.value:.3g}{unit}, {side} {self.limit:.3g}{unit}"

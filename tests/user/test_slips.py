@@ -85,7 +85,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     ),
     "Sq in mm": ({"surface": {"sq": "0.1e-3"}}, "0.0001 mm = 1e-07 m"),
     "tolerance in percent": ({"numerics": {"tolerance": "1"}}, "1 % = 0.01"),
-    "viscosity index as a share": ({"lubricant": {"viscosity_index": "0.95"}}, "viscosity_index 0.95.*unusual"),
+    "viscosity index as a share": ({"lubricant": {"viscosity_index": "0.95"}}, "viscosity_index is 0.95.*unusual"),
     "speeds in mm/s": (
         {"motion": {"speeds": "[1, 1000]"}},
         "motion.speeds 1e\\+03 m/s, above 100 m/s: unusual; mm/s meant",
