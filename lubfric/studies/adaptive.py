@@ -16,7 +16,7 @@ from ..result import FrictionResult
 from ..store import digest
 from .chain import solved_at, start_from
 from .journal import Journal, outcome_of, without_fields
-from .table_row import AT, CLEARANCE, CURVE, SPEED
+from .table_row import AT, CLEARANCE, CURVE, DECIDED, SPEED, STEEPNESS
 
 AUTO = "auto"
 MOST, CHOSEN = 25, 12  # speeds at most, and about
@@ -139,8 +139,9 @@ def samples_of(points: list[FrictionResult]) -> Samples:
     points = sorted(points, key=lambda point: abs(point.speed))
     names = ("contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
     columns = {name: np.array([getattr(p, name) for p in points]) for name in names}
-    clearance = [np.nan if p.decision is None or p.decision.clearance is None else p.decision.clearance for p in points]
-    return samples_at(np.abs([p.speed for p in points]), columns | {CLEARANCE: np.array(clearance, dtype=float)})
+    for name in DECIDED:
+        columns[name] = np.array([getattr(p.decision, name, None) for p in points], dtype=float)
+    return samples_at(np.abs([p.speed for p in points]), columns)
 
 
 def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
@@ -154,4 +155,5 @@ def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
         film=columns["coefficient"] - boundary,
         thickness=columns["film_to_roughness_ratio"],
         clearance=columns[CLEARANCE],
+        steepness=columns[STEEPNESS],
     )

@@ -9,7 +9,7 @@ SPEED, STATUS, CONVERGED = "speed", "status", "converged"
 MISSING = "not computed"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 CURVE, AT, COUNT = "curve", "place", "points"  # of a point whose speed was chosen: its curve, its place; points in all
-CLEARANCE = "clearance"
+DECIDED = CLEARANCE, STEEPNESS = "clearance", "steepness"  # what an interpolation needs of the decision of a point
 
 
 def row_of(record: dict) -> dict:
@@ -21,9 +21,8 @@ def row_of(record: dict) -> dict:
     if "report" not in record:  # a curve that is complete
         return place
     numbers = _numbers(record)
-    clearance = (record.get("decision") or {}).get(CLEARANCE)
-    if _is_number(clearance):
-        numbers[CLEARANCE] = float(from_plain(clearance))
+    decided = record.get("decision") or {}
+    numbers |= {name: float(from_plain(decided[name])) for name in DECIDED if _is_number(decided.get(name))}
     return {STATUS: record["report"]["status"], **numbers, **place}
 
 
