@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .errors import ValidityError as ValidityError
     from .fitting import FitResult as FitResult
     from .fitting import Measured as Measured
+    from .fitting import explain_fit as explain_fit
     from .fitting import read_measured as read_measured
     from .fitting.fit import fit as fit
     from .history.plan import Transient as Transient
@@ -77,7 +78,7 @@ _NAMES = {  # by the module that they come from
     "unsteady.run": ("transient",),
     "unsteady.result": ("TransientResult",),
     "history.plan": ("Transient",),
-    "fitting": ("fit", "read_measured", "Measured", "FitResult"),
+    "fitting": ("fit", "explain_fit", "read_measured", "Measured", "FitResult"),
     "studies": ("study", "plan_study", "open_study", "sample", "Between", "StudyPlan", "StudyResult"),
     "sweep": ("stribeck", "StribeckResult"),
     "curves": ("traction", "TractionResult"),

@@ -1,4 +1,4 @@
-"""The ``lubfric`` command: run, info, plot, init, oils."""
+"""The ``lubfric`` command: run, info, study, fit, plot, init, oils."""
 
 from __future__ import annotations
 
@@ -82,12 +82,8 @@ def _parser() -> argparse.ArgumentParser:
     study.add_argument("--netcdf", action="store_true", help="also write study.nc (needs the 'study' extra)")
     study.add_argument("--parquet", action="store_true", help="also write study.parquet (needs the 'study' extra)")
     study.set_defaults(command=_study)
-    plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
-    plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
-    plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
-    plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
-    plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
-    plot.set_defaults(command=_plot)
+    _add_fit(commands)
+    _add_plot(commands)
     init = commands.add_parser("init", help="write a commented scene to start from")
     init.add_argument("file", type=Path, nargs="?", default=Path("scene.toml"), help="(default: scene.toml)")
     init.set_defaults(command=_init)
@@ -96,6 +92,36 @@ def _parser() -> argparse.ArgumentParser:
     oils.add_argument("name", nargs="?", help="its name")
     oils.set_defaults(command=_oils)
     return parser
+
+
+def _add_fit(commands) -> None:
+    fit = commands.add_parser("fit", help="find numbers of a scene from a measured curve")
+    fit.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
+    fit.add_argument("--measured", required=True, help="text file of the measured curve")
+    fit.add_argument("--coefficient", required=True, help="heading of its column of friction coefficients")
+    axis = fit.add_mutually_exclusive_group(required=True)
+    axis.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
+    axis.add_argument("--ratio", help="heading of its column of slide-roll ratios: 'SRR [%%]'")
+    fit.add_argument("--deviation", help="heading of its column of standard deviations")
+    fit.add_argument(
+        "--parameter",
+        action="append",
+        required=True,
+        metavar="KEY=LOW:HIGH",
+        help="what is sought, between bounds in SI units: 'lubricant.viscosity=0.05:1'; again for another",
+    )
+    _add_maps(fit)
+    fit.add_argument("--out", type=Path, default=Path("fit"), help="folder for the results (default: fit)")
+    fit.set_defaults(command=_fit)
+
+
+def _add_plot(commands) -> None:
+    plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
+    plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
+    plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
+    plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
+    plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
+    plot.set_defaults(command=_plot)
 
 
 def _init(arguments) -> int:
@@ -153,6 +179,12 @@ def _study(arguments) -> int:
     from .studies.command import run_study
 
     return run_study(arguments)
+
+
+def _fit(arguments) -> int:
+    from .fitting.command import run_fit
+
+    return run_fit(arguments)
 
 
 def _info(arguments) -> int:

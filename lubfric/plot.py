@@ -35,8 +35,10 @@ def friction_lines(axes, x, parts, **style) -> None:
     of the first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
-    axes.plot(x, contact, "--", color=RED, lw=1, label="from the contact spots")
-    axes.plot(x, film, "--", color=GREEN, lw=1, label="from the film")
+    for part, color, label in ((contact, RED, "from the contact spots"), (film, GREEN, "from the film")):
+        axes.plot(
+            x, part, color=color, lw=1, ls=(0, (4, 4)), label=label
+        )  # f shows through where one part is all of it
 
 
 def load_shares(axes, x, share) -> None:
@@ -44,6 +46,18 @@ def load_shares(axes, x, share) -> None:
     axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
     axes.fill_between(x, share, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
     axes.set(ylim=(0, 1), ylabel="share of the load (-)")
+
+
+def plain_ticks(axis) -> None:
+    """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
+    would write every tick as a product, one over the other. Ticks that were chosen stay."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
+    low, high = sorted(axis.get_view_interval())
+    if axis.get_scale() == "log" and 0 < low and high < 100 * low and isinstance(axis.get_major_locator(), LogLocator):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 3, 4, 5, 7)))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def make_ready() -> None:
@@ -63,8 +77,6 @@ def plot_stribeck(
     row, the assumptions that do not hold (`lubfric.validity.entry.Validity`).
     ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
     """
-    from matplotlib.ticker import LogLocator, NullFormatter
-
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((k, v[order]) for k, v in columns.items())
@@ -84,17 +96,18 @@ def plot_stribeck(
     lowest = c["coefficient"].min() if measured is None else min(c["coefficient"].min(), measured.coefficient.min())
     top.set_ylim(bottom=min(0, 1.1 * lowest))
     top.set_title(title)
-    top.legend(frameon=False)
+    top.legend(framealpha=0.8, edgecolor="none")  # where it hides a line, the line shows through
     load_shares(middle, speed, c["contact_load"] / total)
     middle.legend(frameon=False, loc="center right")
     bottom.loglog(speed, c["film_to_roughness_ratio"], "o-", color=GREY, ms=4)
     bottom.axhline(3, color=GREY, lw=0.7, ls=":")
-    bottom.annotate("λ = 3", (speed[0], 3), xytext=(2, 2), textcoords="offset points", color=GREY)
+    below = c["film_to_roughness_ratio"].max() < 4  # the line is near the upper end of the axis
+    place = {"xytext": (2, -2 if below else 2), "textcoords": "offset points", "va": "top" if below else "bottom"}
+    bottom.annotate("λ = 3", (speed[0], 3), color=GREY, **place)
     bottom.set_ylabel("λ = central film / Sq (-)")
-    bottom.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    bottom.yaxis.set_major_formatter("{x:g}")
-    bottom.yaxis.set_minor_formatter(NullFormatter())
     bottom.set_xlabel("entrainment speed U (m/s)")
+    for axis in (bottom.xaxis, bottom.yaxis):
+        plain_ticks(axis)
     figure.savefig(path, dpi=150)
 
 
@@ -112,7 +125,7 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
     names = dict.fromkeys(entry.what for told in entries for entry in told)
-    figure.supxlabel("not held: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
+    figure.supxlabel("cautions: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
 
 
 def plot_contact(path: Path, prepared, point) -> None:
@@ -122,20 +135,25 @@ def plot_contact(path: Path, prepared, point) -> None:
     separation h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z). epsilon and u are known up to one
     constant. It is chosen so that u has zero mean over the section.
     """
-    figure = new_figure(figsize=(11, 4.5))
-    left, right = figure.subplots(1, 2)
     x = prepared.contact.x
     heights = prepared.surface.heights - prepared.surface.heights.mean()
     contact = point.balance.contact.fields
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
-    _pressure_map(figure, left, prepared, contact, row)
-    left.set_title(f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N")
-    if point.balance.film is not None and heights.shape[0] == x.size:
+    section = point.balance.film is not None and heights.shape[0] == x.size
+    shown = [contact is not None or not section, section]
+    figure = new_figure(figsize=(5.5 * sum(shown), 4.5))
+    panels = iter(figure.subplots(1, sum(shown), squeeze=False).flat)
+    loads = f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N"
+    if shown[0]:
+        left = next(panels)
+        _pressure_map(figure, left, prepared, contact, row)
+        left.set_title(loads)
+    if section:
+        right, place = next(panels), f"section at y = {row * prepared.surface.spacing[1] * 1e6:.1f} µm"
         _section(right, x, heights[:, row], point.balance, row)
-        right.set_title(f"section at y = {row * prepared.surface.spacing[1] * 1e6:.1f} µm")
-        _place_on_the_line(left, prepared, point, row)
-    else:
-        right.set_axis_off()
+        right.set_title(place if shown[0] else f"{loads}: no contact\n{place}")
+        if shown[0]:
+            _place_on_the_line(left, prepared, point, row)
     figure.savefig(path, dpi=150)
 
 

@@ -42,11 +42,25 @@ def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.
         return canvas, canvas.subplots(rows, columns, **options)
 
 
+def plain_ticks(axis) -> None:
+    """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
+    would write every tick as a product, one over the other. Ticks that were chosen stay."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
+    low, high = sorted(axis.get_view_interval())
+    if axis.get_scale() == "log" and 0 < low and high < 100 * low and isinstance(axis.get_major_locator(), LogLocator):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 3, 4, 5, 7)))
+        axis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.set_minor_formatter(NullFormatter())
+
+
 def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
     import matplotlib
 
     stream = io.BytesIO()
+    for axis in (axis for a in canvas.axes for axis in (a.xaxis, a.yaxis)):
+        plain_ticks(axis)
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):

@@ -26,8 +26,8 @@ def in_time_without(**lost):
 
     def broken(original):
         def contact(*args):
-            *others, lubricant, duration, initial = args
-            return original(*others, replace(lubricant, **lost), duration, initial)
+            *others, lubricant, duration, initial, width = args
+            return original(*others, replace(lubricant, **lost), duration, initial, width)
 
         return contact
 
@@ -96,9 +96,14 @@ def whole_patch(original):
     return lambda scene, x, step: np.ones(x.size)
 
 
-def constant_load_per_width(original):
-    """A load history that is not divided by the width."""
-    return lambda load, width: original(load, 1.0)
+def doubled(original):
+    """Twice what it should be."""
+    return lambda *args: 2 * original(*args)
+
+
+def of_unit_width(original):
+    """A contact in time whose load is not divided by the width."""
+    return lambda *args: original(*args[:-1], 1.0)
 
 
 def still(original):
@@ -134,13 +139,16 @@ MUTANTS = (
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {"lubfric.unsteady.at_a_time:SceneInTime.sliding": lambda f: lambda *args: 2 * f(*args)},
+        {
+            f"lubfric.unsteady.{where}:sliding_at": lambda f: lambda *args: 2 * f(*args)
+            for where in ("at_a_time", "moment")
+        },
         TIME,
     ),
     Mutant(
         "transient_load",
         "load of a transient taken as load per width",
-        {"lubfric.unsteady.setup:_PerWidth": constant_load_per_width},
+        {"lubfric.unsteady.setup:ContactHistory": of_unit_width},
         TIME,
     ),
     Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.history.kinds:Ramp.at": still}, TIME),

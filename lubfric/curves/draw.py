@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
-from ..plot import GREEN, GREY, RED, friction_lines, interval_band, new_figure
+from ..plot import GREEN, GREY, RED, friction_lines, interval_band, new_figure, plain_ticks
 from ..quantities import KEYS
 
 
@@ -27,7 +27,7 @@ def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: 
         top.plot(c["ratio"][~held], c["coefficient"][~held], "o", ms=9, mfc="none", mec=GREY, label="with cautions")
     top.set_ylabel("friction coefficient (-)")
     top.set_title(title)
-    top.legend(frameon=False)
+    top.legend(framealpha=0.8, edgecolor="none")  # where it hides a line, the line shows through
     bottom.plot(c["ratio"], c["flash_temperature_rise"], "-", color=RED, label="surfaces (flash)")
     bottom.plot(c["ratio"], c["film_temperature_rise"], "-", color=GREEN, label="film above the surfaces")
     bottom.set_ylabel("largest temperature rise (K)")
@@ -35,6 +35,7 @@ def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: 
     bottom.legend(frameon=False)
     if np.all(c["ratio"] > 0) and c["ratio"][-1] > 20 * c["ratio"][0]:
         bottom.set_xscale("log")
+        plain_ticks(bottom.xaxis)
     figure.savefig(path, dpi=150)
 
 

@@ -125,8 +125,9 @@ class System:
         return Step(pressure, fill, dent, approach, gap, iterations, left)
 
 
-def gmres(apply, precondition, right, accuracy=ACCURACY) -> tuple[np.ndarray, int, float]:
-    """Solve ``apply(x) = right`` by restarted, right-preconditioned GMRES until |residual| <= accuracy |right|.
+def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES) -> tuple[np.ndarray, int, float]:
+    """Solve ``apply(x) = right`` by right-preconditioned GMRES until |residual| <= accuracy |right|; restarted after
+    ``most`` iterations, in all ``cycles`` times begun.
 
     Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, doi:10.1137/0907058. Returns x, the
     iterations, and the relative residual reached.
@@ -136,11 +137,11 @@ def gmres(apply, precondition, right, accuracy=ACCURACY) -> tuple[np.ndarray, in
     if size == 0:
         return x, 0, 0.0
     rest = right.copy()
-    for _ in range(CYCLES):
+    for _ in range(cycles):
         beta = np.linalg.norm(rest)
         basis = [rest / beta]
-        hessenberg = np.zeros((KRYLOV + 1, KRYLOV))
-        for k in range(KRYLOV):
+        hessenberg = np.zeros((most + 1, most))
+        for k in range(most):
             image = apply(precondition(basis[k]))
             for j, vector in enumerate(basis):
                 hessenberg[j, k] = vector @ image

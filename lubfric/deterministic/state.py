@@ -11,6 +11,7 @@ from .reynolds import Balance, balance
 
 FLUID, RUPTURED, TOUCHING = 0, 1, 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
+STREAK = 16  # cells along x that open at once
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ def _resorted(problem: Problem, at: Look) -> State:
     """Give every cell the equation that its pressure, gap and residual ask for.
 
     - Fluid that would pull ruptures. A ruptured cell that is full carries pressure again.
-    - A fluid cell closer than the floor touches. A touching cell that is pulled opens.
+    - A fluid cell closer than the floor touches. A touching cell that is pulled opens (`_opened`).
     - A pressure above P_u yields. A dent that would vanish does not.
     """
     state, r = at.state, at.residual
@@ -85,7 +86,7 @@ def _resorted(problem: Problem, at: Look) -> State:
     kind[fluid & (p < 0)] = RUPTURED
     kind[fluid & (p >= 0) & (at.gap < problem.floor)] = TOUCHING
     kind[ruptured & (at.gap < problem.floor)] = TOUCHING
-    kind[touching & (r < -_pull(problem))] = FLUID
+    kind[_opened(touching, touching & (r < -_pull(problem)))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
     beyond = (p > problem.hardness) & ~state.yielded
     yielded = (state.yielded & (state.dent >= 0) | beyond) & (kind != RUPTURED)
@@ -98,6 +99,16 @@ def _resorted(problem: Problem, at: Look) -> State:
         kind=kind,
         yielded=yielded,
     )
+
+
+def _opened(touching, pulled) -> np.ndarray:
+    """``pulled`` touching cells, and those that touch behind them, at most `STREAK` in a row. Along a furrow that the
+    film wets they would otherwise open one a step; those opened in vain close again in the next step, all at once."""
+    found, reach = pulled.copy(), pulled
+    for cells in range(1, STREAK):
+        reach = reach[:-1] & touching[cells:]
+        found[cells:] |= reach
+    return found
 
 
 def _pull(problem: Problem) -> float:

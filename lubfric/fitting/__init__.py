@@ -2,6 +2,7 @@
 
 from .fit import fit
 from .measured import Measured, read_measured
+from .outlook import explain_fit
 from .result import FitResult
 
-__all__ = ["FitResult", "Measured", "fit", "read_measured"]
+__all__ = ["FitResult", "Measured", "explain_fit", "fit", "read_measured"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..errors import InputError
@@ -15,19 +17,20 @@ from .parameters import Parameters, parameters_of
 from .predict import Curve, Predictor, jacobian, predictor
 from .result import FitResult
 
-STEP = 0.04  # of the bounds, of the differences: above the scatter of the solves
+STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 MOST = 30  # curves on the way, beside those of the differences
 
 
-def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None) -> FitResult:
+def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None, on_progress=None) -> FitResult:
     """Find the values of ``parameters`` with which a scene comes closest to a measured curve.
 
     Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
-    stay above the tolerance on f. It stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
-    sum by <= 1e-4 of it. Each point starts from the same point of an earlier curve. `FitResult` says how sure the
-    values are.
+    stay above the tolerance on f. They are taken anew when the parameters have moved by more than 4 % of their bounds.
+    The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the sum by <= 1e-4 of it.
+    Each point starts from the same point of an earlier curve. `FitResult` says how sure the values are, and
+    `lubfric.explain_fit` says beforehand how long a fit will take.
 
     Parameters
     ----------
@@ -36,6 +39,8 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     parameters : {"section.key": (lowest, highest)}, numbers of the scene to be found between bounds, in SI units
     start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
+    on_progress : called as on_progress(curve, done, total) when ``done`` of the ``total`` points of a curve are solved;
+        curves count from 1
 
     Returns a `FitResult`.
 
@@ -55,13 +60,14 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     if measured.x.size <= len(found.keys):
         raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; allowed: more points")
     begin = _begin(scene, found, {} if start is None else start)
-    predict = predictor(scene, measured, found, checked_executor(executor))
+    told = None if on_progress is None else _told(on_progress, measured.x.size)
+    predict = predictor(scene, measured, found, checked_executor(executor), told)
     scale = measured.coefficient if measured.deviation is None else measured.deviation
     walk = Walk(predict)
     search = least_squares(
         lambda unit: (walk.at(unit).coefficient - measured.coefficient) / scale,
         begin,
-        lambda unit: jacobian(predict, walk.here(unit), STEP) / scale[:, None],
+        lambda unit: walk.slopes(unit) / scale[:, None],
         bounds=(0.0, 1.0),
         xtol=CLOSE,
         ftol=1e-4,
@@ -87,6 +93,17 @@ def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
     return np.clip(found.unit(np.where(np.isnan(values), middle, values)), 0.02, 0.98)
 
 
+def _told(on_progress: Callable, total: int) -> Callable[[int], None]:
+    """``on_progress`` with the number of the curve, for the points of one curve after the other."""
+    curves = [1]
+
+    def on_points(done: int) -> None:
+        on_progress(curves[0], done, total)
+        curves[0] += done == total
+
+    return on_points
+
+
 class Walk:
     """The curves of a search, of which only two are kept whole: that which the last differences were taken at, from
     which the others start, and the last."""
@@ -95,6 +112,7 @@ class Walk:
         self._predict = predict
         self._base: Curve | None = None
         self._last: Curve | None = None
+        self._slopes = np.empty((0, 0))
 
     def at(self, unit: np.ndarray) -> Curve:
         """The curve at positions between the bounds."""
@@ -102,14 +120,16 @@ class Walk:
             self._last = self._predict.at(unit, self._base)
         return self._last
 
-    def here(self, unit: np.ndarray) -> Curve:
-        """The same predictor, to take differences with."""
-        self._base = self.at(unit)
-        return self._base
+    def slopes(self, unit: np.ndarray) -> np.ndarray:
+        """df/d(unit), (n, p), by differences at the curve there, or by the last ones where they were taken near by."""
+        if self._base is None or np.abs(unit - self._base.unit).max() > STEP:
+            self._base = self.at(unit)
+            self._slopes = jacobian(self._predict, self._base, STEP)
+        return self._slopes
 
 
 def _result(predict: Predictor, scale, search) -> FitResult:
-    """Of a ``search`` whose differences were taken where it ended."""
+    """Of a ``search`` whose differences were taken where it ended, or near by."""
     residuals, slopes = search.fun, search.jac * scale[:, None]
     f, unit = residuals * scale + predict.measured.coefficient, np.clip(search.x, 0.0, 1.0)
     n, p = slopes.shape

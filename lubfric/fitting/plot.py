@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREY, RED
+from ..plot import BLUE, GREY, RED, plain_ticks
 from ..show.axes import axes_or_new
 from .measured import SPEED, Measured
 
@@ -32,7 +32,7 @@ def plot_residuals(result, ax=None):
     axes.plot(np.abs(result.measured.x), miss, "o", ms=4, color=RED)
     reach = 1.15 * max(np.abs(miss).max(), 1e-3)
     axes.set_ylim(-reach, reach)
-    _finish(axes, result, "measured over fitted, less one (%)")
+    _finish(axes, result, "measured - fit (%)")
     return axes
 
 
@@ -44,4 +44,5 @@ def x_label(measured: Measured) -> str:
 def _finish(axes, result, label: str) -> None:
     if result.measured.over == SPEED:
         axes.set_xscale("log")
+        plain_ticks(axes.xaxis)
     axes.set(xlabel=x_label(result.measured), ylabel=label)

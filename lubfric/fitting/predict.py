@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -23,6 +24,7 @@ SHARING = (
     "bodies.e_prime",
     "bodies.hardness",
 )  # of which the map and the contact are made
+FREE = ("bodies.boundary_friction_coefficient",)  # of the bodies, which neither map nor contact depends on
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,8 @@ class Predictor:
     ``tolerance``.
 
     ``like``: a prepared scene whose map and operator or curve serve for all values. None where these depend on the
-    values. ``warm``: whether a point can start from that of other values.
+    values. ``warm``: whether a point can start from that of other values. ``on_points``: called with the number of
+    points solved of a curve as they end.
     """
 
     scene: Scene
@@ -51,6 +54,7 @@ class Predictor:
     executor: object = None
     like: Prepared | None = field(default=None, repr=False)
     warm: bool = True
+    on_points: Callable[[int], None] | None = field(default=None, repr=False)
 
     def at(self, unit: np.ndarray, near: Curve | None = None) -> Curve:
         """The curve at positions of the parameters between their bounds, each point started from that of the curve
@@ -65,7 +69,11 @@ class Predictor:
         pieces = [Piece(prepared, run, self.measured.x[run], speeds) for run in _split(order, executor)]
         if base is not None:
             pieces = [replace(piece, starts=tuple(base.points[i] for i in piece.indices)) for piece in pieces]
-        found = {i: point for points in spread(executor, solved, pieces) for i, point in points}
+        found: dict[int, FrictionResult] = {}
+        for index, point in spread(executor, solved, pieces):
+            found[index] = point
+            if self.on_points:
+                self.on_points(len(found))
         points = tuple(found[i] for i in range(order.size))
         return Curve(unit.copy(), np.array([point.coefficient for point in points]), points)
 
@@ -81,36 +89,46 @@ class Piece:
     starts: tuple[FrictionResult, ...] = ()
 
 
-def solved(piece: Piece) -> list[tuple[int, FrictionResult]]:
-    """The points of a piece, each from its start or, without one, from the point before it."""
-    found: list[tuple[int, FrictionResult]] = []
+def solved(piece: Piece) -> Iterator[tuple[int, FrictionResult]]:
+    """Each point as it ends, with its number in the curve: solved from its start or, without one, from the point before
+    it."""
+    last: FrictionResult | None = None
     for at, (index, x) in enumerate(zip(piece.indices, piece.x)):
-        start = piece.starts[at] if piece.starts else found[-1][1] if found else None
+        start = piece.starts[at] if piece.starts else last
         start = start if start is not None and start.starts else None
         prepared, speed = piece.prepared, float(x)
         if not piece.speeds:
             moved = prepared.scene.with_(motion={"slide_roll_ratio": float(x)})
             prepared, speed = prepare(moved, like=prepared), moved.motion.entrainment_speed
-        found.append((int(index), friction(prepared, speed, start=start)))
-    return found
+        last = friction(prepared, speed, start=start)
+        yield int(index), last
 
 
 def _split(order: np.ndarray, executor) -> list[np.ndarray]:
     return [order] if executor is None else np.array_split(order, min(order.size, PIECES))
 
 
-def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor) -> Predictor:
-    """A `Predictor` made ready, with a tolerance as tight as the scatter of the measurement asks for."""
+def tolerance_of(scene: Scene, measured: Measured) -> float:
+    """The tolerance on f of a fit: as tight as the scatter of the measurement asks for."""
     shares = 0.05 if measured.deviation is None else float(np.median(measured.deviation / np.abs(measured.coefficient)))
-    tolerance = min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
+    return min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
+
+
+def shares_contact(scene: Scene, parameters: Parameters) -> bool:
+    """Whether one map, and one operator or contact curve, serve for all values of the parameters."""
     by_curve = scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
     making = (*SHARING, "bodies.load", "bodies.radius", "bodies.width") if by_curve else SHARING
     if scene.contact.shape is None:
         making = (*making, "bodies.")
-    shared = not any(key.startswith(making) for key in parameters.keys)
+    return not any(key.startswith(making) and key not in FREE for key in parameters.keys)
+
+
+def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor, on_points=None) -> Predictor:
+    """A `Predictor` made ready."""
+    tolerance, shared = tolerance_of(scene, measured), shares_contact(scene, parameters)
     like = prepare(scene.with_(numerics={"tolerance": tolerance})) if shared else None
     warm = shared and "bodies.width" not in parameters.keys  # of which the contacts of a long line are made
-    return Predictor(scene, measured, parameters, tolerance, executor, like, warm)
+    return Predictor(scene, measured, parameters, tolerance, executor, like, warm, on_points)
 
 
 def jacobian(predict: Predictor, here: Curve, step: float) -> np.ndarray:

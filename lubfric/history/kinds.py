@@ -27,7 +27,7 @@ class History:
         return self.at(time)
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """Times [s] inside the run at which the value or its slope jumps: a step ends there."""
+        """Times [s] inside the run, beside the jumps, at which a step ends."""
         return ()
 
     def jumps(self, duration: float) -> tuple[float, ...]:
@@ -145,10 +145,6 @@ class Table(History):
             laps = np.arange(math.ceil(duration / t[-1]))
             found = np.unique((found[None, :] + laps[:, None] * t[-1]).ravel())
         return tuple(float(x) for x in found if 0.0 <= x < duration)
-
-    def stops(self, duration: float) -> tuple[float, ...]:
-        """The jumps; a step may go over a corner."""
-        return self.jumps(duration)
 
     def range(self, duration: float) -> tuple[float, float]:
         inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]

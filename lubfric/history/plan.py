@@ -41,6 +41,12 @@ class Transient:
     initial_film: float | None = None
     tolerance: float | None = None
 
+    @property
+    def histories(self) -> tuple[History, ...]:
+        """All that changes."""
+        given = (self.speed, self.sliding, self.load, self.radius, self.viscosity)
+        return tuple(h for h in given if h is not None)
+
     def __post_init__(self):
         validate.positive("transient.duration", self.duration, "s", minimum=1e-12, maximum=1e9)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)

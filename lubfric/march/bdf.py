@@ -9,7 +9,7 @@ whole; their difference is the error.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
@@ -47,11 +47,11 @@ class Solver(Protocol):
     """What is marched. The last of its unknowns z may have any sign; the others are 0 or positive, and stay what they
     are in the extrapolation that a step starts from."""
 
-    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Solved:
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Solved:
         """The state at ``time`` [s] with this memory, from the unknowns ``z``."""
         ...
 
-    def error_of(self, solution: Any, difference: np.ndarray) -> float:
+    def error_of(self, solution: Any, difference: np.ndarray, /) -> float:
         """Relative size of a difference of films, compared with the tolerance of a step."""
         ...
 
@@ -66,55 +66,62 @@ class Level:
 
 
 @dataclass(frozen=True)
-class March:
-    """Up to three levels, oldest first, since the last jump, and the next step [s]. ``payload``: what the
-    solver of a step left beside its unknowns."""
+class Progress:
+    """How far a run has come; it can go on from any.
+
+    ``levels``: up to three, oldest first, since the last jump; ``step``: the next [s]; ``payload``: what the solver
+    left beside its unknowns. ``steps`` taken and ``rejected``; ``worst``: largest local error so far [of the
+    tolerance]. Of the last step its ``solution``, its ``error``, and whether it ended at an output time.
+    """
 
     levels: tuple[Level, ...]
     step: float
     payload: Any = None
+    steps: int = 0
+    rejected: int = 0
+    worst: float = 0.0
+    solution: Any = None
+    error: float = 0.0
+    at_output: bool = False
 
     @property
     def time(self) -> float:
-        """Time reached [s]."""
+        """Reached [s]."""
         return self.levels[-1].time
 
 
-@dataclass(frozen=True)
-class Advance:
-    """One accepted step: the march after it, its solution, error estimate [of the tolerance], solves
-    rejected."""
-
-    march: March
-    solution: Any
-    error: float
-    rejected: int
+def started(first: Solved, step: float) -> Progress:
+    """The progress at t = 0 with the state ``first`` and the first ``step`` [s]."""
+    return Progress((Level(0.0, first.film, first.z),), step, first.payload)
 
 
-def advance(march: March, until: float, solver: Solver, tolerance: float, shortest: float) -> Advance | None:
+def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
     """One step towards ``until`` [s]. It is halved where it would leave a tiny last step. Where its solve fails, or
     its error is above ``tolerance``, it is tried again shorter. None: even the shortest step [s] failed."""
-    rejected, step = 0, march.step
+    rejected, step = now.rejected, now.step
     while step >= shortest:
-        left = until - march.time
+        left = until - now.time
         planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
-        attempt = _bdf2 if len(march.levels) > 1 else _pair
-        found = attempt(march, march.time + planned if planned < left else until, solver)
+        attempt = _bdf2 if len(now.levels) > 1 else _pair
+        found = attempt(now, now.time + planned if planned < left else until, solver)
         if found is None:
             step, rejected = FAILED * planned, rejected + 1
             continue
         levels, solution, error, order = found
         factor = SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1))
         if error <= tolerance:
-            after = March(levels, planned * min(max(factor, SHRINK), GROWTH), solution.payload)
-            return Advance(after, solution, error / tolerance, rejected)
+            return Progress(
+                levels,
+                planned * min(max(factor, SHRINK), GROWTH),
+                solution.payload,
+                now.steps + 1,
+                rejected,
+                max(now.worst, error / tolerance),
+                solution,
+                error / tolerance,
+            )
         step, rejected = planned * min(max(factor, SHRINK), 0.9), rejected + 1
     return None
-
-
-def restarted(march: March, step: float) -> March:
-    """The same state without its past, for a jump."""
-    return replace(march, levels=march.levels[-1:], step=step)
 
 
 Attempt = tuple[tuple[Level, ...], Solved, float, int]  # levels after the step, its solution, error, order
@@ -125,12 +132,12 @@ def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload:
     return solution if solution.status == CONVERGED else None
 
 
-def _pair(march: March, end: float, solver: Solver) -> Attempt | None:
-    start = march.levels[-1]
+def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
+    start = now.levels[-1]
     step = end - start.time
     middle = start.time + 0.5 * step
-    whole = _solved(solver, end, Memory(1.0 / step, start.film), start.z, march.payload)
-    first = whole and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, march.payload)
+    whole = _solved(solver, end, Memory(1.0 / step, start.film), start.z, now.payload)
+    first = whole and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, now.payload)
     second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
     if whole is None or first is None or second is None:
         return None
@@ -138,21 +145,21 @@ def _pair(march: March, end: float, solver: Solver) -> Attempt | None:
     return levels, second, solver.error_of(second, whole.film - second.film), 1
 
 
-def _bdf2(march: March, end: float, solver: Solver) -> Attempt | None:
-    old, last = march.levels[-2:]
+def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
+    old, last = now.levels[-2:]
     step, before = end - last.time, last.time - old.time
     ratio = step / before
     weight = ratio**2 / (1.0 + 2.0 * ratio)
     memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
-    solution = _solved(solver, end, memory, _extrapolated(old, last, ratio), march.payload)
-    solution = solution or _solved(solver, end, memory, last.z, march.payload)
+    solution = _solved(solver, end, memory, _extrapolated(old, last, ratio), now.payload)
+    solution = solution or _solved(solver, end, memory, last.z, now.payload)
     if solution is None:
         return None
-    levels = (*march.levels[-2:], Level(end, solution.film, solution.z))
-    if len(march.levels) < 3:
+    levels = (*now.levels[-2:], Level(end, solution.film, solution.z))
+    if len(now.levels) < 3:
         return levels, solution, 0.0, 2
     curve = _divided(
-        [march.levels[-3].time, old.time, last.time, end], [march.levels[-3].film, old.film, last.film, solution.film]
+        [now.levels[-3].time, old.time, last.time, end], [now.levels[-3].film, old.film, last.film, solution.film]
     )
     error = solver.error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
     return levels, solution, error, 2

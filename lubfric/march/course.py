@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from .. import validate
 from ..errors import InputError
 from ..history import History
 from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .bdf import March, Solver, advance, restarted
+from .bdf import Progress, Solver, advance
 
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good
 
@@ -32,25 +31,6 @@ class Plan:
     def end(self) -> float:
         """Last output [s]."""
         return float(self.times[-1])
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a run has come: what the next step starts from, steps taken and rejected, the largest local error so far
-    [of the tolerance]; of the last step its ``solution``, its ``error`` and whether it ended at an output time."""
-
-    march: March
-    steps: int = 0
-    rejected: int = 0
-    worst: float = 0.0
-    solution: Any = None
-    error: float = 0.0
-    at_output: bool = False
-
-    @property
-    def time(self) -> float:
-        """Reached [s]."""
-        return self.march.time
 
 
 def checked_times(times) -> np.ndarray:
@@ -74,23 +54,12 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     time is before ``plan.end``.) A run can go on from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
-            step = advance(now.march, stop, solver, plan.tolerance, SHORTEST * plan.end)
-            if step is None:
+            found = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
+            if found is None:
                 return
-            march = step.march
-            output = march.time == stop and bool(np.any(plan.times == stop))
-            if march.time in plan.jumps:
-                march = restarted(march, plan.first_step)
-            now = replace(
-                now,
-                march=march,
-                steps=now.steps + 1,
-                rejected=now.rejected + step.rejected,
-                worst=max(now.worst, step.error),
-                solution=step.solution,
-                error=step.error,
-                at_output=output,
-            )
+            now = replace(found, at_output=found.time == stop and bool(np.any(plan.times == stop)))
+            if now.time in plan.jumps:  # the same state without its past
+                now = replace(now, levels=now.levels[-1:], step=plan.first_step)
             yield now
 
 

@@ -21,7 +21,7 @@ from scipy.ndimage import label
 from ..deterministic.problem import Problem
 from ..film.rigid import reduced_pressure
 from ..roots import increasing_root
-from .film import GapFilm, gap_film
+from .film import GapFilm, Kept, gap_film
 from .limit import pressure_limit
 
 TOLERANCE = 0.005  # of Q, which moves the film on the spots by some .3 % of itself, and its load by a part of that
@@ -67,8 +67,8 @@ class Lifted:
     height: float
 
 
-def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, ruptured=None) -> Lifted:
-    """``gap`` [m], 0 on the ``spots``, with the film that these keep; ``near`` [m] and ``ruptured``: those of a
+def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, kept: Kept | None = None) -> Lifted:
+    """``gap`` [m], 0 on the ``spots``, with the film that these keep; ``near`` [m] and ``kept``: those of a
     neighbour.
 
     Stops when both reduced pressures agree to `TOLERANCE`. The film is no thinner than the floor; so it is where the
@@ -77,7 +77,7 @@ def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, ruptu
 
     def at(log_height: float, last: Lifted | None) -> tuple[float, Lifted]:
         height = math.exp(log_height)
-        film = gap_film(problem, gap + height, ruptured if last is None else last.film.ruptured)
+        film = gap_film(problem, gap + height, kept if last is None else last.film.kept)
         return surplus(problem, spots, height, film), Lifted(gap + height, film, height)
 
     lowest = math.log(problem.floor)

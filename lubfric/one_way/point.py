@@ -17,6 +17,7 @@ from ..deterministic.problem import Problem
 from ..lubricant import shear_stress
 from ..report import CONVERGED, Report
 from ..roots import Root, increasing_root
+from .film import Kept
 from .lift import GUESS
 from .lift import TOLERANCE as LIFT_TOLERANCE
 from .together import Together, together
@@ -24,6 +25,7 @@ from .trial import Before, Trial, both_conditions, presses, too_much_film, too_t
 
 TOLERANCE = 2e-3  # of the load
 SHARES, LIFTS = (-9.0, 9.0), (-9.0, 9.0)  # ln(F_H/F_C); ln(lift/scale)
+THINNER = 0.5  # of the load over the lift, in logarithms, roughly: 1 between smooth bodies
 PRESSED = 50e6  # Pa: a Newtonian film above it is sheared at no more than f_b p
 
 
@@ -75,7 +77,7 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
     """
     if start is None:
         touching = touching_film(problem)
-        first, before = touching.film_load > problem.load, Before(touching.ruptured, 0.0)
+        first, before = touching.film_load > problem.load, Before(touching.kept, 0.0)
     else:
         first, before = start.lifted, _before(problem, start)
     tried = []
@@ -93,7 +95,9 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
         {"load": abs(root.value)}, root.history, root.payload.film.sets,
         ("the bodies are lifted off each other, undeformed",) if apart else (),
     )  # fmt: skip
-    result = _result(problem, root.payload, apart, found, report)
+    result = _result(
+        problem, root.payload, apart, found, report, start.slope if start and start.lifted == apart else None
+    )
     report.raise_if_failed(result)
     return result
 
@@ -114,7 +118,7 @@ def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, to
             step=0.7,
             bounds=LIFTS if apart else SHARES,
             tolerance=tolerance,
-            slope=near.slope if near else None,
+            slope=(near.slope if near else None) or (THINNER if apart else None),
             first=(None, before),
         )
     )
@@ -135,15 +139,19 @@ def _both(problem: Problem, near: OneWay | None, before: Before, tolerance: floa
 
 
 def _before(problem: Problem, near: OneWay) -> Before:
-    """The film of ``near`` on the cells of ``problem``, the nearest of its own."""
+    """The film of ``near`` on the cells of ``problem``."""
+    return Before(Kept(on_cells(near, problem.x, problem.heights.shape[1])), near.spot_film)
+
+
+def on_cells(near: OneWay, x, columns: int) -> np.ndarray:
+    """Where the film of ``near`` has ruptured, on cells at ``x`` [m] in so many ``columns``: the nearest of its own."""
     (nx, ny), step = near.ruptured.shape, near.x[1] - near.x[0]
-    along = np.clip(np.rint((problem.x - near.x[0]) / step).astype(int), 0, nx - 1)
-    columns = problem.heights.shape[1]
+    along = np.clip(np.rint((x - near.x[0]) / step).astype(int), 0, nx - 1)
     across = ((np.arange(columns) + 0.5) * ny / columns).astype(int)
-    return Before(near.ruptured[along][:, across], near.spot_film)
+    return near.ruptured[along][:, across]
 
 
-def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report) -> OneWay:
+def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Report, slope: float | None) -> OneWay:
     lubricant, p, cell = problem.lubricant, at.pressure, problem.spacing[0] / at.gap.shape[1]
     wet = ~at.closed & ~at.film.ruptured
     tau = shear_stress(lubricant, p, problem.sliding / at.gap)
@@ -168,7 +176,7 @@ def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Rep
         at.spot_film,
         found.root.x,
         problem.contact.moes_film,
-        found.root.slope,
+        found.root.slope or slope,
         found.tangent,
         report,
     )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..deterministic.point import grids, layer
+from ..deterministic.point import LEAST, grids, layer
 from ..deterministic.refine import estimate
 from ..scene import Scene
 from ..scene.resolved_gap import check_resolved_gap
 from ..surface import Surface
-from .point import OneWay, solve_one_way
+from .point import OneWay, on_cells, solve_one_way
 
 
 def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[OneWay, ...] = ()) -> tuple[OneWay, ...]:
@@ -22,6 +22,8 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
     lay = layer(scene, surface, speed)
     found: list[OneWay] = []
     shapes = [shape for shape in grids(scene, surface) if shape[1] <= surface.shape[1]]
+    if scene.numerics.grid == "given" and shapes[0][1] >= 2 * LEAST:
+        shapes.insert(0, (shapes[0][0] // 2, shapes[0][1] // 2))
     for level, shape in enumerate(shapes):
         near = _near(start, found, level)
         found.append(solve_one_way(lay(shape), near))
@@ -39,4 +41,8 @@ def _near(start: tuple[OneWay, ...], found: list[OneWay], level: int) -> OneWay 
     coarse, here, coarser = found[-1], start[level], start[level - 1]
     if not coarse.lifted == here.lifted == coarser.lifted:
         return coarse
-    return replace(here, unknown=coarse.unknown + here.unknown - coarser.unknown, slope=coarse.slope)
+    unknown = coarse.unknown + here.unknown - coarser.unknown
+    spot_film = coarse.spot_film * here.spot_film / coarser.spot_film if coarser.spot_film else coarse.spot_film
+    changed = on_cells(coarse, here.x, here.ruptured.shape[1]) != on_cells(coarser, here.x, here.ruptured.shape[1])
+    ruptured = here.ruptured ^ changed
+    return replace(coarse, x=here.x, ruptured=ruptured, unknown=unknown, spot_film=spot_film)

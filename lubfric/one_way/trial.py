@@ -11,9 +11,11 @@ from ..contact import ContactResult
 from ..deterministic.problem import Problem
 from ..deterministic.start import dry_contact
 from ..film.rigid import true_pressure
-from .film import GapFilm, gap_film
+from .film import RIGHT, GapFilm, Kept, gap_film
 from .lift import GUESS, Lifted, lifted, spots_of, surplus
 from .limit import pressure_limit
+
+NEAR = 0.01  # of the conditions, from which on a film is settled
 
 
 @dataclass(frozen=True)
@@ -30,16 +32,16 @@ class Trial:
     spot_film: float
 
     @property
-    def ruptured(self) -> np.ndarray:
-        """Where the film has ruptured (bool)."""
-        return self.film.ruptured
+    def kept(self) -> Kept:
+        """What its film leaves a neighbour."""
+        return self.film.kept
 
 
 @dataclass(frozen=True)
 class Before:
     """What a first trial takes from a neighbour."""
 
-    ruptured: np.ndarray
+    kept: Kept
     spot_film: float
     contact: None = None
 
@@ -48,17 +50,30 @@ def both_conditions(problem: Problem, unknowns, last: Trial | Before):
     """Both conditions at the share ``unknowns[0]`` of the film and ln(film on the spots) ``unknowns[1]``."""
     split, height = float(unknowns[0]), math.exp(float(unknowns[1]))
     contact_load, dry, gap = _dry(problem, split, last)
-    film = gap_film(problem, gap + height, last.ruptured)
-    trial = _filled(problem, Lifted(gap + height, film, height), dry.pressure > 0, contact_load, dry)
-    unmet = math.log((problem.load - contact_load) / trial.film_load)
-    return np.array([unmet, surplus(problem, spots_of(dry.pressure), height, film)]), trial
+    spots = spots_of(dry.pressure)
+
+    def with_film(film: GapFilm):
+        trial = _filled(problem, Lifted(gap + height, film, height), dry.pressure > 0, contact_load, dry)
+        unmet = math.log((problem.load - contact_load) / trial.film_load)
+        return np.array([unmet, surplus(problem, spots, height, film)]), trial
+
+    return _nearer(problem, gap + height, last.kept, with_film)
+
+
+def _nearer(problem: Problem, gap, kept: Kept, with_film):
+    """What ``with_film`` makes of the film of ``gap``: values of conditions, and a trial. The film is settled where
+    they are near 0."""
+    values, trial = with_film(gap_film(problem, gap, kept, RIGHT))
+    if np.abs(values).max() > NEAR:
+        return values, trial
+    return with_film(gap_film(problem, gap, trial.film.kept))
 
 
 def too_much_film(problem: Problem, split: float, last: Trial | Before):
     """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
-    raised = lifted(problem, gap, spots, last.spot_film or None, last.ruptured)
+    raised = lifted(problem, gap, spots, last.spot_film or None, last.kept)
     trial = _filled(problem, raised, dry.pressure > 0, contact_load, dry)
     return math.log((problem.load - contact_load) / trial.film_load), trial
 
@@ -71,23 +86,28 @@ def _dry(problem: Problem, split: float, last: Trial | Before) -> tuple[float, C
     return contact_load, dry, np.where(dry.pressure > 0, 0.0, np.maximum(dry.gap, 0.0))
 
 
-def too_thick(problem: Problem, log_lift: float, last: Trial | Before | None) -> tuple[float, Trial]:
+def too_thick(problem: Problem, log_lift: float, last: Trial | Before) -> tuple[float, Trial]:
     """ln of the load over what the film carries under bodies that are apart, at the ln of their lift; it increases with
     the lift."""
     scale = max(float(problem.heights.std()), problem.contact.moes_film)
-    trial = _lifted(problem, scale * math.exp(log_lift), last)
-    return math.log(problem.load / trial.film_load), trial
+    gap = _apart(problem, scale * math.exp(log_lift))
+
+    def with_film(film: GapFilm):
+        trial = _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
+        return math.log(problem.load / trial.film_load), trial
+
+    return _nearer(problem, gap, last.kept, with_film)
 
 
-def _lifted(problem: Problem, lift: float, last: Trial | Before | None) -> Trial:
-    gap = np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
-    film = gap_film(problem, gap, last.ruptured if last else None)
-    return _filled(problem, Lifted(gap, film, 0.0), np.zeros(gap.shape, bool), 0.0, None)
+def _apart(problem: Problem, lift: float) -> np.ndarray:
+    """Gap [m] of undeformed bodies, the highest summit at ``lift``."""
+    return np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
 
 
 def touching_film(problem: Problem) -> Trial:
     """With the film that the first summit is taken to keep."""
-    return _lifted(problem, max(GUESS * problem.contact.moes_film, problem.floor), None)
+    gap = _apart(problem, max(GUESS * problem.contact.moes_film, problem.floor))
+    return _filled(problem, Lifted(gap, gap_film(problem, gap), 0.0), np.zeros(gap.shape, bool), 0.0, None)
 
 
 def presses(problem: Problem, trial: Trial) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREY, friction_lines
+from ..plot import BLUE, GREY, friction_lines, plain_ticks
 
 
 def axes_or_new(ax, size=(7, 4.5)):
@@ -30,6 +30,7 @@ def curve_axes(curve, ax=None, **style):
     else:
         friction_lines(axes, speed, (f, contact / total, film / total), **{"marker": "o", "ms": 4} | style)
     axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
+    plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(f.min(initial=0.0))))
     axes.legend(frameon=False)
     return axes

@@ -24,10 +24,10 @@ def run_study(arguments) -> int:
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
     plan = load_study(arguments.study)
     if arguments.explain:
-        put(sys.stdout, plan.explain() + "\n")
+        put(sys.stdout, plan.explain(arguments.out) + "\n")
         return 0
     check_tools(arguments.netcdf, arguments.parquet)
-    say(plan.explain())
+    say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +70,20 @@ def ground_of(scene: Scene, curve: bool) -> Ground:
     lines = lines_of(scene)
     shape = lines.cells.count, max(2, round(pilot_length(lines) / lines.cells.coarse[1]))
     return Ground(surface.sq, shape, _transform(shape), lines, piece=piece_cells(lines) / math.prod(shape))
+
+
+def mean_speed(speeds: Iterable[float]) -> float:
+    """Geometric mean of the magnitudes of ``speeds`` [m/s] that are not 0; 0 where there are none."""
+    known = [abs(u) for u in speeds if u]
+    return math.exp(math.fsum(map(math.log, known)) / len(known)) if known else 0.0
+
+
+def in_words(seconds: float) -> str:
+    """A foretold time, with the unit that suits it."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds > 2 * size:
+            return f"{seconds / size:.2g} {unit}"
+    return f"{seconds:.2g} s"
 
 
 def film_clock(scene: Scene, speed: float) -> float:

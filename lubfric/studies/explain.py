@@ -2,65 +2,87 @@
 
 from __future__ import annotations
 
+from numbers import Real
+from typing import Any
+
 import numpy as np
 
 from ..curve.span import first_speeds
 from ..errors import InputError
 from ..scene import Scene
 from .adaptive import CHOSEN
-from .cost import Ground, by_curve, film_clock, ground_of, point_seconds
+from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
+from .journal import Journal
+from .walk import Batch
 
 SAMPLED = 2000  # points at most whose cost is foretold one by one
 RECORD = 4000  # bytes of a point on disk
 FIELD = 8 * 4  # bytes a cell of the state of a chain under way
+LISTED = 4  # values of a key that are named one by one
 
 
-def explain(plan) -> str:
-    """The points of a `StudyPlan`, what they share, and their predicted cost and disk, in words.
+def explain(plan, store=None) -> str:
+    """The points of a `StudyPlan`, what they share, how many of them the folder ``store`` holds already, and the
+    predicted cost and disk of the rest, in words.
 
     The maps are made, and one film is solved as a clock of this machine. No point is solved.
     """
-    curves = [curve for batch in plan.batches for curve in batch.curves]
-    chains = sum(len(curve.chains) for curve in curves)
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     about = "" if plan.speeds else "about "
     lines = [f"study of {plan.scene.name}: {about}{plan.points} points"]
     for axis in plan.axes:
-        first, last = axis.values[0], axis.values[-1]
-        shown = ", ".join(f"{key} from {_short(a)} to {_short(b)}" for key, a, b in zip(axis.keys, first, last))
+        shown = ", ".join(f"{key} {_range(column)}" for key, column in zip(axis.keys, zip(*axis.values)))
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
-        longest = max(len(c.speeds) for k in curves for c in k.chains)
-        started = f"{chains} warm-started chains of at most {longest} points"
+        longest = max(len(walk.speeds) for walk in plan.walks)
+        started = f"{_count(plan.walks, 'chain')} of up to {longest} speeds, each started from its neighbour"
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
         started = "each point started from the nearest of its curve"
-    cells, seconds, failed = _costs(plan)
+    known = {} if store is None else Journal(store).records()
+    cells, seconds, failed = _costs(plan, known)
     lines += [
-        f"  shared         {_count(maps, 'height map')} ({cells} cells the largest grid), "
-        f"{_count(plan.batches, 'batch')}, each of one map and operator, {started}",
-        f"  time           {_foretold(plan, seconds)}",
-        f"  disk           about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process "
-        "while it runs",
+        f"  shared   {_count(maps, 'height map')}, the largest of {cells} cells; "
+        f"{_count(plan.batches, 'batch')}, each of one map",
+        f"  order    {started}",
+        *_kept(plan, known, store),
+        f"  time     {_foretold(plan, seconds)}",
+        f"  disk     about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process while it runs",
         *(f"  cannot be solved: {reason}" for reason in failed),
     ]
     return "\n".join(lines)
 
 
+def _kept(plan, known, store) -> list[str]:
+    """How much of the plan the store holds, where it holds any of it."""
+    keys = set(plan.keys().flat)
+    held = len(keys & known.keys())
+    what = "points" if plan.speeds else "curves"
+    return [f"  kept     {held} of {len(keys)} {what} are in {store} already"] if held else []
+
+
 def _foretold(plan, seconds: float) -> str:
     if plan.scene.numerics.model == "deterministic" or plan.scene.numerics.closure == "one-way":
         return "not foretold where the fluid between the asperities is solved for"
+    if not seconds:
+        return "nothing is left to solve"
     most = len(plan.batches)
-    shared = f", divided by the number of processes up to {most}" if most > 1 else ", in one process: it is one batch"
-    return f"about {_time(seconds)} on one core (within a factor of 3){shared}"
+    shared = f"; up to {most} processes share it" if most > 1 else ""
+    return f"about {in_words(seconds)} on one core (within a factor of 3){shared}"
 
 
-def _costs(plan) -> tuple[int, float, list[str]]:
-    """(cells of the largest grid, processor seconds, reasons of maps that cannot be made)."""
+def _left(batch: Batch, known) -> list[tuple[Scene, tuple[float, ...]]]:
+    """Scene and speeds [m/s] of what is left of the walks of a batch; no speeds where a walk chooses them."""
+    left = [(walk, tuple(u for u, key in zip(walk.speeds, walk.keys) if key not in known)) for walk in batch.walks]
+    return [(walk.scene, speeds) for walk, speeds in left if not walk.ended(known)]
+
+
+def _costs(plan, known: dict[str, Any] | None = None) -> tuple[int, float, list[str]]:
+    """(cells of the largest grid, processor seconds, reasons of maps that cannot be made) of what is not ``known``."""
     grounds: dict[str, Ground | None] = {}
     failed: list[str] = []
-    curves, seconds = [], 0.0
+    walks, seconds = [], 0.0
     for batch in plan.batches:
         leader = batch.leader
         name = repr((leader.surface, leader.counterface, leader.contact, leader.numerics, leader.bodies))
@@ -71,23 +93,24 @@ def _costs(plan) -> tuple[int, float, list[str]]:
                 grounds[name] = None
                 failed.append(str(error))
         ground = grounds[name]
-        if ground is not None:
+        left = _left(batch, known or {})
+        if left and ground is not None:
             seconds += ground.making
-            curves += [(curve.scene, ground) for curve in batch.curves]
-    some = curves[:: max(1, len(curves) * len(plan.speeds) // SAMPLED)]
+            walks += [(scene, ground, speeds) for scene, speeds in left]
+    some = walks[:: max(1, sum(len(speeds) for *_, speeds in walks) // SAMPLED)]
     if some:
-        seconds += len(curves) / len(some) * _points(some, plan.speeds)
+        seconds += len(walks) / len(some) * _points(some)
     largest = max((int(np.prod(ground.shape)) for ground in grounds.values() if ground is not None), default=0)
     return largest, seconds, failed
 
 
-def _points(curves: list[tuple[Scene, Ground]], speeds: tuple[float, ...]) -> float:
-    """Processor seconds of the points of some curves. ``speeds`` [m/s] is empty where each curve chooses its own."""
-    scene, ground = curves[len(curves) // 2]
-    known = [abs(u) for u in (speeds or first_speeds(scene, ground.sq)) if u]
-    film = film_clock(scene, float(np.exp(np.mean(np.log(known)))) if known else 0.0)
+def _points(walks: list[tuple[Scene, Ground, tuple[float, ...]]]) -> float:
+    """Processor seconds of the points of some walks, at their speeds [m/s], which are empty where each chooses its
+    own."""
+    scene, ground, speeds = walks[len(walks) // 2]
+    film = film_clock(scene, mean_speed(speeds or first_speeds(scene, ground.sq)))
     found = 0.0
-    for scene, ground in curves:
+    for scene, ground, speeds in walks:
         at = speeds or first_speeds(scene, ground.sq)
         found += sum(point_seconds(scene, ground, u, film) for u in at) * (1.0 if speeds else CHOSEN / len(at))
     return found
@@ -98,20 +121,22 @@ def _count(things, name: str) -> str:
     return f"{len(things)} {name}{plural}"
 
 
+def _range(values: tuple) -> str:
+    """The values of a key: one by one where they are few, else the smallest and the largest, or first and last."""
+    if len(values) <= LISTED:
+        return ", ".join(map(_short, values))
+    if all(isinstance(value, Real) for value in values):
+        return f"{_short(min(values))} to {_short(max(values))}"
+    return f"{_short(values[0])} ... {_short(values[-1])}"
+
+
 def _short(value) -> str:
     text = f"{value:.4g}" if isinstance(value, float) else str(value)
     return text if len(text) < 50 else text[:47] + "..."
-
-
-def _time(seconds: float) -> str:
-    for unit, size in (("h", 3600.0), ("min", 60.0)):
-        if seconds > 2 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
 
 
 def _size(count: float) -> str:
     for unit, size in (("GB", 1e9), ("MB", 1e6)):
         if count >= size:
             return f"{count / size:.2g} {unit}"
-    return f"{count / 1e3:.2g} kB"
+    return f"{max(round(count / 1e3), 1)} kB"

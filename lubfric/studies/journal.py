@@ -1,10 +1,13 @@
-"""What is kept on disk of a chain of points while it is solved: each finished point at once, and the start of the
-next."""
+"""What is kept on disk of points while they are solved: each finished one at once, and what its neighbours start
+from."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
@@ -14,7 +17,25 @@ from ..store.codec import from_plain, to_plain
 from ..validity.entry import Validity
 
 POINTS, STATES, FIELDS = "points", "states", "fields"
-PLACE = "place"  # in a record
+SPEED = "speed"  # in a record
+
+
+class Point(NamedTuple):
+    """A point that has ended: its speed [m/s] and its `FrictionResult` or error. Without an outcome, the mark that a
+    walk which chose its speeds has ended."""
+
+    key: str
+    speed: float = math.nan
+    outcome: object = None
+
+    @property
+    def record(self) -> dict:
+        """Plain JSON types: all numbers of the result but the fields, or the error and the speed."""
+        if self.outcome is None:
+            return {}
+        found = record_of(self.outcome)
+        lacks_speed = isinstance(self.outcome, Exception) and not math.isnan(self.speed)
+        return found | {SPEED: self.speed} if lacks_speed else found
 
 
 @dataclass(frozen=True)
@@ -32,9 +53,8 @@ class Failure:
 class Journal:
     """The folder of a store, as one process writes it; without a folder (`NOWHERE`) nothing is kept, and nothing found.
 
-    A point is first put whole into the state of its chain, then as one line into the records. So a kill at any moment
-    leaves a state that belongs to the last record, or is one point ahead of it. In the second case the state holds the
-    record that is missing.
+    A point is first put whole into a file of its own, its state, then as one line into the records. So a kill at any
+    moment leaves a record for each state but, at most, the last. That one is the point whose record is missing.
     """
 
     def __init__(self, folder):
@@ -52,38 +72,44 @@ class Journal:
         """Every whole record by key."""
         return {} if self._records is None else dict(self._records.read())
 
-    def add(self, key: str, record: dict) -> None:
-        """Add one record, as `record_of` makes it."""
+    def point(self, key: str, records: dict[str, dict], wanted) -> Point | None:
+        """The point ``key`` as ``records`` hold it, with its fields if its speed is ``wanted``; None where it is not
+        whole."""
+        record = records.get(key)
+        if record is None:
+            return None
+        outcome = outcome_of(record)
+        if not isinstance(outcome, FrictionResult):
+            return Point(key, record.get(SPEED, math.nan), outcome)
+        if outcome.speed in wanted:
+            outcome = self._read(FIELDS, key)
+        return None if outcome is None else Point(key, outcome.speed, outcome)
+
+    def add(self, point: Point) -> Point:
+        """Add the record of a point, which is given back."""
         if self._records is not None:
-            self._records.add(key, record)
+            self._records.add(point.key, point.record)
+        return point
 
-    def keep(self, chain: str, key: str, outcome, fields: bool = False, place: dict | None = None) -> None:
-        """Keep the ``outcome`` (result or error) of point ``key`` of a chain; with ``fields``, its balance too.
-
-        ``place``: for a point whose speed was chosen on the way, its curve, its place on it and its speed [m/s]. It is
-        put into the record.
-        """
-        if self.folder is None:
-            return
-        state = encode({"key": key, "outcome": _storable(outcome)})
-        if fields:
-            write_checked(self._path(FIELDS, key), *state)
-        write_checked(self._path(STATES, chain), *state, sync=False)
-        record = record_of(outcome)
-        self.add(key, record if place is None else record | {PLACE: place})
-
-    def state(self, chain: str) -> tuple[str, object]:
-        """(key, outcome) of the last point of a chain, or ("", None) where no whole one is kept."""
-        return self._read(STATES, chain)
-
-    def fields(self, key: str):
-        """The result of point ``key`` with its balance, or None."""
-        return self._read(FIELDS, key)[1]
-
-    def end(self, chain: str) -> None:
-        """Remove the state of a chain that is complete."""
+    def keep(self, key: str, speed: float, outcome, fields: bool = False) -> Point:
+        """Keep an ``outcome`` with all that a neighbour starts from. Returns the point without that; with ``fields``,
+        these are kept too, and stay in it."""
         if self.folder is not None:
-            self._path(STATES, chain).unlink(missing_ok=True)
+            state = encode(_storable(outcome))
+            if fields:
+                write_checked(self._path(FIELDS, key), *state)
+            write_checked(self._path(STATES, key), *state, sync=False)
+        return self.add(Point(key, speed, outcome if fields else without_fields(outcome)))
+
+    def state(self, key: str):
+        """The outcome of point ``key`` with all that a neighbour starts from, or None where no whole one is kept."""
+        return self._read(STATES, key)
+
+    def end(self, keys: Iterable[str]) -> None:
+        """Remove the states of points from which no other will start."""
+        if self.folder is not None:
+            for key in keys:
+                self._path(STATES, key).unlink(missing_ok=True)
 
     def begin(self, name: str) -> bool:
         """Mark a piece of work as begun. Returns whether it was begun before and not finished."""
@@ -102,16 +128,15 @@ class Journal:
     def _path(self, kind: str, name: str, suffix: str = "bin") -> Path:
         return Path(self.folder or "") / kind / f"{name[:32]}.{suffix}"
 
-    def _read(self, kind: str, name: str):
-        path = self._path(kind, name)
+    def _read(self, kind: str, key: str):
+        path = self._path(kind, key)
         content = None if self.folder is None or not path.is_file() else read_checked(path)
         if content is None:
-            return "", None
+            return None
         try:
-            found = decode(content)
+            return _outcome(decode(content))
         except ValueError:  # of another version: solved again
-            return "", None
-        return found["key"], _outcome(found["outcome"])
+            return None
 
 
 NOWHERE = Journal(None)

@@ -1,4 +1,5 @@
-"""Every point of a study laid out before the first is solved: curves, chains, and batches that share a height map."""
+"""Every point of a study laid out before the first is solved: walks along its curves, in batches that share a height
+map."""
 
 from __future__ import annotations
 
@@ -12,49 +13,20 @@ from ..errors import InputError
 from ..prepared import scene_of
 from ..scene import Scene
 from ..store import fingerprint
-from .adaptive import AUTO, CHOSEN, MOST, curve_key
-from .chain import Chain, make_chain
+from .adaptive import AUTO, CHOSEN
 from .cost import by_curve
 from .vary import Axis, axes_of
+from .walk import MOST, Batch, Walk
 
-CHAIN = 25  # points at most that are solved one after the other
 BATCH = 50  # points at least, where curves that share a map are solved by one process
-
-
-@dataclass(frozen=True)
-class Curve:
-    """The speeds of one combination of values.
-
-    ``index``: its position along each axis; ``whole``: fingerprint of all that it depends on; ``chains``: its points,
-    none where the curve chooses its speeds itself.
-    """
-
-    index: tuple[int, ...]
-    scene: Scene
-    whole: str
-    chains: tuple[Chain, ...]
-
-    @property
-    def name(self) -> str:
-        """Name of its state in a journal."""
-        return self.chains[0].name if self.chains else self.whole
-
-
-@dataclass(frozen=True)
-class Batch:
-    """Curves that one process solves on one height map. ``leader``: the scene that is prepared first; the others
-    reuse its map."""
-
-    leader: Scene
-    curves: tuple[Curve, ...]
 
 
 @dataclass(frozen=True)
 class StudyPlan:
     """All of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it out.
 
-    The chains of warm starts depend on the values and speeds alone, never on how many processes share the work. So
-    every executor gives the same bits. ``speeds``: none where every curve chooses its own.
+    The walks, and with them the starts, depend on the values and speeds alone, never on how many processes share the
+    work. So every executor gives the same bits. ``speeds``: none where every curve chooses its own.
     """
 
     scene: Scene
@@ -72,29 +44,29 @@ class StudyPlan:
         """Number of points. Where speeds are chosen it is an estimate."""
         return int(np.prod(self.shape[:-1])) * (len(self.speeds) or CHOSEN)
 
+    @property
+    def walks(self) -> list[Walk]:
+        """All that is to be solved."""
+        return [walk for batch in self.batches for walk in batch.walks]
+
     def keys(self) -> np.ndarray:
         """The key of each point, an array of ``shape``. Where speeds are chosen: the key of each complete curve,
         over the axes."""
-        if not self.speeds:
-            ends = np.empty(self.shape[:-1], dtype=object)
-            for batch in self.batches:
-                for curve in batch.curves:
-                    ends[curve.index] = curve_key(curve.whole)
-            return ends
-        found = np.empty(self.shape, dtype=object)
+        found = np.empty(self.shape if self.speeds else self.shape[:-1], dtype=object)
         at = {speed: i for i, speed in enumerate(self.speeds)}
-        for batch in self.batches:
-            for curve in batch.curves:
-                for chain in curve.chains:
-                    for speed, key in zip(chain.speeds, chain.keys):
-                        found[(*curve.index, at[speed])] = key
+        for walk in self.walks:
+            if not self.speeds:
+                (found[walk.index],) = walk.marks
+            for speed, key in zip(walk.speeds, walk.keys):
+                found[(*walk.index, at[speed])] = key
         return found
 
-    def explain(self) -> str:
-        """Points, what they share, predicted cost and disk, in words."""
+    def explain(self, store=None) -> str:
+        """Points, what they share, predicted cost and disk, in words. ``store``: the folder of the study, whose points
+        are not counted in the cost."""
         from .explain import explain
 
-        return explain(self)
+        return explain(self, store)
 
 
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
@@ -152,15 +124,15 @@ def _batches(scenes: dict, speeds: tuple[float, ...]):
     for group in groups.values():
         leader = max((scene for _, scene in group), key=lambda scene: scene.bodies.mean_hertz_pressure)
         size = len(group) if by_curve(leader) else max(1, -(-BATCH // (len(speeds) or CHOSEN)))
-        curves = [_curve(index, scene, leader, speeds, maps) for index, scene in group]
+        curves = [_walks(index, scene, leader, speeds, maps) for index, scene in group]
         for first in range(0, len(curves), size):
-            piece = tuple(curves[first : first + size])
-            yield Batch(leader if by_curve(leader) else piece[0].scene, piece)
+            walks = tuple(walk for curve in curves[first : first + size] for walk in curve)
+            yield Batch(leader if by_curve(leader) else walks[0].scene, walks)
 
 
-def _curve(index, scene, leader, speeds, maps) -> Curve:
+def _walks(index, scene, leader, speeds, maps) -> list[Walk]:
+    """The walks along one curve, from its fastest speed down."""
     order = sorted(speeds, key=lambda u: -abs(u))
-    pieces = np.array_split(np.array(order), -(-len(order) // CHAIN)) if order else []
     rough = repr((scene.surface, scene.counterface))
     if rough not in maps:  # a file is read once, however many curves it serves
         maps[rough] = fingerprint(scene.surface, scene.counterface)
@@ -168,8 +140,9 @@ def _curve(index, scene, leader, speeds, maps) -> Curve:
     parts = [maps[rough], scene.motion.slide_roll_ratio, *(getattr(scene, name) for name in others)]
     if by_curve(leader):  # the contact curve reaches to the heaviest load of the group
         parts.append(leader.bodies)
-    whole = fingerprint(*parts)
-    return Curve(index, scene, whole, tuple(make_chain(whole, piece) for piece in pieces))
+    runs = np.array_split(order, max(1, -(-len(order) // MOST)))
+    name = fingerprint(*parts)
+    return [Walk(scene, name, tuple(run.tolist()), index=index) for run in runs]
 
 
 def _shared(scene: Scene) -> str:

@@ -17,8 +17,9 @@ from ..scene import scene_as_dict
 from ..show import Shown
 from ..version import __version__
 from .adaptive import AUTO, FEWEST, samples_at
-from .journal import Journal
-from .table_row import AT, CONVERGED, COUNT, CURVE, MISSING, SPEED, STATUS, UNUSED, row_of
+from .journal import SPEED, Journal
+from .table_row import CONVERGED, MISSING, STATUS, UNUSED, row_of
+from .walk import chosen_keys
 
 PLAN = "study.json"
 POINT = "point"  # the last dimension where speeds are chosen
@@ -59,7 +60,7 @@ class StudyResult(Shown):
             for name, value in row.items():
                 if name == STATUS:
                     status[at] = value
-                elif name not in (CURVE, AT):
+                elif chosen or name != SPEED:
                     columns.setdefault(name, np.full(size, np.nan))[at] = value
         status = status.reshape(shape)
         most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=tuple(range(status.ndim - 1)))).max(initial=0))
@@ -200,14 +201,15 @@ def open_study(folder) -> StudyResult:
         raise InputError(f"{folder} holds no {PLAN}; allowed: the store of a study")
     try:
         plan = json.loads(path.read_text(encoding="utf-8"))
-        keys = set(plan["keys"])
+        keys = plan["keys"]
     except (ValueError, KeyError, TypeError, UnicodeDecodeError):
         raise InputError(
             f"{path} is damaged; allowed: run the study again on this store, which writes it anew"
         ) from None
-    rows = {key: row_of(record) for key, record in Journal(folder).records().items()}
-    rows = {key: row for key, row in rows.items() if key in keys or row.get(CURVE) in keys}
-    return StudyResult.of_rows(plan, rows)
+    if plan["speeds"] == AUTO:
+        keys = [key for mark in keys for key in (mark, *chosen_keys(mark))]
+    records = Journal(folder).records()
+    return StudyResult.of_rows(plan, {key: row_of(records[key]) for key in keys if key in records})
 
 
 def _on_speeds(plan: dict, rows: dict[str, dict]):
@@ -218,14 +220,13 @@ def _on_speeds(plan: dict, rows: dict[str, dict]):
 
 def _on_curves(plan: dict, rows: dict[str, dict]):
     """The same for curves that chose their speeds. The first free place of an unfinished curve is "not computed"."""
-    most = plan["shape"][-1]
-    first = {key: most * i for i, key in enumerate(plan["keys"])}
-    placed = [(first[row[CURVE]] + row[AT], row) for row in rows.values() if AT in row and row[CURVE] in first]
-    status = np.full(most * len(first), UNUSED, dtype=object)
-    ended, taken = {row[CURVE] for row in rows.values() if COUNT in row}, {at for at, _ in placed}
-    for key, begin in first.items():
-        if key not in ended:
-            status[next(at for at in range(begin, begin + most) if at not in taken)] = MISSING
+    placed, most = [], plan["shape"][-1]
+    status = np.full(most * len(plan["keys"]), UNUSED, dtype=object)
+    for curve, mark in enumerate(plan["keys"]):
+        keys = dict(enumerate(chosen_keys(mark), most * curve))
+        placed += [(at, rows[key]) for at, key in keys.items() if key in rows]
+        if mark not in rows:
+            status[next(at for at, key in keys.items() if key not in rows)] = MISSING
     return placed, status
 
 

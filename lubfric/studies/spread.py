@@ -16,7 +16,8 @@ SHARE = 0.1  # of the time spent on looking, at most
 def spread(
     executor, work: Callable, pieces: list, again: Callable | None = None, look: Callable | None = None
 ) -> Iterator:
-    """Yield ``work(piece)`` for every piece, as they end.
+    """Yield what ``work(piece)`` yields, for every piece: here each at once, from an executor those of a piece when it
+    has ended.
 
     ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
     must catch what a piece may rightly raise. An exception out of it is a fault: pieces not yet begun are cancelled,
@@ -28,7 +29,7 @@ def spread(
     """
     if executor is None:
         for piece in pieces:
-            yield work(piece)
+            yield from work(piece)
         return
     waiting, lost, broken = {}, [], False
     for piece in pieces:
@@ -47,14 +48,14 @@ def spread(
                 continue
             if not done:
                 raise value
-            yield value
+            yield from value
     finally:
         for future in waiting:
             future.cancel()
     if broken:
         executor.shutdown(wait=True)  # its other workers are gone before their pieces are looked at
     for piece in lost:
-        yield work(piece if again is None else again(piece))
+        yield from work(piece if again is None else again(piece))
 
 
 def checked_executor(executor):
@@ -77,8 +78,8 @@ def _ended(left: set, look: Callable | None) -> Iterator:
 
 
 def _attempt(work, piece):
-    """(True, the value) or (False, the exception): tells faults of the work from those of the executor."""
+    """(True, the values) or (False, the exception): tells faults of the work from those of the executor."""
     try:
-        return True, work(piece)
+        return True, list(work(piece))
     except Exception as error:
         return False, error

@@ -148,7 +148,7 @@ def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
         shown = values if not isinstance(values, Between) else "a range: see lubfric.sample"
         raise InputError(f"vary: {', '.join(keys)} = {shown!r}; allowed: a list of values")
     if len(keys) == 1:
-        rows = [(value,) for value in rows]
+        rows = [row if isinstance(row, tuple) and len(row) == 1 else (row,) for row in rows]  # of `sample`: as it is
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
             raise InputError(

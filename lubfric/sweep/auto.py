@@ -11,8 +11,10 @@ from ..errors import InputError
 from ..prepared import Prepared
 from ..report import ITERATION_LIMIT, Report
 from ..store import fingerprint
-from ..studies.adaptive import FEWEST, run_adaptive, samples_of, search_of
+from ..studies.adaptive import FEWEST, samples_of, tolerance_between
 from ..studies.journal import Journal
+from ..studies.trail import Trail
+from ..studies.walk import Walk
 from .result import StribeckResult, collected
 
 
@@ -22,19 +24,20 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
-    search = search_of(prepared, fingerprint(prepared), wanted)
-    found = {}
+    walk = Walk(prepared.scene, fingerprint(prepared, wanted), (), frozenset(wanted))
+    found: dict[float, object] = {}
     with Journal(store) as journal:
-        for speed, outcome in run_adaptive(prepared, search, journal, journal.records()):
+        for _, speed, outcome in Trail(prepared, walk, journal, journal.records()).points():
             found[speed] = outcome
             if on_point:
                 on_point(len(found), len(found), speed, outcome)
+        journal.end(walk.keys)
     speeds = np.array(sorted(found))
     outcomes = dict(enumerate(found[u] for u in speeds))
     errors = {i: o for i, o in outcomes.items() if isinstance(o, Exception)}
     result = collected(speeds, [None if i in errors else o for i, o in outcomes.items()], errors)
     if len(speeds) - len(errors) >= FEWEST:
-        result = replace(result, report=_with_interpolation(result, search.tolerance))
+        result = replace(result, report=_with_interpolation(result, tolerance_between(prepared)))
     return result
 
 

@@ -13,13 +13,12 @@ from ..result import FrictionResult
 from ..scene import Scene
 from ..store import fingerprint
 from ..studies.adaptive import AUTO
-from ..studies.chain import Chain, make_chain
-from ..studies.plan import CHAIN
-from ..studies.solve import solve_chains
 from ..studies.spread import checked_executor
+from ..studies.walk import MOST, Walk
 from .auto import auto_curve
 from .points import judged
 from .result import StribeckResult, collected
+from .share import solve_walks
 
 MIXED = 1.3  # Moes' film of the whole load over Sq of the speed that comes first
 
@@ -74,7 +73,7 @@ def stribeck(
             on_point(len(errors) + sum(p is not None for p in points), speeds.size, float(speeds[index]), outcome)
 
     try:
-        solve_chains(prepared, *sweep_chains(prepared, speeds, kept), executor, store, keep)
+        solve_walks(prepared, _walks(prepared, speeds, kept), executor, store, keep)
     except BaseException as fault:
         fault.result = collected(speeds, points, errors)  # type: ignore[attr-defined]  # beside what it holds
         raise
@@ -90,21 +89,23 @@ def _given(speeds, motion) -> np.ndarray:
     return validate.array("speeds", speeds, "m/s", ndim=1).copy()
 
 
-def sweep_chains(prepared: Prepared, speeds, kept) -> tuple[Chain, list[tuple[Chain, np.ndarray]]]:
-    """The chain of the speed that comes first, and all chains, each with the indices of its speeds.
+def _walks(prepared: Prepared, speeds, kept) -> list[tuple[Walk, np.ndarray]]:
+    """The walk of the one speed that comes first, then those that start from it, each with the indices of its speeds.
 
-    The others go from the first speed to either side, at most 25 speeds each.
+    They go from the first speed to either side, at most 25 speeds each.
     """
     order = np.argsort(-np.abs(speeds), kind="stable")
-    whole, middle = fingerprint(prepared), _middle(prepared.scene, prepared.surface.sq, np.abs(speeds[order]))
+    middle = _middle(prepared.scene, prepared.surface.sq, np.abs(speeds[order]))
+    wanted = frozenset(float(u) for u in kept)
 
-    def chain(run, after=None):
-        return make_chain(whole, speeds[run], np.isin(speeds[run], kept), after), run
+    def walk(run: np.ndarray, name: str) -> Walk:
+        return Walk(prepared.scene, name, tuple(float(u) for u in speeds[run]), wanted)
 
-    first = chain(order[middle : middle + 1])
+    run = order[middle : middle + 1]
+    first = walk(run, fingerprint(prepared))
     sides = [side for side in (order[:middle][::-1], order[middle + 1 :]) if side.size]
-    runs = [run for side in sides for run in np.array_split(side, -(-side.size // CHAIN))]
-    return first[0], [first, *(chain(run, first[0]) for run in runs)]
+    runs = [run for side in sides for run in np.array_split(side, -(-side.size // MOST))]
+    return [(first, run), *((walk(run, first.keys[0]), run) for run in runs)]
 
 
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:

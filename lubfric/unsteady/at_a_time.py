@@ -18,51 +18,43 @@ FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding 
 LOOKS = 257  # times at which a run is looked through
 
 
-@dataclass(frozen=True)
-class SceneInTime:
-    """What ``scene`` is at each time of ``plan``."""
+def changes(scene: Scene) -> Transient:
+    """What changes in a scene of a run in time."""
+    assert scene.transient is not None
+    return scene.transient
 
-    scene: Scene
-    plan: Transient
 
-    def at(self, time: float, before: bool = True) -> Scene:
-        """Just before ``time`` [s], or just after: with the load, radius, speed, slide-roll ratio and viscosity of the
-        moment. Its hardness is left out: the contact has it."""
-        bodies, oil, motion = self.scene.bodies, self.scene.lubricant, self.scene.motion
-        speed = self._value("speed", motion.entrainment_speed, time, before)
-        return replace(
-            self.scene,
-            bodies=replace(
-                bodies,
-                load=self._value("load", bodies.load, time, before),
-                radius=self._value("radius", bodies.radius, time, before),
-                hardness=None,
-            ),
-            lubricant=replace(oil, viscosity=self._value("viscosity", oil.viscosity, time, before)),
-            motion=replace(
-                motion, entrainment_speed=speed, slide_roll_ratio=_ratio(self.sliding(time, before), speed), speeds=()
-            ),
-        )
+def scene_at(scene: Scene, time: float, before: bool = True) -> Scene:
+    """What ``scene``, whose ``transient`` says what changes, is just before ``time`` [s], or just after: with the load,
+    radius, speed, slide-roll ratio and viscosity of the moment. Its hardness is left out: the contact has it."""
+    bodies, oil, motion = scene.bodies, scene.lubricant, scene.motion
+    speed = _value(scene, "speed", motion.entrainment_speed, time, before)
+    ratio = _ratio(sliding_at(scene, time, before), speed)
+    return replace(
+        scene,
+        bodies=replace(
+            bodies,
+            load=_value(scene, "load", bodies.load, time, before),
+            radius=_value(scene, "radius", bodies.radius, time, before),
+            hardness=None,
+        ),
+        lubricant=replace(oil, viscosity=_value(scene, "viscosity", oil.viscosity, time, before)),
+        motion=replace(motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=()),
+    )
 
-    def sliding(self, time: float, before: bool = True) -> float:
-        """u2 - u1 [m/s]."""
-        if self.plan.sliding is not None:
-            return self.plan.sliding.before(time) if before else self.plan.sliding.at(time)
-        motion = self.scene.motion
-        return motion.slide_roll_ratio * self._value("speed", motion.entrainment_speed, time, before)
 
-    @property
-    def histories(self) -> tuple[History, ...]:
-        """All that changes."""
-        plan = self.plan
-        given = (plan.speed, plan.sliding, plan.load, plan.radius, plan.viscosity)
-        return tuple(h for h in given if h is not None)
+def sliding_at(scene: Scene, time: float, before: bool = True) -> float:
+    """u2 - u1 [m/s]."""
+    motion = scene.motion
+    speed = _value(scene, "speed", motion.entrainment_speed, time, before)
+    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, before)
 
-    def _value(self, name: str, constant: float, time: float, before: bool) -> float:
-        history = getattr(self.plan, name)
-        if history is None:
-            return constant
-        return history.before(time) if before else history.at(time)
+
+def _value(scene: Scene, name: str, constant: float, time: float, before: bool) -> float:
+    history = getattr(changes(scene), name)
+    if history is None:
+        return constant
+    return history.before(time) if before else history.at(time)
 
 
 @dataclass(frozen=True)
@@ -70,21 +62,13 @@ class WarmInlet(History):
     """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The
     inlet is passed in less than b/U, so its heat is that of steady motion."""
 
-    source: SceneInTime
+    scene: Scene
 
     def at(self, time: float) -> float:
-        return _warm(self.source.at(time, before=False))
+        return _warm(scene_at(self.scene, time, before=False))
 
     def before(self, time: float) -> float:
-        return _warm(self.source.at(time))
-
-    def stops(self, duration: float) -> tuple[float, ...]:
-        """Those of all histories."""
-        return tuple(sorted({t for h in self.source.histories for t in h.stops(duration)}))
-
-    def jumps(self, duration: float) -> tuple[float, ...]:
-        """Those of all histories."""
-        return tuple(sorted({t for h in self.source.histories for t in h.jumps(duration)}))
+        return _warm(scene_at(self.scene, time))
 
     def range(self, duration: float) -> tuple[float, float]:
         """As far as `LOOKS` times and every stop show."""
@@ -93,31 +77,31 @@ class WarmInlet(History):
 
     @cached_property
     def _seen(self) -> tuple[float, float]:
-        found = [f(t) for t in _looks(self.source) for f in (self.before, self.at)]
+        found = [f(t) for t in _looks(self.scene) for f in (self.before, self.at)]
         return min(found), max(found)
 
 
-def inlet_viscosity(source: SceneInTime) -> History:
+def inlet_viscosity(scene: Scene) -> History:
     """The viscosity [Pa s] that the film is solved with: that of the scene, or its history. Where the heat of the
     inlet would thin the film by more than its share of the tolerance at some time, that of a warm inlet."""
-    scene, plan = source.scene, source.plan
-    cold = plan.viscosity or Constant(scene.lubricant.viscosity)
+    cold = changes(scene).viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
     if scene.numerics.heat == "auto" and scene.numerics.model != "full":
-        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in map(source.at, _looks(source))):
+        moments = (scene_at(scene, time) for time in _looks(scene))
+        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
             return cold
-    return WarmInlet(SceneInTime(scene.with_(numerics={"heat": "on"}), plan))
+    return WarmInlet(scene.with_(numerics={"heat": "on"}))
 
 
 def _warm(now: Scene) -> float:
     return film_lubricant(now, now.motion.entrainment_speed).viscosity
 
 
-def _looks(source: SceneInTime) -> list[float]:
-    duration = source.plan.duration
-    stops = {t for h in source.histories for t in (*h.stops(duration), *h.jumps(duration))}
-    return sorted({*np.linspace(0, duration, LOOKS).tolist(), *stops})
+def _looks(scene: Scene) -> list[float]:
+    plan = changes(scene)
+    stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
+    return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})
 
 
 def _ratio(sliding: float, speed: float) -> float:

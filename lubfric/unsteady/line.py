@@ -8,23 +8,23 @@ import numpy as np
 
 from ..errors import LubfricError
 from ..history import Constant
-from ..history.plan import Transient
 from ..lines.length import MOST_CELLS
 from ..lines.pieces import line_contact
 from ..prepared import Prepared
 from ..steady import friction
+from .at_a_time import changes
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 
 
-def long_enough(prepared: Prepared, plan: Transient) -> Prepared:
+def long_enough(prepared: Prepared) -> Prepared:
     """``prepared`` on a line as long as `lubfric.friction` takes for ``numerics.sampling_tolerance`` at the worst of
-    four speeds of ``plan``, or as memory and map hold.
+    four speeds of the run, or as memory and map hold.
 
     ``prepared`` itself where it stands on one patch, or where its line is long enough.
     """
-    lines = prepared.lines
+    lines, plan = prepared.lines, changes(prepared.scene)
     if lines is None:
         return prepared
     low, high = (plan.speed or Constant(prepared.scene.motion.entrainment_speed)).range(plan.duration)

@@ -10,9 +10,10 @@ from ..ehl.result import smallest
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import WET
 from ..heat.point import inlet_at
-from ..march.course import Progress
+from ..march.bdf import Progress
 from ..sampling.moment_error import moment_error
 from ..scene import Scene
+from .at_a_time import scene_at, sliding_at
 from .film_shear import film_shear
 from .sharing import Sharing
 
@@ -58,9 +59,10 @@ UNITS = {
 }
 
 
-def moment(sharing: Sharing, scene: Scene, sliding: float, solution: StepSolution, now: Progress) -> dict[str, float]:
-    """One row of the result, by name in the order of ``UNITS``; ``scene``: of the moment, ``sliding`` u2 - u1 [m/s]."""
-    time = now.time
+def moment(sharing: Sharing, solution: StepSolution, now: Progress) -> dict[str, float]:
+    """One row of the result, by name in the order of ``UNITS``."""
+    time, in_time = now.time, sharing.prepared.scene
+    scene, sliding = scene_at(in_time, time), sliding_at(in_time, time)
     setting, t, contact = sharing.setting, solution.terms, solution.payload
     p, grid, total = setting.problem, setting.grid, sharing.total(time)
     wet = np.flatnonzero(t.P > 0.0)
@@ -96,7 +98,7 @@ def moment(sharing: Sharing, scene: Scene, sliding: float, solution: StepSolutio
         "volume_residual": balance,
         **_mass(sharing, solution),
         "sampling_error": moment_error(
-            sharing.patch,
+            sharing.prepared.contact,
             state,
             (contact.load, film_load),
             contact.softness,

@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..march.course import Progress
+from ..ehl.transient.active_set import StepSolution
+from ..march.bdf import Progress
 from .moment import moment
-from .setup import Run
+from .sharing import Sharing
 
 
 @dataclass
@@ -19,11 +20,10 @@ class Outputs:
     fields: list[np.ndarray] = field(default_factory=list)
 
 
-def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
+def keep(sharing: Sharing, outputs: Outputs, store, now: Progress, solution: StepSolution) -> None:
     """Add the output at the time of ``now``: its row and its fields."""
-    in_time = run.in_time
-    run.sharing.patch.check(solution.payload.state)
-    row = moment(run.sharing, in_time.at(now.time), in_time.sliding(now.time), solution, now)
+    sharing.prepared.contact.check(solution.payload.state)
+    row = moment(sharing, solution, now)
     outputs.rows.append(np.array(list(row.values()), dtype=float))
     outputs.fields.append(np.concatenate([solution.terms.P, solution.terms.H]))
     if store:
@@ -32,9 +32,9 @@ def keep(run: Run, outputs: Outputs, store, now: Progress, solution) -> None:
 
 def state_of(now: Progress) -> Progress:
     """All that a resume needs: ``now``, without what the next step makes again."""
-    contact = now.march.payload
+    contact = now.payload
     bare = replace(contact, state=replace(contact.state, fields=None, y=None))
-    return replace(now, march=replace(now.march, payload=bare), solution=None)
+    return replace(now, payload=bare, solution=None)
 
 
 def resume(store) -> tuple[Progress, Outputs] | None:

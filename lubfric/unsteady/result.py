@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import validate
-from ..march.course import Plan, Progress, report_of
+from ..march.bdf import Progress
+from ..march.course import Plan, report_of
 from ..prepared import Prepared
 from ..report import Report
 from ..sampling.uncertainty import UncertaintyCurve, percent, student
@@ -18,7 +19,7 @@ from ..validity import Validity, gathered
 from .judge import judged_outputs
 from .moment import UNITS
 from .progress import Outputs
-from .setup import Run
+from .sharing import Sharing
 
 MANY = 30  # blocks less one: of a line
 
@@ -128,9 +129,9 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientResult:
-    """The result of the outputs so far."""
-    setting = run.sharing.setting
+def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: Outputs) -> TransientResult:
+    """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
+    prepared, setting = sharing.prepared, sharing.setting
     p, n = setting.problem, setting.grid.n + 1
     table = np.array(outputs.rows).reshape(len(outputs.rows), len(UNITS))
     columns = dict(zip(UNITS, table.T))
@@ -139,18 +140,18 @@ def collect(run: Run, plan: Plan, now: Progress, outputs: Outputs) -> TransientR
     fields = np.array(outputs.fields).reshape(len(outputs.fields), 2 * n)
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / run.sharing.tolerance,
+        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
     }
-    if not np.isnan(run.grid_error):
-        worst["grid"] = run.grid_error / run.prepared.scene.numerics.tolerances.film
+    if not np.isnan(grid_error):
+        worst["grid"] = grid_error / prepared.scene.numerics.tolerances.film
     return TransientResult(
         columns,
         setting.grid.x * p.length_unit,
         fields[:, :n] * p.pressure_unit,
         fields[:, n:] * p.film_unit,
         report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
-        judged_outputs(run.prepared, run.in_time, columns),
-        **_of_the_line(run.prepared),
+        judged_outputs(prepared, columns),
+        **_of_the_line(prepared),
     )
 
 

@@ -6,17 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..ehl.transient.active_set import StepSolution
+from ..ehl.transient.solve import TIME_SHARE
 from ..errors import InputError
 from ..history.plan import Transient
-from ..march.course import checked_times, steps
+from ..march.bdf import Progress, started
+from ..march.course import Plan, checked_times, plan_of, steps
 from ..prepared import Prepared, scene_of
 from ..scene import Scene
 from ..validity import Validity, refused
+from .at_a_time import changes
 from .checkpoint import Checkpoint
 from .moment import UNITS
 from .progress import Outputs, keep, resume, state_of
 from .result import TransientResult, collect
-from .setup import Run, begin
+from .setup import begin
+from .sharing import Sharing
 
 
 def transient(
@@ -62,17 +67,41 @@ def transient(
     - mass, volume: the largest at an output, relative to their tolerances
     - grid: the discretisation error of the steady start over the film tolerance (where it starts steady)
     """
-    base = scene_of(scene)
-    plan, times = _plan(base, times)
-    run = begin(scene, plan)
-    store = None if checkpoint is None else Checkpoint(checkpoint, [run.prepared, plan, times])
-    result = _run(run, times, store, on_step)
+    scene, times = _with_plan(scene, times)
+    sharing, start, grid_error = begin(scene)
+    prepared = sharing.prepared
+    store = None if checkpoint is None else Checkpoint(checkpoint, [prepared, changes(prepared.scene), times])
+    plan = _plan(sharing, times)
+    now, outputs = _marched(sharing, start, plan, store, on_step)
+    result = collect(sharing, grid_error, plan, now, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
-        refused(_severe(result), run.prepared.scene.numerics.accept, result)
+        refused(_severe(result), prepared.scene.numerics.accept, result)
     if store is not None and result.report.converged:
         store.clear()
     return result
+
+
+def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
+    """The march with outputs at ``times`` [s]."""
+    scene = sharing.prepared.scene
+    changing = changes(scene)
+    tolerance = changing.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    return plan_of(times, changing.histories, sharing.setting.first_step, tolerance)
+
+
+def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, Outputs]:
+    now, outputs = resume(store) or (started(start, plan.first_step), Outputs())
+    if not outputs.rows and plan.times[0] == 0.0:
+        keep(sharing, outputs, store, now, start)
+    for now in steps(sharing, plan, now):
+        if now.at_output:
+            keep(sharing, outputs, store, now, now.solution)
+        if store:
+            store.save(state_of(now))
+        if on_step:
+            on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
+    return now, outputs
 
 
 def _severe(result: TransientResult) -> tuple[Validity, ...]:
@@ -84,27 +113,15 @@ def _severe(result: TransientResult) -> tuple[Validity, ...]:
     return tuple(worst.values())
 
 
-def _plan(scene: Scene, times) -> tuple[Transient, np.ndarray]:
-    plan = scene.transient
+def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
+    """The scene with what changes in it until the last output, and the output times [s]."""
+    base = scene_of(scene)
+    plan = base.transient
     if times is None:
         if plan is None:
             raise InputError("scene has no [transient] table; allowed: one, or output times in s")
-        return plan, np.linspace(0.0, plan.duration, plan.outputs + 1)
+        return scene, np.linspace(0.0, plan.duration, plan.outputs + 1)
     times = checked_times(times)
     last = float(times[-1])
-    return Transient(last) if plan is None else replace(plan, duration=last), times
-
-
-def _run(run: Run, times: np.ndarray, store, on_step) -> TransientResult:
-    plan = run.course(times)
-    now, outputs = resume(store) or (run.begun(), Outputs())
-    if not outputs.rows and times[0] == 0.0:
-        keep(run, outputs, store, now, run.start)
-    for now in steps(run, plan, now):
-        if now.at_output:
-            keep(run, outputs, store, now, now.solution)
-        if store:
-            store.save(state_of(now))
-        if on_step:
-            on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
-    return collect(run, plan, now, outputs)
+    base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last))
+    return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times

@@ -10,25 +10,25 @@ import numpy as np
 from ..ehl.transient.active_set import StepSolution
 from ..ehl.transient.setting import discretisation, parabola, steady, steady_start
 from ..errors import ConvergenceError, InputError
-from ..history.plan import Transient
-from ..prepared import Prepared
 from ..report import CONVERGED
 from ..steady import friction
-from .sharing import Contact, Sharing, share_step
+from .at_a_time import changes
+from .sharing import Contact, Sharing
 
 
-def first_state(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+def first_state(sharing: Sharing) -> tuple[StepSolution, float]:
     """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
+    plan = changes(sharing.prepared.scene)
     still = sharing.setting.contact.speed.before(0.0) == 0.0
     if plan.initial_film is not None:
         return _flying(sharing, parabola(sharing.setting, plan.initial_film)), math.nan
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(sharing), math.nan
-    return _steady(prepared, plan, sharing)
+    return _steady(sharing)
 
 
 def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
-    state = sharing.patch.close(sharing.film_on_patch(H), 0.0)
+    state = sharing.prepared.contact.close(sharing.to_patch @ H, 0.0)
     return Contact(0.0, state, max(0.3 * state.mean_gap, 1e-12))
 
 
@@ -47,9 +47,9 @@ def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
 def _resting(sharing: Sharing) -> StepSolution:
     """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without
     pressure."""
-    setting = sharing.setting
+    setting, patch = sharing.setting, sharing.prepared.contact
     radius = setting.contact.radius.before(0.0)
-    state = sharing.patch.close(sharing.patch.x**2 / (2.0 * radius), sharing.total(0.0))
+    state = patch.close(patch.x**2 / (2.0 * radius), sharing.total(0.0))
     z = parabola(setting, 0.0)
     flat = setting.grid.kernel @ z[:-1] + 0.5 * setting.conditions(0.0).curvature * setting.grid.x**2
     z[-1] = (state.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
@@ -63,19 +63,20 @@ def _resting(sharing: Sharing) -> StepSolution:
     return replace(found, payload=Contact(sharing.total(0.0), state, 0.3 * state.mean_gap))
 
 
-def _steady(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[StepSolution, float]:
+def _steady(sharing: Sharing) -> tuple[StepSolution, float]:
     """Balance of the steady state, then the same on the grid of the run."""
-    setting, scene = sharing.setting, prepared.scene
+    setting, scene = sharing.setting, sharing.prepared.scene
+    viscosity = changes(scene).viscosity
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
         raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
-    cold = scene.lubricant.viscosity if plan.viscosity is None else plan.viscosity.before(0.0)
+    cold = scene.lubricant.viscosity if viscosity is None else viscosity.before(0.0)
     values = scene.with_(
         bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    point = friction(replace(prepared, scene=values), speed, fields=True)
+    point = friction(replace(sharing.prepared, scene=values), speed, fields=True)
     film = steady_start(setting, point.film_load / sharing.width)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
@@ -83,7 +84,7 @@ def _steady(prepared: Prepared, plan: Transient, sharing: Sharing) -> tuple[Step
     if point.balance is None or point.contact_load == 0.0:
         return replace(film, payload=_untouched(sharing, film.terms.H)), error
     contact = Contact(point.contact_load, point.balance.contact, 0.3 * point.mean_gap)
-    found = share_step(sharing, 0.0, steady(setting.grid), film.z, contact)
+    found = sharing.solve(0.0, steady(setting.grid), film.z, contact)
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error

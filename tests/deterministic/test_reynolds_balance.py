@@ -10,6 +10,7 @@ from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.reynolds import balance, derivatives
 from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.deterministic.state import STREAK, _opened
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, shear_stress
@@ -184,3 +185,13 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     begin = brentq(mean_slope, 40e-6, narrowest)
     assert x[second[0]] == pytest.approx(begin, abs=3 * step) and x[second[-1]] == pytest.approx(end, abs=3 * step)
     assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0
+
+
+def test_a_touching_furrow_opens_as_one_and_only_behind_the_pull():
+    touching = np.zeros((30, 4), bool)
+    touching[5:12, 1], touching[14:16, 1], touching[2:28, 2] = True, True, True
+    pulled = np.zeros_like(touching)
+    pulled[7, 1], pulled[3, 2] = True, True
+    found = _opened(touching, pulled)
+    assert set(zip(*np.nonzero(found[:, :2]))) == {(i, 1) for i in range(7, 12)}
+    assert np.flatnonzero(found[:, 2]).tolist() == list(range(3, 3 + STREAK)) and not found[:, 3].any()

@@ -51,7 +51,7 @@ def test_python_blocks_run(page, tmp_path, monkeypatch):
 def command_lines(page):
     """The command lines of a page as lists of words, comments taken off."""
     for block in blocks(page):
-        for line in block.body.splitlines() if block.language == "sh" else ():
+        for line in block.body.replace("\\\n", " ").splitlines() if block.language == "sh" else ():
             words = shlex.split(line, comments=True)
             if words and not any(known in line for known in LEFT_TO_THE_CI):
                 yield words

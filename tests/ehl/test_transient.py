@@ -20,7 +20,7 @@ from lubfric.ehl.transient.tail import outside, outside_shear
 from lubfric.history import Constant, Harmonic, Ramp, Table
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
-from lubfric.march.bdf import Level, March, Memory, advance
+from lubfric.march.bdf import Level, Memory, Progress, advance
 from lubfric.paper.differential.transient import solve_differential_transient
 
 SQUEEZE = dict(
@@ -90,17 +90,16 @@ def test_second_order_in_time():
     z = parabola(setting, 1e-6)
     ends = []
     for steps in (32, 64, 128, 512):
-        march = March((Level(0.0, z[-1] + 0.5 * setting.grid.x**2, z),), 0.3 * LONG / steps)
+        now = Progress((Level(0.0, z[-1] + 0.5 * setting.grid.x**2, z),), 0.3 * LONG / steps)
         for k in range(steps):
-            step = advance(
-                replace(march, step=LONG),
+            now = advance(
+                replace(now, step=LONG),
                 0.3 * LONG * (k + 1) / steps,
                 SimpleNamespace(solve=setting.solve, error_of=lambda solution, difference: 0.0),
                 1.0,
                 0.0,
             )
-            march = step.march
-        ends.append(march.levels[-1].film.min())
+        ends.append(now.levels[-1].film.min())
     errors = np.abs(np.array(ends[:3]) - ends[3])
     orders = np.log2(errors[:-1] / errors[1:])
     assert np.all(orders > 1.8) and np.all(orders < 2.4)
@@ -112,7 +111,7 @@ def test_second_order_in_space():
         setting = squeeze_setting(resolution)
         z = parabola(setting, 1e-6)
         step = 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
-        found = setting.step(step, Memory(1 / step, z[-1] + 0.5 * setting.grid.x**2), z)
+        found = setting.solve(step, Memory(1 / step, z[-1] + 0.5 * setting.grid.x**2), z)
         h = found.terms.H.min() * setting.problem.film_unit
         errors.append((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
     orders = np.log2(np.abs(errors[:-1]) / np.abs(errors[1:]))

@@ -1,13 +1,17 @@
 """Fits: made-up data come back within their regions, what data cannot tell is said, files are read by name and unit."""
 
+import json
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
+from lubfric.cli import main
 from lubfric.fitting.parameters import parameters_of
-from lubfric.fitting.predict import predictor
+from lubfric.fitting.predict import jacobian, predictor, shares_contact
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -156,6 +160,42 @@ def test_contacts_of_other_values_are_not_taken_over(key):
     )
 
 
+def test_progress_is_told_point_by_point(fitted):
+    """Every curve from its first point to its last, and what was found does not depend on who listens."""
+    told = []
+    again = lubfric.fit(SCENE, fitted.measured, BOUNDS, on_progress=lambda *what: told.append(what))
+    curves = told[-1][0]
+    assert told == [(curve + 1, done + 1, SPEEDS.size) for curve in range(curves) for done in range(SPEEDS.size)]
+    assert again.values == fitted.values and curves >= 1 + len(BOUNDS)
+
+
+def test_a_measured_map_is_made_once_for_all_boundary_friction_coefficients(tmp_path):
+    """All of a map is cut to the Hertz width, which the load changes and f_b does not. Each curve is that of a scene
+    solved alone."""
+    surface = lubfric.generate_surface((80, 40), 1e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=2)
+    np.save(tmp_path / "map.npy", surface.heights)
+    (tmp_path / "scene.toml").write_text(
+        BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\n[surface]\nfile = 'map.npy'\nspacing = 1e-6\n"
+        "[numerics]\nsampling = 'patch'\n"
+    )
+    scene, speeds = lubfric.load_scene(tmp_path / "scene.toml"), np.array([0.001, 0.01, 0.03])
+    measured, key = lubfric.Measured(speeds, np.full(3, 0.08)), "bodies.boundary_friction_coefficient"
+    predict = predictor(scene, measured, parameters_of(scene, {key: (0.05, 0.2)}), None)
+    assert predict.warm and not shares_contact(scene, parameters_of(scene, {"bodies.load": (3.0, 6.0)}))
+    found = predict.at(np.array([0.9]), predict.at(np.array([0.2])))
+    alone = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.185}), speeds, tolerance=1e-3)
+    np.testing.assert_allclose(found.coefficient, alone.coefficient, rtol=predict.tolerance)
+
+
+def test_the_boundary_friction_coefficient_acts_by_the_share_of_the_contact():
+    """Without heat df/df_b is F_C/F_T, whatever was solved for it."""
+    key = "bodies.boundary_friction_coefficient"
+    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, {key: (0.05, 0.2)}), None)
+    base = predict.at(np.array([0.4]))
+    share = np.array([point.contact_load for point in base.points]) / SCENE.bodies.load
+    np.testing.assert_allclose(jacobian(predict, base, 0.2)[:, 0], 0.15 * share, atol=2e-3)
+
+
 @pytest.mark.slow
 def test_ninety_of_a_hundred_regions_hold_the_truth():
     held = sum(lubfric.fit(SCENE, made_up(seed), BOUNDS).contains(TRUTH) for seed in range(100))
@@ -239,3 +279,42 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, parameters)
     with pytest.raises(lubfric.InputError, match="more points"):
         lubfric.fit(SCENE, measured, BOUNDS)
+
+
+def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
+    measured = made_up(3)
+    lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]
+    (tmp_path / "rig.csv").write_text("\n".join(["U [mm/s],mu", *lines]))
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    named = ["--measured", str(tmp_path / "rig.csv"), "--speed", "U [mm/s]", "--coefficient", "mu"]
+    sought = ["--parameter", "bodies.boundary_friction_coefficient=0.05:0.2"]
+    command = ["fit", str(tmp_path / "scene.toml"), *named, "--out", str(tmp_path / "out")]
+    assert main([*command, *sought]) == 0
+    said = capsys.readouterr().err
+    assert said.index("time: about") < said.index("curve 1: [10/10]") < said.index("95 % interval")
+    found = lubfric.fit(
+        SCENE,
+        lubfric.read_measured(tmp_path / "rig.csv", speed="U [mm/s]", coefficient="mu"),
+        {"bodies.boundary_friction_coefficient": (0.05, 0.2)},
+    )
+    record = json.loads((tmp_path / "out" / "fit.json").read_text())
+    fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
+    assert record["values"] == pytest.approx(found.values)
+    assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(found.values.values())[0])
+    assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
+    assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
+    assert "section.key=lowest:highest" in capsys.readouterr().err
+
+
+def test_the_time_of_a_fit_is_foretold():
+    """Within a factor of four, on a machine that others use."""
+    measured = made_up(1)
+    words = lubfric.explain_fit(SCENE, measured, BOUNDS)
+    number, unit = words.split("time: about ")[1].split()[:2]
+    begun = time.process_time()
+    lubfric.fit(SCENE, measured, BOUNDS)
+    assert unit == "s" and 1 / 4 < float(number) / (time.process_time() - begun) < 4
+    assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "sought in its logarithm" in words
+    assert "depend on a parameter" in lubfric.explain_fit(SCENE, measured, {"surface.sq": (5e-8, 2e-7)})
+    with pytest.raises(lubfric.InputError, match="a number of"):
+        lubfric.explain_fit(SCENE, measured, {"numerics.tolerance": (0.01, 0.1)})

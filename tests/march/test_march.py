@@ -9,8 +9,8 @@ from lubfric import InputError
 from lubfric.ehl.limiter import FILM_STEP, VISCOSITY_STEP, step_length
 from lubfric.history import Table
 from lubfric.history.read import checked_history
-from lubfric.march.bdf import Level, March
-from lubfric.march.course import Progress, checked_times, plan_of, report_of, steps
+from lubfric.march.bdf import Level, Progress
+from lubfric.march.course import checked_times, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ JUMP = Table(times=(0.0, 1.0, 1.0, 9.0), values=(0.0, 0.0, 3.0, 3.0))
 
 
 def begun(step=1e-3):
-    return Progress(March((Level(0.0, np.array([1.0, 2.0]), np.array([1.0, 2.0, -1.0])),), step))
+    return Progress((Level(0.0, np.array([1.0, 2.0]), np.array([1.0, 2.0, -1.0])),), step)
 
 
 def outputs(solver, plan, now):
@@ -78,7 +78,7 @@ def test_a_jump_of_a_history_ends_a_step_and_forgets_the_past():
     assert plan.jumps == {1.0} and plan.stops == (1.0, 3.0)
     marched = list(steps(Relaxation(JUMP), plan, begun()))
     at = next(now for now in marched if now.time == 1.0)
-    assert len(at.march.levels) == 1 and at.march.step == 1e-3 and not at.at_output
+    assert len(at.levels) == 1 and at.step == 1e-3 and not at.at_output
     exact = 3.0 + (np.array([1.0, 2.0]) * np.exp(-1.0) - 3.0) * np.exp(-2.0)
     np.testing.assert_allclose(marched[-1].solution.film, exact, rtol=1e-4)
 
@@ -91,7 +91,7 @@ def test_a_run_goes_on_from_any_progress_bit_by_bit():
         assert len(rest) == len(whole) - k - 1
         assert rest[-1].steps == whole[-1].steps and rest[-1].worst == whole[-1].worst
         assert np.array_equal(rest[-1].solution.film, whole[-1].solution.film)
-        assert rest[-1].march.payload == whole[-1].march.payload
+        assert rest[-1].payload == whole[-1].payload
 
 
 def test_a_step_that_fails_is_tried_shorter_and_then_reported():

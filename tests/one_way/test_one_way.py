@@ -7,10 +7,11 @@ from scipy.optimize import brentq
 import lubfric
 from lubfric.analytic import rigid
 from lubfric.deterministic import lay_out
+from lubfric.deterministic.point import layer
 from lubfric.deterministic.start import dry_contact
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, viscosity
-from lubfric.one_way.film import _order, gap_film
+from lubfric.one_way.film import Kept, _order, _system, gap_film
 from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
@@ -72,6 +73,24 @@ def test_a_film_that_ruptures_keeps_its_mass():
     pressed = (0.5 * (h[1:] + h[:-1])) ** 3 / (12 * 0.01) * np.diff(Q) / dx
     assert carried[1:-1] - pressed[1:] == pytest.approx(found.inlet.flow[0], rel=1e-3)
     assert found.fill.min() > 0 and found.fill.max() == 1 and (found.reduced[found.fill < 1] == 0).all()
+
+
+def test_kept_factors_lead_to_the_film_of_a_neighbouring_gap(monkeypatch):
+    """One without a factorisation where the gap changes but not where it has ruptured; else the set is found anew. The
+    oracle is the film of the same gap with nothing kept."""
+    problem = layer(SCENE, MODEL.surface, 0.05)(MODEL.surface.shape)
+    gap = problem.rigid_gap - problem.rigid_gap.min() + 60e-9
+    near = gap_film(problem, gap).kept
+    for factor in (1.02, 1.3):
+        cold, warm = gap_film(problem, factor * gap), gap_film(problem, factor * gap, near)
+        assert warm.reduced.sum() == pytest.approx(cold.reduced.sum(), rel=1e-3)
+    same = near.ruptured
+    with monkeypatch.context() as without:
+        without.setattr("lubfric.one_way.film.splu", None)
+        system = _system(problem.with_lubricant(Lubricant(0.36, viscosity_law="constant")), 1.02 * gap)
+        iterated = system.solve(near)[0]
+    exact = system.solve(Kept(same))[0]
+    assert np.where(same, 0, iterated) == pytest.approx(np.where(same, 0, exact), abs=1e-4 * exact[~same].max())
 
 
 def test_the_spots_of_a_contact_close_across_the_period():

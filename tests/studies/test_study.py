@@ -14,9 +14,12 @@ import pytest
 
 import lubfric
 from lubfric.studies import run as run_module
-from lubfric.studies.chain import make_chain, run_chain
-from lubfric.studies.journal import Journal, outcome_of, record_of
-from lubfric.studies.run import run_piece
+from lubfric.studies import trail
+from lubfric.studies.explain import _costs
+from lubfric.studies.journal import Journal, outcome_of
+from lubfric.studies.run import rows_of
+from lubfric.studies.trail import Trail, points_of
+from lubfric.studies.walk import Walk
 
 ROOT = Path(__file__).parents[2]
 SCENE = (
@@ -75,10 +78,10 @@ def test_any_executor_gives_the_same_bits(serial, pool, tmp_path):
 
 def test_a_longer_study_takes_over_what_is_known(serial, tmp_path, monkeypatch):
     lubfric.study(SCENE, {"bodies.load": [5.5], "surface.seed": [1, 2]}, SPEEDS, store=tmp_path)
-    solved = []
-    monkeypatch.setattr(run_module, "run_chain", lambda *args: solved.append(args) or run_chain(*args))
+    solved, real = [], trail.friction
+    monkeypatch.setattr(trail, "friction", lambda *args, **kw: solved.append(args) or real(*args, **kw))
     same(lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path), serial)
-    assert len(solved) == 2 and {model.scene.bodies.load for model, *_ in solved} == {3.0}
+    assert len(solved) == 6 and {model.scene.bodies.load for model, _ in solved} == {3.0}
 
 
 # kept through everything
@@ -86,13 +89,13 @@ def test_a_longer_study_takes_over_what_is_known(serial, tmp_path, monkeypatch):
 SCRIPT = """
 import sys
 import lubfric
-from lubfric.studies import chain
-real = chain.friction
+from lubfric.studies import trail
+real = trail.friction
 def counted(model, speed, **options):
     found = real(model, speed, **options)
     print("solved", flush=True)
     return found
-chain.friction = counted
+trail.friction = counted
 scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
@@ -141,36 +144,41 @@ def test_killed_studies_lose_and_repeat_nothing(serial, tmp_path, kills):
 @pytest.mark.parametrize("at", [0, 1, 3])
 def test_a_cut_at_every_moment_of_a_point(tmp_path, monkeypatch, moment, at):
     model = lubfric.prepare(SCENE)
-    chain = make_chain("x", (0.3, 0.1, 0.03, 0.003), (False, True, False, False))
-    whole = [record_of(outcome) for _, outcome in run_chain(model, chain)]
+    walk = Walk(model.scene, "x", (0.3, 0.1, 0.03, 0.003), frozenset({0.1}))
+    whole = [point.record for point in Trail(model, walk).points()]
 
     class Killed(BaseException):
         pass
 
     journal, real_keep, kept = Journal(tmp_path), Journal.keep, []
 
-    def keep(self, name, key, outcome, fields=False):
+    def keep(self, key, speed, outcome, fields):
         if len(kept) == at and moment == "before the state":
             raise Killed
         kept.append(key)
         if len(kept) == at + 1 and moment == "after the state":
             self.add = lambda *_: (_ for _ in ()).throw(Killed)
-        real_keep(self, name, key, outcome, fields)
+        point = real_keep(self, key, speed, outcome, fields)
         if len(kept) == at + 1:
             raise Killed
+        return point
 
     monkeypatch.setattr(Journal, "keep", keep)
     with pytest.raises(Killed), journal:
-        list(run_chain(model, chain, journal))
+        list(Trail(model, walk, journal).points())
     monkeypatch.setattr(Journal, "keep", real_keep)
     with Journal(tmp_path) as again:
-        done = len(again.records())
-        assert done == at + (moment == "after the record")
-        assert [i for i, _ in run_chain(model, chain, again, done)] == list(range(done, 4))
+        known = again.records()
+        assert len(known) == at + (moment == "after the record")
+        points = list(Trail(model, walk, again, known).points())
+        again.end(walk.keys)
     found = again.records()
-    for key, record in zip(chain.keys, whole):
-        assert {**found[key], "seconds": 0} == {**record, "seconds": 0}
-    assert again.fields(chain.keys[1]).balance is not None and not any((tmp_path / "states").iterdir())
+    for key, record, point in zip(walk.keys, whole, points):
+        assert key == point.key and {**found[key], "seconds": 0} == {**record, "seconds": 0}
+        assert {**point.record, "seconds": 0} == {**record, "seconds": 0}
+    lines = [line for path in (tmp_path / "points").iterdir() for line in path.read_bytes().splitlines()]
+    assert len(lines) == len(whole) and points[1].outcome.balance is not None
+    assert points[0].outcome.balance is None and not any((tmp_path / "states").iterdir())
 
 
 def test_a_lost_or_damaged_state_is_solved_again_to_the_same_bits(serial, tmp_path):
@@ -189,13 +197,12 @@ def test_two_writers_are_refused(tmp_path):
             lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
 
 
-def suicidal(piece):
-    if piece.batch.curves[0].index == (1, 0) and os.getpid() != PARENT:
-        if piece.folder is not None:  # after its first point
-            journal = Journal(piece.folder)
-            next(iter(run_chain(lubfric.prepare(piece.batch.leader), piece.batch.curves[0].chains[0], journal)))
+def suicidal(batch):
+    if batch.walks[0].index == (1, 0) and os.getpid() != PARENT:
+        if batch.folder is not None:  # after its first point
+            next(points_of(batch))
         os.kill(os.getpid(), signal.SIGKILL)
-    return run_piece(piece)
+    return rows_of(batch)
 
 
 PARENT = os.getpid()
@@ -203,7 +210,7 @@ PARENT = os.getpid()
 
 @pytest.mark.parametrize("stored", [False, True])
 def test_a_killed_worker_loses_nothing(serial, tmp_path, monkeypatch, stored):
-    monkeypatch.setattr(run_module, "run_piece", suicidal)
+    monkeypatch.setattr(run_module, "rows_of", suicidal)
     monkeypatch.setattr("lubfric.studies.plan.BATCH", 1)
     with ProcessPoolExecutor(2) as executor:
         found = lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path if stored else None)
@@ -231,16 +238,14 @@ def test_a_piece_that_is_handed_out_again_solves_nothing_again(tmp_path, monkeyp
 
 
 def test_a_failing_point_is_a_row_with_its_status(serial, monkeypatch, tmp_path):
-    from lubfric.studies import chain
-
-    real = chain.friction
+    real = trail.friction
 
     def failing(model, speed, **options):
         if speed == 0.03 and model.scene.surface.seed == 2:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, float("inf"), 0.1))
         return real(model, speed, **options)
 
-    monkeypatch.setattr(chain, "friction", failing)
+    monkeypatch.setattr(trail, "friction", failing)
     found = lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
     assert found.failed == 2 and set(found.status[:, 1, 1]) == {"ConvergenceError: injected"}
     assert np.isnan(found["coefficient"][:, 1, 1]).all() and np.isfinite(found["coefficient"]).sum() == 10
@@ -260,7 +265,7 @@ def faulty(*_, **__):
 
 @pytest.mark.parametrize("pool", [None, ThreadPoolExecutor])
 def test_a_fault_of_the_program_is_raised_as_it_is(monkeypatch, pool, tmp_path):
-    monkeypatch.setattr("lubfric.studies.chain.friction", faulty)
+    monkeypatch.setattr("lubfric.studies.trail.friction", faulty)
     executor = pool(2) if pool else None
     with pytest.raises(ZeroDivisionError, match="a fault of the program"):
         lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path)
@@ -288,7 +293,7 @@ def test_keys_that_go_together_and_samples():
         SCENE, {("bodies.load", "lubricant.viscosity"): points, "contact.region": ["hertz", "box"]}, [0.1]
     )
     assert plan.shape == (8, 2, 1) and [axis.name for axis in plan.axes] == ["case", "contact.region"]
-    curve = next(c for b in plan.batches for c in b.curves if c.index == (5, 1))
+    curve = next(walk for walk in plan.walks if walk.index == (5, 1))
     assert (curve.scene.bodies.load, curve.scene.lubricant.viscosity) == points[
         5
     ] and curve.scene.contact.region == "box"
@@ -356,15 +361,43 @@ def test_bad_samples(arguments):
 
 
 def test_explain_counts_before_anything_is_solved(monkeypatch):
-    monkeypatch.setattr("lubfric.studies.run.prepare", None)
+    monkeypatch.setattr("lubfric.studies.trail.prepare", None)
     plan = lubfric.plan_study(SCENE, VARY | {"lubricant.viscosity": [0.1] * 5}, np.geomspace(1e-3, 1, 60))
     text = plan.explain()
-    for words in ("1200 points", "2 x bodies.load from 3 to 5.5", "60 speeds", "2 height maps", "60 warm-started"):
+    for words in (
+        "1200 points",
+        "2 x bodies.load 3, 5.5",
+        "60 speeds",
+        "2 height maps",
+        "60 chains of up to 20 speeds",
+    ):
         assert words in text, text
-    assert "divided by the number of processes up to" in text and " batches, each of one map" in text
+    assert "processes share it" in text and " batches, each of one map" in text
     one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
-    assert "cannot be solved: correlation_length" in one and "1 height map (" in one
-    assert "in one process: it is one batch" in one and "up to 1" not in one
+    assert "cannot be solved: correlation_length" in one and "1 height map, " in one
+    assert "1 batch, each of" in one and "processes share it" not in one
+    sampled = lubfric.sample([lubfric.Between(0.05, 0.4)], 16)
+    drawn = [value for (value,) in sampled]
+    many = lubfric.plan_study(SCENE, {"lubricant.viscosity": sampled}, [0.01]).explain()
+    assert f"16 x lubricant.viscosity {min(drawn):.4g} to {max(drawn):.4g}" in many
+
+
+@pytest.mark.parametrize("speeds", [np.geomspace(1e-3, 0.3, 4), "auto"])
+def test_explain_leaves_out_what_the_store_holds(tmp_path, speeds):
+    """Half of a study is solved in a store: the rest of the whole costs what the other half costs alone."""
+    half, other = ({"lubricant.viscosity": [0.1]}, {"lubricant.viscosity": [0.3]})
+    both = lubfric.plan_study(SCENE, {"lubricant.viscosity": [0.1, 0.3]}, speeds)
+    lubfric.study(SCENE, half, speeds, store=tmp_path)
+    count, what = (1, "curves") if isinstance(speeds, str) else (len(speeds), "points")
+    assert f"{count} of {2 * count} {what} are in {tmp_path}" in both.explain(tmp_path)
+    known = Journal(tmp_path).records()
+    alone, rest = lubfric.plan_study(SCENE, other, speeds), [_costs(both, known)[1] for _ in range(3)]
+    assert 0.4 < np.median(rest) / np.median([_costs(alone)[1] for _ in range(3)]) < 2.5
+    assert np.median(rest) < np.median([_costs(both)[1] for _ in range(3)])
+    lubfric.study(both, store=tmp_path)
+    assert "nothing is left to solve" in both.explain(tmp_path) and _costs(both, Journal(tmp_path).records())[1] == 0
+    assert not (tmp_path / "nowhere").exists() and "kept" not in both.explain(tmp_path / "nowhere")
+    assert not (tmp_path / "nowhere").exists()
 
 
 # tables

@@ -32,7 +32,7 @@ def test_several_sampled_keys_go_together(tmp_path):
     assert axis.name == "case" and axis.keys == ("bodies.load", "lubricant.viscosity") and plan.points == 8
     ranges = [lubfric.Between(2.0, 4.0), lubfric.Between(0.1, 1.0, "log")]
     assert list(axis.values) == lubfric.sample(ranges, 4, seed=3)
-    assert [c.scene.bodies.load for b in plan.batches for c in b.curves] == [load for load, _ in axis.values]
+    assert [walk.scene.bodies.load for walk in plan.walks] == [load for load, _ in axis.values]
 
 
 def test_maps_are_found_beside_the_file(tmp_path):
@@ -40,7 +40,7 @@ def test_maps_are_found_beside_the_file(tmp_path):
         np.save(tmp_path / name, np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
     measured = SCENE.replace("sq = 1e-7\ncorrelation_length = 4e-6", 'file = "one.npy"\nspacing = 1e-6')
     plan = read(tmp_path, '[vary]\nsurface.file = ["one.npy", "two.npy"]\n', measured.split("[contact]")[0])
-    files = [curve.scene.surface.file for batch in plan.batches for curve in batch.curves]
+    files = [walk.scene.surface.file for walk in plan.walks]
     assert files == [str(tmp_path / "one.npy"), str(tmp_path / "two.npy")] and plan.speeds == (0.01,)
 
 

@@ -13,7 +13,7 @@ import pytest
 import lubfric
 from lubfric.prepared import prepare
 from lubfric.store import digest
-from lubfric.studies import chain
+from lubfric.studies import trail
 from lubfric.sweep import QUANTITIES
 
 SCENE = (
@@ -78,21 +78,21 @@ def test_points_in_a_store_are_told_while_others_are_solved(tmp_path, monkeypatc
         if done == SPEEDS.size - 1:
             gate.set()
 
-    monkeypatch.setattr(chain, "friction", waiting)
+    monkeypatch.setattr(trail, "friction", waiting)
     with ThreadPoolExecutor(2) as executor:
         lubfric.stribeck(SCENE, SPEEDS, executor, store=tmp_path, on_point=seen)
     assert sorted(told) == sorted(SPEEDS) and told[-1] == SPEEDS[0]
 
 
 def test_a_failing_point_loses_nothing(monkeypatch, curve):
-    real, bad = chain.friction, SPEEDS[4]
+    real, bad = trail.friction, SPEEDS[4]
 
     def failing(model, speed, **kw):
         if speed == bad:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
         return real(model, speed, **kw)
 
-    monkeypatch.setattr(chain, "friction", failing)
+    monkeypatch.setattr(trail, "friction", failing)
     with pytest.raises(lubfric.ConvergenceError, match="injected") as caught:
         lubfric.stribeck(prepare(SCENE), SPEEDS)
     kept = pickle.loads(pickle.dumps(caught.value)).result
@@ -139,7 +139,7 @@ PARENT, FRICTION = os.getpid(), lubfric.friction
 def test_killed_workers_lose_nothing_and_change_nothing(monkeypatch, tmp_path, stored):
     with ProcessPoolExecutor(2) as executor:
         whole = lubfric.stribeck(SCENE, SPEEDS, executor)
-    monkeypatch.setattr(chain, "friction", killed_in_a_worker)
+    monkeypatch.setattr(trail, "friction", killed_in_a_worker)
     with ProcessPoolExecutor(2) as executor:
         again = lubfric.stribeck(SCENE, SPEEDS, executor, store=tmp_path if stored else None)
     same(again, whole)
@@ -156,7 +156,7 @@ def test_a_fault_of_the_program_is_no_failed_point(monkeypatch):
             raise TypeError("a fault of the program")
         return FRICTION(model, speed, **options)
 
-    monkeypatch.setattr(chain, "friction", faulty)
+    monkeypatch.setattr(trail, "friction", faulty)
     with pytest.raises(TypeError, match="a fault of the program") as caught:
         lubfric.stribeck(prepare(SCENE), SPEEDS, raise_on_failure=False)
     solved = np.isfinite(caught.value.result.coefficient)  # the first, and the faster ones, which came before it
@@ -182,12 +182,19 @@ def test_a_cut_sweep_goes_on_to_the_same_bits(tmp_path, monkeypatch, cut, fields
         lubfric.stribeck(model, SPEEDS, fields=fields, store=tmp_path, on_point=cutting)
     assert np.isfinite(caught.value.result.coefficient).sum() == cut
     solved = []
-    monkeypatch.setattr(chain, "friction", lambda *a, **k: solved.append(a) or FRICTION(*a, **k))
+    monkeypatch.setattr(trail, "friction", lambda *a, **k: solved.append(a) or FRICTION(*a, **k))
     again = lubfric.stribeck(model, SPEEDS, fields=fields, store=tmp_path)
     assert len(solved) == SPEEDS.size - cut
     same(again, whole)
     for here, there in zip(again.points, whole.points):
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
+
+
+def test_a_curve_outlives_the_shell_that_began_it(monkeypatch, curve):
+    """As behind nohup: the parent of this process changes while it solves. Only a worker ends with its parent."""
+    parents = iter(range(10**6))
+    monkeypatch.setattr(os, "getppid", lambda: next(parents))
+    same(lubfric.stribeck(prepare(SCENE), SPEEDS), curve)
 
 
 def test_progress_counts_every_point():

@@ -17,8 +17,8 @@ from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
 from lubfric.prepared import prepare
 from lubfric.store import write_checked
-from lubfric.unsteady import setup
 from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
+from lubfric.unsteady.sharing import Sharing
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -141,13 +141,13 @@ def test_the_flat_contact_runs_in_time():
 
 
 def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
-    real = setup.share_step
+    real = Sharing.solve
 
     def failing(sharing, at, *rest):
         found = real(sharing, at, *rest)
         return replace(found, status="diverged") if at > 1.5e-3 else found
 
-    monkeypatch.setattr(setup, "share_step", failing)
+    monkeypatch.setattr(Sharing, "solve", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
     assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]

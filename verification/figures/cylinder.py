@@ -148,7 +148,7 @@ def _draw_stribeck(speeds, curves, real, lengths, loads) -> bytes:
             lw=1,
             label=f"ground surface, motion along its {axis}",
         )
-    panels[0].legend(fontsize=7, loc="lower left")
+    canvas.legend(*panels[0].get_legend_handles_labels(), loc="outside lower left", ncols=3, fontsize=8, frameon=False)
     ax = panels[2]
     ax.errorbar(np.array(lengths) * 1e6, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd")
     ax.plot(

@@ -24,6 +24,8 @@ def coverage(results: list[Result]) -> Figure:
         axis.set_title(f"{result.case.name}: {100 * result.covered.mean():.1f} % of {f.size} cover")
         axis.set_ylabel("f/f∞ − 1 (%)")
         axis.set_xticks([])
+    for axis in grid[-1]:
+        axis.set_xlabel("trials, by f")
     for axis in grid.flat[len(results) :]:
         axis.set_axis_off()
     return finish("coverage", canvas, "Every interval over the truth; those that miss it are red", "png")
@@ -46,15 +48,13 @@ def bias(found: Found) -> Figure:
             1e3 * length, 100 * scatter / truth, "--", color=shown[0].get_color(), label=f"scatter, {speed:g} m/s"
         )
     axis.axhline(0, color="black", lw=0.8)
-    axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="of f∞ (%)")
+    axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="bias and scatter of f (% of f∞)")
     axis.legend(frameon=False)
     return finish("bias", canvas, "Bias and scatter of f of one patch against its length", "png")
 
 
 def cost(found: dict[str, np.ndarray]) -> Figure:
     """Time against the error of f that was made by having a finite surface."""
-    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
-
     canvas, axis = axes(1, 1, 6.4, 4)
     for name, rows in found.items():
         asked, seconds, error = rows.T
@@ -64,9 +64,5 @@ def cost(found: dict[str, np.ndarray]) -> Figure:
             at = 100 * e, seconds[error == e].max()
             axis.annotate(words, at, xytext=(4, 4), textcoords="offset points", fontsize=8)
     axis.set(xlabel="root mean square error of f, surface included (%); labels: asked", ylabel="processor time (s)")
-    for direction in (axis.xaxis, axis.yaxis):
-        direction.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        direction.set_major_formatter(FormatStrFormatter("%g"))
-        direction.set_minor_formatter(NullFormatter())
     axis.legend(frameon=False)
     return finish("cost", canvas, "Processor time against the error of f", "png")

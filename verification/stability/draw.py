@@ -29,8 +29,9 @@ AXES = {
     "sharing: flat": ("film / roughness", "rms height, m"),
     "sharing: paper": ("film / roughness", "rms height, m"),
     "sharing: speed, either sign": ("entrainment speed, m/s", "scene"),
-    "sharing: share of the contact": ("F_C / F_T", ""),
+    "sharing: share of the contact": ("$F_C/F_T$", ""),
 }
+COUNTED = ("case", "start from case", "surface", "grid", "input", "scene", "")  # labels of axes that number things
 LINEAR = {
     "film: load and material": "y",
     "film: tolerance": "x",
@@ -85,6 +86,8 @@ def draw(kind: str, cells: list[Check]) -> Figure:
 
 def panel(ax, cells: list[Check]) -> None:
     """All cells of one map and method."""
+    from matplotlib.ticker import MaxNLocator
+
     name, method = cells[0].word("map"), cells[0].word("method")
     linear = LINEAR.get(name, "")
     found = Counter(verdict_of(c) for c in cells)
@@ -107,4 +110,9 @@ def panel(ax, cells: list[Check]) -> None:
         ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
     labels = ("load, N/m", "entrainment speed, m/s") if name.startswith("whole") else AXES.get(name, ("", ""))
     ax.set(xlabel=labels[0], ylabel=labels[1])
+    for axis, label in ((ax.xaxis, labels[0]), (ax.yaxis, labels[1])):
+        if label in COUNTED:
+            axis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+        if not label:
+            axis.set_ticks([])
     ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)

@@ -258,7 +258,7 @@ def area_of_the_balance():
     canvas, ax = plotting.axes(height=3.4)
     for line, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
         ax.plot(np.array(WIDTHS) * 1e6, line, "o-", label=label)
-    ax.set(xlabel="width of the patch (µm)", ylabel="F_H (N)", ylim=(0, 1.2 * max(*strip, *box)))
+    ax.set(xlabel="width of the patch (µm)", ylabel="$F_H$ (N)", ylim=(0, 1.2 * max(*strip, *box)))
     ax.legend(loc="lower right")
     yield plotting.finish(
         "area",

@@ -255,7 +255,7 @@ def side_by_side(points: list[Point]) -> Table:
 
 def approach(points: list[Point], options: Level):
     """Differences against cell size, with their orders."""
-    sizes, series = [LENGTH / n for n in options.grids], {}
+    sizes, series = [1e6 * LENGTH / n for n in options.grids], {}  # µm
     for k, name in enumerate(("coefficient", "F_H", "mean gap")):
         errors = [max(p.differences()[k] for p in points if p.cells == n) for n in options.grids]
         series[name] = (sizes, errors, None)
@@ -272,7 +272,7 @@ def approach(points: list[Point], options: Level):
         "Differences between lubfric and the finite-element model (largest "
         "over the speeds) against the cell of the contact grid.",
         series,
-        "cell (m)",
+        "cell (µm)",
         "relative difference",
     )
 

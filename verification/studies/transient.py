@@ -19,7 +19,7 @@ from lubfric.history import Constant, Harmonic, Ramp
 from lubfric.history import Table as History
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
-from lubfric.march.bdf import Level, March, Memory, advance
+from lubfric.march.bdf import Level, Memory, Progress, advance
 from lubfric.paper.differential.transient import solve_differential_transient
 
 from .. import plotting
@@ -151,17 +151,17 @@ def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     z = parabola(made, 1e-6)
-    march = March((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
+    now = Progress((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
     for k in range(steps):
-        step = advance(
-            replace(march, step=LONG),
+        found = advance(
+            replace(now, step=LONG),
             0.3 * LONG * (k + 1) / steps,
             SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0),
             1.0,
             0.0,
         )
-        march = the(step, "step in time").march
-    return float(march.levels[-1].film.min())
+        now = the(found, "step in time")
+    return float(now.levels[-1].film.min())
 
 
 def one_step(resolution: float) -> float:
@@ -169,7 +169,7 @@ def one_step(resolution: float) -> float:
     at its end."""
     made, step = setting(resolution), 1e-2 * LONG
     z = parabola(made, 1e-6)
-    h = made.step(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min() * made.problem.film_unit
+    h = made.solve(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min() * made.problem.film_unit
     return float((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...history import History
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
-from ...march.bdf import Level, Memory
+from ...march.bdf import Memory
 from ...report import CONVERGED
 from ..problem import Problem
 from ..solve import Effort, solve_line_contact
@@ -32,7 +32,7 @@ class ContactHistory:
 
     Attributes
     ----------
-    load, radius : [N/m], [m]
+    load, radius : [N] on ``width`` [m], [m]
     speed : [m/s], of entrainment
     viscosity : [Pa s], ambient; the law of the pressure stays
     initial_film : [m] flying height of the undeformed parabola at t = 0; None: steady before t = 0
@@ -46,12 +46,22 @@ class ContactHistory:
     lubricant: Lubricant
     duration: float
     initial_film: float | None = None
+    width: float = 1.0
+
+    def load_per_width(self, time: float) -> float:
+        """Just before ``time`` [s], in N/m."""
+        return self.load.before(time) / self.width
+
+    def load_range(self) -> tuple[float, float]:
+        """Smallest and largest load [N/m]."""
+        low, high = self.load.range(self.duration)
+        return low / self.width, high / self.width
 
     def steady(self, load: float | None = None) -> LineContact:
         """The steady contact just before t = 0 (there must be entrainment), or the same with another load [N/m]."""
         oil = replace(self.lubricant, viscosity=self.viscosity.before(0.0))
         return LineContact(
-            load or self.load.before(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
+            load or self.load_per_width(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
         )
 
 
@@ -73,28 +83,16 @@ class Setting:
         c, p = self.contact, self.problem
         return Conditions(
             c.speed.before(time) / p.contact.entrainment_speed,
-            c.load.before(time) / (p.contact.e_prime * p.film_unit),
+            c.load_per_width(time) / (p.contact.e_prime * p.film_unit),
             p.contact.radius / c.radius.before(time),
             c.viscosity.before(time) / p.contact.lubricant.viscosity,
         )
 
-    def step(
-        self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None, tolerance: float = 1e-7
-    ) -> StepSolution:
-        """Solve the step that ends at ``time`` [s], with a memory whose rate is in 1/s."""
-        return solve_step(
-            self.grid,
-            self.problem,
-            self.conditions(time),
-            Memory(memory.rate * self.time_unit, memory.film),
-            z,
-            spring=spring,
-            tolerance=tolerance,
-        )
-
-    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> StepSolution:
-        """The step of a film that carries the whole load (`lubfric.march.bdf.Solver`)."""
-        return self.step(time, memory, z)
+    def solve(self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None) -> StepSolution:
+        """The step that ends at ``time`` [s] (`lubfric.march.bdf.Solver`). ``spring``: what carries the rest of the
+        load."""
+        memory = Memory(memory.rate * self.time_unit, memory.film)
+        return solve_step(self.grid, self.problem, self.conditions(time), memory, z, spring=spring)
 
     def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
         """Root mean square of a difference of films over the pressurised film, relative to the film."""
@@ -119,10 +117,6 @@ class Setting:
         width = math.hypot(self.problem.half_width, 3.0) * self.problem.length_unit
         return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
 
-    def level(self, time: float, solution: StepSolution) -> Level:
-        """What later steps need of a solution."""
-        return Level(time, solution.film, solution.z)
-
 
 def steady(grid: FixedGrid) -> Memory:
     """The memory of a state that does not change."""
@@ -145,7 +139,7 @@ def make_setting(
     more nodes.
     """
     problem, films = _reference(contact, film_range)
-    load = contact.load.range(contact.duration)
+    load = contact.load_range()
     radius = contact.radius.range(contact.duration)
     share = LIGHTEST if shared else 1.0
 
@@ -159,7 +153,7 @@ def make_setting(
 
 def _reference(contact: ContactHistory, film_range) -> tuple[Problem, tuple[float, float]]:
     c, T = contact, contact.duration
-    load, radius, eta = c.load.range(T), c.radius.range(T), c.viscosity.range(T)
+    load, radius, eta = c.load_range(), c.radius.range(T), c.viscosity.range(T)
     fastest = max(abs(u) for u in c.speed.range(T))
     lubricant = replace(c.lubricant, viscosity=c.viscosity.at(0.0))
     films = [f for f in (*film_range, c.initial_film or 0.0) if 0.0 < f < math.inf]

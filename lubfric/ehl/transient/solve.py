@@ -11,8 +11,8 @@ from ... import validate
 from ...errors import ConvergenceError, InputError
 from ...history.read import checked_history
 from ...lubricant import Lubricant
-from ...march.bdf import March
-from ...march.course import Plan, Progress, checked_times, plan_of, report_of, steps
+from ...march.bdf import started
+from ...march.course import Plan, checked_times, plan_of, report_of, steps
 from ...renamed import keyword_before
 from ...report import CONVERGED, Report
 from ..result import smallest
@@ -117,7 +117,7 @@ def _check_start(contact: ContactHistory) -> None:
 
 
 def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
-    now = Progress(March((setting.level(0.0, start),), plan.first_step))
+    now = started(start, plan.first_step)
     outputs = [(0.0, start)] if plan.times[0] == 0.0 else []
     for now in steps(setting, plan, now):
         if now.at_output:

@@ -21,8 +21,8 @@ from ...history import History
 from ...history.read import checked_history
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
-from ...march.bdf import Level, March, Memory
-from ...march.course import Plan, Progress, checked_times, plan_of, report_of, steps
+from ...march.bdf import Memory, started
+from ...march.course import Plan, checked_times, plan_of, report_of, steps
 from ...renamed import keyword_before
 from ...report import CONVERGED
 from .equations import Squeeze
@@ -149,7 +149,7 @@ def _start(setting: UniformSetting) -> Step:
 
 
 def _march(setting: UniformSetting, first: Step, plan: Plan) -> TransientFilm:
-    now = Progress(March((Level(0.0, first.film, first.z),), plan.first_step))
+    now = started(first, plan.first_step)
     times, states = ([0.0], [first.z]) if plan.times[0] == 0.0 else ([], [])
     for now in steps(setting, plan, now):
         if now.at_output:
