@@ -98,7 +98,7 @@ class Roughness(Brief):
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and not isinstance(self.file, str):
-            raise InputError(f"surface.file = {validate.shown(self.file)}; allowed: a path in quotes")
+            raise InputError(f"surface.file = {validate.shown(self.file)}; write a path in quotes")
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:
@@ -112,7 +112,7 @@ def not_for_this(name: str, value: Any, generated: bool) -> InputError:
     """The error for a key that has no meaning for the kind of map there is."""
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     return InputError(
-        f"surface.{name} = {validate.shown(value)} applies to {this}, and this one is {other}; allowed: leave it out"
+        f"surface.{name} = {validate.shown(value)} applies to {this}, and this one is {other}; leave it out"
     )
 
 

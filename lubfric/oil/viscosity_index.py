@@ -71,7 +71,7 @@ def viscosity_at_100(nu40: float, index: float) -> float:
     if at_40 <= least or _index(at_40, least) > index:
         raise InputError(
             f"viscosity_index = {index:g} (-) with nu40 = {nu40:g} m²/s gives less than 2e-6 m²/s at 100 °C, where the "
-            "index is not defined; allowed: give the kinematic viscosities at 40 and 100 °C instead"
+            "index is not defined; give the kinematic viscosities at 40 and 100 °C instead"
         )
     if _index(at_40, 0.999 * at_40) < index:
         raise InputError(f"viscosity_index = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s; allowed: a lower index")

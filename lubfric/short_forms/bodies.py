@@ -52,9 +52,7 @@ def reduced_radius(first: float, second: float) -> float:
     curvature = 0.0
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
-            raise InputError(
-                f"bodies.radii has {radius!r}; allowed: radii in m, inf for a plane, negative for a hollow"
-            )
+            raise InputError(f"bodies.radii has {radius!r}; give radii in m, inf for a plane, negative for a hollow")
         curvature += 1 / radius
     if curvature <= 0:
         raise InputError(

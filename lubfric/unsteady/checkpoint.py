@@ -60,7 +60,7 @@ class Checkpoint:
         if kept["fingerprint"] != self.fingerprint:
             raise InputError(
                 f"checkpoint in {self.folder} belongs to another run (scene, height map, times or version differ); "
-                "allowed: the same scene, or an empty folder"
+                "run the same scene, or give an empty folder"
             )
         self._outputs, self._bytes = kept["outputs"], kept["bytes"]
         rows, fields = (self._cut(name, kept["sha256"][name]) for name in (ROWS, FIELDS))
@@ -79,8 +79,7 @@ class Checkpoint:
 
     def _damaged(self, path: Path) -> InputError:
         return InputError(
-            f"checkpoint file {path} is damaged (cut or overwritten); allowed: an undamaged folder, or an empty one "
-            "to begin again"
+            f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again"
         )
 
     def append(self, row: np.ndarray, field: np.ndarray) -> None:
