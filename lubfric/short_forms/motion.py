@@ -31,7 +31,7 @@ def resolve(given: dict, old) -> dict:
     if "slip_percent" in given:
         given["slide_roll_ratio"] = validate.number("motion.slip_percent", given.pop("slip_percent"), "%") / 100
     if not isinstance(given.get("speeds", ()), (list, tuple, np.ndarray)):
-        raise InputError(f"motion.speeds = {given['speeds']!r}; allowed: a list of numbers in m/s")
+        raise InputError(f" = {given['speeds']!r}", "motion.speeds", "a list of numbers in m/s")
     if "speed_range" in given:
         given["speeds"] = speeds_of_range("motion.speed_range", given.pop("speed_range"))
     return given

@@ -8,7 +8,7 @@ from ..errors import InputError
 def pair(name: str, value, unit: str) -> tuple:
     """A list or tuple of two, one a body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise InputError(f"{name} = {value!r} must be a pair, one value a body [{unit}]")
+        raise InputError(f" = {value!r} must be a pair, one value a body [{unit}]", name)
     return tuple(value)
 
 
