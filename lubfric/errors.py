@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+TO_DO = ("give ", "leave ", "write ")  # begin a way out, as against a range or the values that are allowed
+
 
 class LubfricError(Exception):
     """Base class: catch this to catch everything lubfric raises on purpose.
@@ -28,7 +30,8 @@ class InputError(LubfricError, ValueError):
     """An input is outside its allowed range, raised before any work starts.
 
     The message names the quantity, the value, the allowed range and the unit. ``quantity``, which begins it (``also``:
-    others it is about), and ``allowed``, range and way out, can be read off the error.
+    others it is about), and ``allowed``, the range or what to do ("give ...", "leave it out"), can be read off the
+    error.
     """
 
     def __init__(self, said: str, quantity: str = "", allowed: str = "", also: tuple[str, ...] = ()):
@@ -36,7 +39,8 @@ class InputError(LubfricError, ValueError):
         self.said, self.quantity, self.allowed, self.also = said, quantity, allowed, also
 
     def worded(self) -> str:
-        return f"{self.quantity}{self.said}{self.allowed and '; allowed: ' + self.allowed}"
+        lead = "; " if self.allowed.startswith(TO_DO) else "; allowed: "
+        return f"{self.quantity}{self.said}{self.allowed and lead + self.allowed}"
 
 
 class OutputError(LubfricError, OSError):

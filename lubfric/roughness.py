@@ -98,7 +98,7 @@ class Roughness(Brief):
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and not isinstance(self.file, str):
-            raise InputError(f" = {validate.shown(self.file)}", "surface.file", "a path in quotes")
+            raise InputError(f" = {validate.shown(self.file)}", "surface.file", "write a path in quotes")
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:

@@ -58,7 +58,7 @@ def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
     if not warm > cold:
-        raise InputError(f"temperatures = {cold:g} and {warm:g} K; allowed: two that differ")
+        raise InputError(f"temperatures = {cold:g} and {warm:g} K; give two that differ")
     for nu in (thick, thin):
         validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
     if not thin < thick:

@@ -136,7 +136,7 @@ def refuse_outliers(surface: Surface, name: str) -> None:
         z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
         raise InputError(
             f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours and "
-            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; allowed: {name}.outliers = "
+            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; give {name}.outliers = "
             "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
         )
 

@@ -52,7 +52,9 @@ def reduced_radius(first: float, second: float) -> float:
     curvature = 0.0
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
-            raise InputError(f" has {radius!r}", "bodies.radii", "radii in m, inf for a plane, negative for a hollow")
+            raise InputError(
+                f" has {radius!r}", "bodies.radii", "give radii in m, inf for a plane, negative for a hollow"
+            )
         curvature += 1 / radius
     if curvature <= 0:
         raise InputError(

@@ -44,6 +44,6 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
     low = validate.positive(f"{name} lowest", value[0], "m/s")
     high = validate.positive(f"{name} highest", value[1], "m/s")
     if high <= low:
-        raise InputError(f"{name} highest = {high:g} m/s; allowed: above lowest = {low:g} m/s (are they swapped?)")
+        raise InputError(f"{name} highest = {high:g} m/s; it must be above lowest = {low:g} m/s (are they swapped?)")
     count = validate.integer(f"{name} count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

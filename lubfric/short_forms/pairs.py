@@ -17,7 +17,7 @@ def only_one(section: str, given: dict, *keys: str) -> None:
     found = [key for key in keys if any(k in given for k in key.split("+"))]
     if len(found) > 1:
         names = " and ".join(found)
-        raise InputError(f"[{section}] has {names}, which say the same thing; allowed: one of {', '.join(keys)}")
+        raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
 
 
 def together(section: str, given: dict, *keys: str) -> bool:

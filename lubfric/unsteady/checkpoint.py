@@ -57,7 +57,7 @@ class Checkpoint:
         if kept["fingerprint"] != self.fingerprint:
             raise InputError(
                 f"checkpoint in {self.folder} belongs to another run (scene, height map, times or version differ); "
-                "allowed: the same scene, or an empty folder"
+                "run the same scene, or give an empty folder"
             )
         self._count = kept["outputs"]
         records = dict(self._records.read())
@@ -90,10 +90,7 @@ class Checkpoint:
 
 
 def _damaged(path: Path) -> InputError:
-    return InputError(
-        f"checkpoint file {path} is damaged (cut or overwritten); allowed: an undamaged folder, or an empty one "
-        "to begin again"
-    )
+    return InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
 
 
 def _text(values: np.ndarray) -> str:

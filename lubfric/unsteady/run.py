@@ -121,7 +121,7 @@ def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.nda
     plan = base.transient
     if times is None:
         if plan is None:
-            raise InputError("scene has no [transient] table; allowed: one, or output times in s")
+            raise InputError("scene has no [transient] table; give one, or output times in s")
         return scene, np.linspace(0.0, plan.duration, plan.outputs + 1)
     times = checked_times(times)
     last = float(times[-1])

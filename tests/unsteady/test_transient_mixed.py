@@ -249,7 +249,7 @@ def test_any_damage_of_a_checkpoint_is_refused(tmp_path):
             overwritten[at] ^= int(rng.integers(1, 256))
             for content in (bytes(overwritten), whole[:at]):
                 path.write_bytes(content)
-                with pytest.raises(lubfric.InputError, match=f"{name} is damaged.*empty one to begin again"):
+                with pytest.raises(lubfric.InputError, match=f"{name} is damaged.*empty folder to begin again"):
                     Checkpoint(tmp_path, ["one"]).load()
         path.write_bytes(whole)
     assert Checkpoint(tmp_path, ["one"]).load() is not None
