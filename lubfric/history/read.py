@@ -43,7 +43,8 @@ def history(name: str, given, folder: Path = Path()) -> History:
             return read_history(folder / _word("file", table.pop("file")), **table, unit=UNITS.get(name.split(".")[-1]))
         return KINDS[kind](**table)
     except InputError as error:
-        raise InputError(f"{name}: {error}") from None
+        error.quantity = f"{name}: {error.quantity}"
+        raise
 
 
 def read_history(
