@@ -6,8 +6,8 @@ import math
 
 from .analytic import hertz
 from .errors import InputError
+from .lines import outlook as of_lines
 from .lines.make import lines_of, takes_line
-from .lines.outlook import in_words
 from .oil.describe import estimate_in_words
 from .oil.temperature import CELSIUS
 from .plausible import told_doubts
@@ -33,17 +33,17 @@ def describe_scene(scene: Scene) -> str:
         *_section("motion", _motion(scene)),
         f"  surface        {surface.describe()}",
         *_map_lines(scene, surface),
-        "  speed U (m/s)      M        L     h (um)  lambda   (Moes film at full load)",
+        f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}   film of the whole load, by Moes",
     ]
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]}):
         if speed == 0:
-            lines.append("  0              no entrainment: all contact")
+            lines.append(f"  {0:<12} no entrainment: all contact")
             continue
         line = scene.line_contact(abs(speed))
         h = line.moes_film
         ratio = h / surface.sq if surface.sq > 0 else math.inf
-        lines.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {h * 1e6:12.4f} {ratio:8.3g}")
+        lines.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {h * 1e6:10.4f} {ratio:8.3g}")
     if scene.numerics.model == "deterministic":
         plan = "one gap and one pressure, on grids of the map halved and doubled"
     elif scene.contact.geometry == "flat":
@@ -73,15 +73,13 @@ def _sampling_lines(scene: Scene, sq: float) -> list[str]:
     """Length of the line and its cost at the speeds of the scene."""
     if not takes_line(scene):
         return []
-    found, speeds = lines_of(scene), scene.motion.speeds or (scene.motion.entrainment_speed,)
-    return [
-        f"  U = {speed:<10.4g} {in_words(scene, found, sq, speed)}"
-        for speed in sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)]})
-    ]
+    speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    some = sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)], speeds[-1]})
+    return [f"  {row}" for row in of_lines.table(scene, lines_of(scene), sq, some)]
 
 
 def _no_doubts(told) -> list[str]:
-    return [] if told else ["validity       nothing that could be told before the solve"]
+    return [] if told else ["validity       no assumption of the model fails by what is known before the solve"]
 
 
 def _map_lines(scene: Scene, surface) -> list[str]:
@@ -154,7 +152,7 @@ def _bodies(scene: Scene):
 def _lubricant(scene: Scene):
     lubricant = scene.lubricant
     if lubricant.oil is not None and lubricant.temperature is not None:
-        yield estimate_in_words(lubricant.oil, lubricant.temperature)
+        yield from estimate_in_words(lubricant.oil, lubricant.temperature).replace(", alpha", "; alpha").split("; ")
     else:
         at = (
             ""

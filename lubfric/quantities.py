@@ -21,6 +21,7 @@ QUANTITIES = {  # name: (unit, long name)
     "flash_temperature_rise": ("K", "largest temperature rise of the surfaces"),
     "film_temperature_rise": ("K", "largest mean temperature rise of the film over the surfaces"),
     "clearance": ("-", "gap between the film and the highest summits over Sq, where they do not touch"),
+    "steepness": ("-", "d ln(film_load/contact_load) over d ln(speed)"),
     "load_residual": ("-", "relative residual of the load balance"),
     "volume_residual": ("-", "relative residual of the volume balance"),
     "seconds": ("s", "processing time"),

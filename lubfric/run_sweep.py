@@ -119,9 +119,9 @@ def _doubts(curve) -> tuple[str, ...]:
     if not told:
         return ()
     worst = max(told, key=lambda p: p.uncertainty.sampling if math.isfinite(p.uncertainty.sampling) else math.inf)
-    first = f"at {worst.speed:g} m/s, how sure f is: {'; '.join(worst.uncertainty.notes)}"
+    first = f"error of f at {worst.speed:g} m/s: {'; '.join(worst.uncertainty.notes)}"
     if others := len(told) - 1:
-        first += f" (the least sure; {others} other {'speeds' if others > 1 else 'speed'}: see result.json)"
+        first += f" (the largest; result.json has {others} more {'speeds' if others > 1 else 'speed'})"
     few = [p.speed for p in told if p.uncertainty.few_spots]
     if not few or few == [worst.speed]:
         return (first,)
@@ -134,8 +134,9 @@ def _beside(curve) -> tuple[str, ...]:
     if not told:
         return ()
     worst = max(told, key=lambda p: p.uncertainty.model_form)
-    places = f"{len(told)} speeds, {percent(worst.uncertainty.model_form)} at {worst.speed:g} m/s"
-    return (f"not in the intervals: the model itself (load sharing) may be off by more than they say at {places}",)
+    count = f"{len(told)} {'speeds' if len(told) > 1 else 'speed'}"
+    most = f"at most {percent(worst.uncertainty.model_form)}, at {worst.speed:g} m/s"
+    return (f"not in the intervals: error of load sharing itself, larger than they are at {count} ({most})",)
 
 
 def _stated(found: Uncertainty) -> float:
@@ -209,9 +210,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
-        raise InputError(
-            f"{option} {validate.shown(text)}: a comma separates speeds; allowed: a point in decimals, 0.01"
-        )
+        raise InputError(f"{option} {validate.shown(text)}: a comma separates speeds; write a point in decimals, 0.01")
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -239,11 +238,12 @@ def _with_chosen(speeds, chosen):
 
 
 def _progress(done, total, speed, outcome) -> None:
+    head = f"[{done:>{len(str(total))}}/{total}] U = {speed:<9.4g} m/s"
     if isinstance(outcome, Exception):
         verb = "refused" if isinstance(outcome, ValidityError) else "failed"
-        say(f"[{done}/{total}] U = {speed:.4g} m/s {verb}: {outcome}")
+        say(f"{head}: {verb}: {outcome}")
     else:
         say(
-            f"[{done}/{total}] U = {speed:.4g} m/s: {outcome.uncertainty.short(outcome.coefficient)}, "
-            f"F_C = {outcome.contact_load:.4g} N, F_H = {outcome.film_load:.4g} N ({outcome.seconds:.2f} s)"
+            f"{head}: {outcome.uncertainty.short(outcome.coefficient):<59} F_C = {outcome.contact_load:<9.4g} N, "
+            f"F_H = {outcome.film_load:<9.4g} N ({outcome.seconds:.2f} s)"
         )

@@ -10,7 +10,7 @@ CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off
 TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
 WIDE = 12.0  # ratio of neighbouring speeds without contact from which one between them is solved
 ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
-SHARE, MANY = 0.85, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
+SHARE, MANY = 0.5, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
 APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
@@ -23,7 +23,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
 
     First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
     before how it ends. No two films are left far apart. Then the speed at which the error is estimated to be largest,
-    until that is below ``tolerance`` everywhere; with few speeds, below 0.85 of it.
+    until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)

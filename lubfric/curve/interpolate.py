@@ -2,16 +2,16 @@
 coordinates in which each is smooth.
 
 With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the contact spots, and t = F_sh/F_H the
-traction coefficient of the film. In contact t hardly changes, and beyond lift-off it is close to a power of the speed:
-ln t over the speed, and over ln U. The odds of the film (1 - s)/s grow about as the speed in boundary lubrication; at
-lift-off U_0 the share ends as that of one Hertz asperity, as (1 - U/U_0)^(3/2). What is left when both are taken out,
-ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows about as the film does. All by
-cubic splines; shape-preserving cubics beside them tell how sure that is.
+traction coefficient of the film. In contact ln t hardly changes with the speed; beyond lift-off t/sqrt(U) is
+interpolated over 1/sqrt(U). The odds of the film (1 - s)/s grow about as the speed in boundary lubrication; at lift-off
+U_0 the share ends as that of one Hertz asperity, as (1 - U/U_0)^(3/2). What is left when both are taken out,
+ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows about as the film does, with the
+slopes that the points know of themselves. All by cubic splines; other cubics beside them tell how sure that is.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -32,7 +32,7 @@ class Samples:
     """What is known of a curve: arrays (n,) by ascending entrainment speed [m/s].
 
     share: of the load on the contact; boundary, film: parts of f; thickness: central film, clearance: of it above the
-    summits where nothing touches, both in units of Sq (NaN where not known).
+    summits where nothing touches, both in units of Sq; steepness: d ln((1 - share)/share)/d ln U (NaN where not known).
     """
 
     speed: np.ndarray
@@ -41,6 +41,7 @@ class Samples:
     film: np.ndarray
     thickness: np.ndarray
     clearance: np.ndarray
+    steepness: np.ndarray
 
     @property
     def contacts(self) -> int:
@@ -49,8 +50,7 @@ class Samples:
 
     def without(self, index: int) -> Samples:
         """All but one."""
-        parts = (self.speed, self.share, self.boundary, self.film, self.thickness, self.clearance)
-        return Samples(*(np.delete(part, index) for part in parts))
+        return Samples(*(np.delete(getattr(self, part.name), index) for part in fields(self)))
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Interpolant:
     end: float = HERTZ
 
     def at(self, speed, smooth: bool = True) -> np.ndarray:
-        """f at speeds [m/s] within the range. ``smooth=False``: by the shape-preserving cubics."""
+        """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
         speed = np.asarray(speed, dtype=float)
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
@@ -123,7 +123,8 @@ class Interpolant:
             return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), odds, np.log(speed), smooth)))
         below = speed < end
         y, there = s.speed[known] / end, speed[below] / end
-        left = _cubic(y**EXPONENT, odds - np.log(y) + self.end * np.log1p(-y), there**EXPONENT, smooth)
+        rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (EXPONENT * y**EXPONENT)
+        left = _steered(y**EXPONENT, odds - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth)
         at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
         return at
 
@@ -132,18 +133,15 @@ class Interpolant:
         s, k, knee = self.samples, self.samples.contacts, self.lift_off
         known = np.flatnonzero(1 - s.share >= LITTLE)
         known = known if known.size else np.array([s.speed.size - 1])
-        t = s.film[known] / np.maximum(1 - s.share[known], NOTHING)
-        powers = bool(np.all(t > 0.0))
-        y, t, touching = s.speed[known], np.log(t) if powers else t, known < k
+        y, t, touching = s.speed[known], s.film[known] / np.maximum(1 - s.share[known], NOTHING), known < k
         at = np.maximum(speed, y[0])
+        if k == 0:
+            return _film_alone(y, t, at, smooth)
         if knee is None or np.count_nonzero(~touching) < 2:
-            found = _cubic(np.log(y), t, np.log(at), smooth)
-        else:
-            beyond = np.log(y[~touching]), t[~touching]
-            there = _cubic(*beyond, np.array([np.log(knee)]), smooth)
-            slow = _cubic(np.append(y[touching], knee), np.append(t[touching], there), at, smooth=False)
-            found = np.where(at < knee, slow, _cubic(*beyond, np.log(at), smooth))
-        return np.exp(found) if powers else found
+            return _of_logarithms(np.log(y), t, np.log(at), smooth)
+        alone = _film_alone(y[~touching], t[~touching], np.append(at, knee), smooth)
+        slow = _of_logarithms(np.append(y[touching], knee), np.append(t[touching], alone[-1]), at, smooth=False)
+        return np.where(at < knee, slow, alone[:-1])
 
 
 def knee_of(samples: Samples) -> float | None:
@@ -173,6 +171,35 @@ def knee_range(samples: Samples) -> tuple[float, float]:
     low, high = samples.speed[k - 1], samples.speed[k]
     away = (high / knee) ** UNSURE
     return float(max(knee / away, min(NEAR * low, knee))), float(knee * away)
+
+
+def _film_alone(speed, traction, at, smooth):
+    """Where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + ..., since a Newtonian
+    film that deflects nothing has friction in proportion to sqrt(U), and a film that shears at its limit a constant."""
+    root = np.sqrt(speed)
+    return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth)
+
+
+def _of_logarithms(x, values, at, smooth):
+    """`_cubic` of ln ``values`` where all are positive, else of the values."""
+    if not np.all(values > 0.0):
+        return _cubic(x, values, at, smooth)
+    return np.exp(_cubic(x, np.log(values), at, smooth))
+
+
+def _steered(x, values, slopes, at, smooth):
+    """Half way between the spline through the points and cubics with the ``slopes`` known there; beyond the points a
+    straight line. ``smooth=False``: the latter alone."""
+    from scipy.interpolate import CubicHermiteSpline, CubicSpline
+
+    if x.size < 2 or not np.isfinite(slopes).any():
+        return _cubic(x, values, at, smooth)
+    spline = CubicSpline(x, values)
+    own = spline(x, 1)
+    weight = 0.5 if smooth else 1.0
+    cubics = CubicHermiteSpline(x, values, np.where(np.isfinite(slopes), weight * slopes + (1 - weight) * own, own))
+    inside = np.clip(at, x[0], x[-1])
+    return cubics(inside) + cubics(inside, 1) * (at - inside)
 
 
 def _cubic(x, values, at, smooth):

@@ -25,8 +25,9 @@ from .traction import TractionResult, traction
 
 def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     """Solve, write traction.csv, traction.png and, last, result.json to ``out``, and say what does not hold."""
-    begun = time.perf_counter()
-    prepared, asked = prepare(scene), parse_speeds("--ratios", ratios)
+    begun, asked = time.perf_counter(), parse_speeds("--ratios", ratios)
+    say(f"{scene.name}: preparing the height map and the contact")
+    prepared = prepare(scene)
     say(prepared.surface.describe())
     with run_folder(out, fingerprint(prepared, asked, "traction")) as folder:
         found = traction(prepared, asked, on_point=_progress, raise_on_failure=False)
@@ -51,7 +52,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
 def _progress(done, total, ratio, outcome) -> None:
     failed = isinstance(outcome, Exception)
     text = f"failed: {outcome}" if failed else outcome.uncertainty.short(outcome.coefficient)
-    say(f"[{done}/{total}] slide-roll ratio {ratio:.4g}: {text}")
+    say(f"[{done:>{len(str(total))}}/{total}] slide-roll ratio {ratio:<9.4g}: {text}")
 
 
 def _numbers(found: TractionResult) -> dict[str, np.ndarray]:

@@ -14,10 +14,23 @@ STEPS = 3  # curves of a search, beside the first and those of the differences
 
 
 def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
-    """What `lubfric.fit` with the same arguments will do and about how long it takes, in words.
+    """What a fit will do and about how long it will take, in words.
 
-    The map is made, and one film is solved as a clock of this machine. No point is solved. Raises `InputError`
-    where a parameter is not one.
+    The map is made, and one film is solved as a clock of this machine. No point is solved.
+
+    Parameters
+    ----------
+    scene : what is known, as for `lubfric.fit`
+    measured : from `lubfric.read_measured`, or `lubfric.Measured(speeds, coefficients)`
+    parameters : {"section.key": (lowest, highest)}, in SI units
+
+    Returns
+    -------
+    Text of some lines
+
+    Raises
+    ------
+    InputError : a parameter is not one
     """
     found = parameters_of(scene_of(scene), parameters)
     shared = shares_contact(scene, found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from ..scene import Scene
 from .contract import Lines
@@ -13,6 +14,7 @@ PIECE_SECONDS = 1.3e-6  # of a cell of a piece on finer and finer cells, of the 
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
+SHORT = 25.0  # correlation lengths: a map shorter along the line holds too few blocks for a standard error
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 
 
@@ -50,15 +52,27 @@ def piece_cells(lines: Lines) -> float:
     return lines.cells.count * fx * fy * min(PAIR * lines.lengths[1], lines.available) / step if fx * fy > 1 else 0.0
 
 
-def in_words(scene: Scene, lines: Lines, sq: float, speed: float) -> str:
-    """One line for `lubfric info`."""
-    error, length = foretold(scene, lines, sq, speed)
+def table(scene: Scene, lines: Lines, sq: float, speeds: Sequence[float]) -> list[str]:
+    """Rows for `lubfric info`: what the line and its cost will be at ``speeds`` [m/s]."""
     asked, first = scene.numerics.sampling_tolerance, pilot_length(lines)
-    seconds = CELL_SECONDS * lines.cells.count * length / lines.cells.coarse[1] + PIECE_SECONDS * piece_cells(lines)
     dx, dy = lines.cells.coarse
-    ends = length == lines.available and error**2 * first > asked**2 * length
-    enough = f"line of {1e3 * length:.2g} mm, where the map ends" if ends else f"line of about {1e3 * length:.2g} mm"
-    return (
-        f"{enough} for {100 * asked:g} % (the first {1e3 * first:.2g} mm: {100 * error:.2g} %), cells of "
-        f"{dx * 1e6:.3g} x {dy * 1e6:.3g} um, about {max(seconds, 0.01):.1g} s"
-    )
+    short = lines.available < SHORT * lines.lengths[1]
+    rows = [
+        f"line of the roughness for f within {100 * asked:g} %, on cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um; "
+        f"the first is {1e3 * first:.2g} mm long (orders of magnitude)",
+        f"  {'U (m/s)':<12} {'length (mm)':>11} {'error on the first':>20} {'time (s)':>10}",
+    ]
+    for speed in speeds:
+        error, length = foretold(scene, lines, sq, speed)
+        seconds = CELL_SECONDS * lines.cells.count * length / dy + PIECE_SECONDS * piece_cells(lines)
+        ends = length == lines.available and error**2 * first > asked**2 * length
+        known = "not known" if short and error else f"{100 * error:.2g} %"
+        rows.append(
+            f"  {speed:<12.4g} {1e3 * length:>11.2g} {known:>20} {max(seconds, 0.01):>10.1g}"
+            f"{'   the map ends here' if ends and not short else ''}"
+        )
+    if short:
+        rows.append(
+            f"  the map is shorter than {SHORT:g} correlation lengths: in contact, the result may have no interval"
+        )
+    return rows

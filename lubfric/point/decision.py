@@ -10,6 +10,7 @@ from ..film.contract import LeftOut
 from ..prepared import Prepared
 from ..scene import Numerics
 from .one_grid import Stage
+from .split import steepness
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Decision:
       f.
     - ``film_tolerance``: of a numerical film (0: closed form).
     - ``clearance`` [sigma]: between the film and the highest summits (negative: contact).
+    - ``steepness``: d ln(F_H/F_C)/d ln U (None: not known).
     - ``shape``: of the contact grid; ``coarsening``: its cells in cells of the scene's map, each way.
     - ``grid_error``: estimated relative error of f by the grid (None: it is the map's own grid); ``own_error``: on the
       map's own grid, that of the last step to it (infinite: nothing to compare it with).
@@ -39,6 +41,7 @@ class Decision:
     sensitivity: float = 1.0
     film_tolerance: float = 0.0
     clearance: float | None = None
+    steepness: float | None = None
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     grid_error: float | None = None
@@ -121,7 +124,11 @@ def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
     """The decision for film and contact, on a grid with the estimated ``error`` of f. ``finest``: True on the map's
     own grid."""
     prepared, grid, own = stage.point.prepared, stage.point.contact.grid, stage.point.prepared.contact.grid
-    decision = replace(_film(stage), contact=prepared.contact.name, grid_error=None if finest else error)
+    balance = stage.balance
+    steep = steepness(stage.point, balance.split, balance.slope) if balance.slope and balance.film_load > 0 else None
+    decision = replace(
+        _film(stage), contact=prepared.contact.name, grid_error=None if finest else error, steepness=steep
+    )
     if finest:
         decision = replace(decision, own_error=error)
     if grid is not None and own is not None:

@@ -34,7 +34,7 @@ def outlook(scene: Scene, surface: Surface, speed: float) -> str:
         film_tolerance=numerics.tolerances.film if level.numerical else 0.0,
     ).film_text
     if level.numerical and 0 < left_out.total < 10:
-        words += f" (rigid: {100 * left_out.total:.2g} % off, budget {100 * allowed:.2g} %)"
+        words += f" (rigid: {100 * left_out.total:.3g} % off, budget {100 * allowed:.2g} %)"
     summit = float(surface.heights.max() - surface.heights.mean())
     sigma, film = max(surface.sq, 1e-12), line.moes_film
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"

@@ -9,7 +9,7 @@ import os
 import socket
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -35,8 +35,9 @@ class Records:
         self._file = None
         self._synced = 0.0
 
-    def add(self, key: str, value) -> None:
-        """Add one record; ``value`` in plain JSON types. Raises `OutputError` when it cannot be kept."""
+    def add(self, key: str, value, sync: bool = False) -> None:
+        """Add one record; ``value`` in plain JSON types. ``sync``: force it to the disk at once. Raises `OutputError`
+        when it cannot be kept."""
         text = json.dumps({"key": key, "value": value}, allow_nan=False).encode()
         line = _checksum(text) + b" " + text + b"\n"
         with saying(f"a record in {self.folder} was not written"):
@@ -46,7 +47,7 @@ class Records:
             try:
                 if self._file.write(line) < len(line):
                     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-                if time.monotonic() - self._synced > SYNC:
+                if sync or time.monotonic() - self._synced > SYNC:
                     self._sync(self._file)
             except OSError:
                 with suppress(OSError):
@@ -88,6 +89,25 @@ class Records:
         file = (self.folder / name).open("xb", buffering=0)
         sync_folder(self.folder)
         return file
+
+
+def growth(folder) -> Callable[[], int]:
+    """A function that counts the lines that were added to the records in ``folder`` since this call. It reads only what
+    is new, and does not look at what the lines say."""
+    ends = {path: path.stat().st_size for path in Path(folder).glob("*.jsonl")}
+    count = 0
+
+    def added() -> int:
+        nonlocal count
+        for path in Path(folder).glob("*.jsonl"):
+            with path.open("rb") as file:
+                file.seek(ends.get(path, 0))
+                new = file.read()
+            ends[path] = ends.get(path, 0) + len(new)
+            count += new.count(b"\n")
+        return count
+
+    return added
 
 
 def _checksum(text: bytes) -> bytes:

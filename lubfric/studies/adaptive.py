@@ -15,7 +15,7 @@ from ..result import FrictionResult
 AUTO = "auto"
 CHOSEN = 12  # speeds that a curve chooses, about
 FEWEST = 3  # solved speeds that an interpolation needs
-CLEARANCE = "clearance"
+DECIDED = CLEARANCE, STEEPNESS = "clearance", "steepness"  # what an interpolation needs of the decision of a point
 
 
 def begin_with(prepared: Prepared, wanted=()) -> list[float]:
@@ -49,8 +49,8 @@ def samples_of(points: list[FrictionResult]) -> Samples:
     points = sorted(points, key=lambda point: abs(point.speed))
     names = ("contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
     columns = {name: np.array([getattr(p, name) for p in points]) for name in names}
-    clearance = [np.nan if p.decision is None or p.decision.clearance is None else p.decision.clearance for p in points]
-    return samples_at(np.abs([p.speed for p in points]), columns | {CLEARANCE: np.array(clearance, dtype=float)})
+    columns |= {name: np.array([getattr(p.decision, name, None) for p in points], dtype=float) for name in DECIDED}
+    return samples_at(np.abs([p.speed for p in points]), columns)
 
 
 def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
@@ -64,4 +64,5 @@ def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
         film=columns["coefficient"] - boundary,
         thickness=columns["film_to_roughness_ratio"],
         clearance=columns[CLEARANCE],
+        steepness=columns[STEEPNESS],
     )

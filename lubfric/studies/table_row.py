@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..store.codec import from_plain
-from .adaptive import CLEARANCE
+from .adaptive import DECIDED
 from .journal import SPEED
 
 STATUS, CONVERGED = "status", "converged"
@@ -20,9 +20,8 @@ def row_of(record: dict) -> dict:
         speed = {SPEED: record[SPEED]} if SPEED in record else {}
         return {STATUS: f"{record['error']}: {record['message']}", **speed}
     numbers = _numbers(record)
-    clearance = (record.get("decision") or {}).get(CLEARANCE)
-    if _is_number(clearance):
-        numbers[CLEARANCE] = float(from_plain(clearance))
+    decided = record.get("decision") or {}
+    numbers |= {name: float(from_plain(decided[name])) for name in DECIDED if _is_number(decided.get(name))}
     return {STATUS: record["report"]["status"], **numbers}
 
 

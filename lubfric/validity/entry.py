@@ -39,14 +39,14 @@ class Validity:
     def text(self) -> str:
         """One sentence; "caution: ..." or "not valid: ..."."""
         head = "not valid" if self.severe else "caution"
-        unit = f" {self.unit}" if self.unit else ""
+        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
         numbers = (
             f"{self.value:.3g}{unit}, {side} {self.limit:.3g}{unit}"
             if math.isfinite(self.limit)
             else f"{self.value:.3g}{unit}"
         )
-        return f"{head}: {self.what} {numbers}: {self.consequence}; {self.remedy}"
+        return f"{head}: {self.what} is {numbers}: {self.consequence}; {self.remedy}"
 
 
 def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_study import SCENE, same
 
 import lubfric
 from lubfric.studies import run as run_module
@@ -22,21 +23,8 @@ from lubfric.studies.trail import Trail, points_of
 from lubfric.studies.walk import Walk
 
 ROOT = Path(__file__).parents[2]
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"sampling": "patch"})
-    .with_(contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
-)
 SPEEDS = (0.003, 0.03, 0.3)
 VARY = {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}
-
-
-def same(one, other):
-    """Equal to the last bit but for the time taken."""
-    assert one.dims == other.dims and one.columns.keys() == other.columns.keys()
-    np.testing.assert_array_equal(one.status, other.status)
-    for name in one.columns.keys() - {"seconds"}:
-        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
 @pytest.fixture(scope="module")
@@ -380,6 +368,26 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     drawn = [value for (value,) in sampled]
     many = lubfric.plan_study(SCENE, {"lubricant.viscosity": sampled}, [0.01]).explain()
     assert f"16 x lubricant.viscosity {min(drawn):.4g} to {max(drawn):.4g}" in many
+
+
+def test_progress_on_an_executor_is_that_of_the_store(tmp_path, monkeypatch):
+    """A batch comes back only when it ends; its points are counted as they reach the store. None is counted twice."""
+    told: list[tuple[int, int]] = []
+    monkeypatch.setattr("lubfric.studies.spread.LOOK", 0.01)
+    with ThreadPoolExecutor(1) as executor:
+        for _ in range(2):
+            lubfric.study(
+                SCENE,
+                {"bodies.load": [3.0, 4.0, 5.5]},
+                np.geomspace(1e-3, 0.3, 8),
+                executor=executor,
+                store=tmp_path,
+                on_progress=lambda *what: told.append(what),
+            )
+    done = [number for number, _ in told]
+    first = done.index(24) + 1
+    assert done[0] == 0 and done[:first] == sorted(set(done)) and first > 6 and done[first:] == [24]
+    assert {total for _, total in told} == {24}
 
 
 @pytest.mark.parametrize("speeds", [np.geomspace(1e-3, 0.3, 4), "auto"])

@@ -85,10 +85,10 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     ),
     "Sq in mm": ({"surface": {"sq": "0.1e-3"}}, "0.0001 mm = 1e-07 m"),
     "tolerance in percent": ({"numerics": {"tolerance": "1"}}, "1 % = 0.01"),
-    "viscosity index as a share": ({"lubricant": {"viscosity_index": "0.95"}}, "viscosity_index 0.95.*unusual"),
+    "viscosity index as a share": ({"lubricant": {"viscosity_index": "0.95"}}, "viscosity_index is 0.95.*unusual"),
     "speeds in mm/s": (
         {"motion": {"speeds": "[1, 1000]"}},
-        "motion.speeds 1e\\+03 m/s, above 100 m/s: unusual; mm/s meant",
+        "motion.speeds is 1e\\+03 m/s, above 100 m/s: unusual; mm/s meant",
     ),
     "size of the patch for its cells": ({"contact": {"shape": "[300e-6, 150e-6]"}}, "cells of contact.spacing"),
     "no boundary friction": ({"bodies": {"boundary_friction_coefficient": None}}, "some 0.1"),

@@ -13,7 +13,7 @@ from ...history.read import checked_history
 from ...lubricant import Lubricant
 from ...march.bdf import started
 from ...march.course import Plan, checked_times, plan_of, report_of, steps
-from ...renamed import keyword_before
+from ...renamed import density_before
 from ...report import CONVERGED, Report
 from ..result import smallest
 from .active_set import StepSolution
@@ -44,7 +44,7 @@ class TransientFilm:
     report: Report
 
 
-@keyword_before("density", "density_law")
+@density_before
 def solve_transient_ehl(
     *,
     load_per_width,
@@ -112,7 +112,7 @@ def _check_start(contact: ContactHistory) -> None:
         validate.positive("initial_film", contact.initial_film, "m")
     elif contact.speed.before(0.0) == 0.0:
         raise InputError(
-            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
+            "entrainment_speed = 0 m/s before t = 0 carries no steady film; give initial_film > 0 m, or a speed"
         )
 
 
