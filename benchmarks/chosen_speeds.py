@@ -26,7 +26,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import lubfric
 from benchmarks import page
 
-COLUMNS = ("scene", "speeds", "error told", "largest error", "of 25 even speeds", "time over that of 25")
+COLUMNS = ("scene", "speeds", "stated error", "largest error", "of 25 even speeds", "time over that of 25")
 
 
 def scenes(count: int, line: bool, sequence: int):

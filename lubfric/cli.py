@@ -157,7 +157,7 @@ def _run(arguments) -> int:
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
     if arguments.workers is not None and (arguments.ratios or scene.transient is not None):
-        raise InputError("--workers shares the speeds of a Stribeck curve; allowed: without --ratios and [transient]")
+        raise InputError("--workers shares the speeds of a Stribeck curve; leave it out with --ratios and [transient]")
     if arguments.ratios and scene.transient is None:
         from .curves.command import run_traction
 
@@ -166,7 +166,7 @@ def _run(arguments) -> int:
         from .unsteady.command import run_history
 
         if arguments.report or arguments.vtk:
-            raise InputError("--report and --vtk show a Stribeck curve; allowed: a scene without [transient]")
+            raise InputError("--report and --vtk show a Stribeck curve; leave them out where the scene has [transient]")
 
         return run_history(scene, arguments.out, arguments.animation)
     from .run_sweep import Extras, run_sweep
@@ -209,7 +209,7 @@ def _plot(arguments) -> int:
     source = arguments.folder / "stribeck.csv"
     for needed in (source, arguments.folder / "result.json"):
         if not needed.is_file():
-            raise InputError(f"{arguments.folder} holds no {needed.name}; allowed: a folder written by 'lubfric run'")
+            raise InputError(f"{arguments.folder} holds no {needed.name}; give a folder that 'lubfric run' wrote")
     record = arguments.folder / "result.json"
     try:
         found = json.loads(record.read_text(encoding="utf-8"))
@@ -218,7 +218,9 @@ def _plot(arguments) -> int:
         raise InputError(f"{record} is torn, or no record of a run ({problem})") from None
     measured, columns = _measured(arguments), read_table(source)
     if len(columns["speed"]) != len(told):
-        raise InputError(f"{source} has {len(columns['speed'])} speeds and {record} {len(told)}; allowed: of one run")
+        raise InputError(
+            f"{source} has {len(columns['speed'])} speeds and {record} {len(told)}; run 'lubfric run' again"
+        )
     with whole_file(arguments.folder / "stribeck.png") as part:
         plot_stribeck(part, columns, str(name), told, measured)
     return 0
@@ -232,5 +234,5 @@ def _measured(arguments):
     if arguments.measured is None:
         return None
     if arguments.speed is None or arguments.coefficient is None:
-        raise InputError("--measured needs --speed and --coefficient; allowed: the headings of its columns")
+        raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
     return read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)

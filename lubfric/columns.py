@@ -50,12 +50,12 @@ def read_columns(
             found = f"{len(places)} columns" if places else "no column"
             raise InputError(
                 f"file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
-                f"allowed: one; it has: {', '.join(headings)}"
+                f"it has: {', '.join(headings)}"
             )
         heading = headings[places[0]]
         given = name_and_unit(heading)[1]
         if given is None and unit in must_say:
-            raise InputError(f"column {heading!r} of {path} names no unit; allowed: {heading} [{unit}]")
+            raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}]")
         factor = _factor(path, name, given, unit)
         columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
     return columns
@@ -89,12 +89,12 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
     if len(lines) < 2:
-        raise InputError(f"file {path.name} has {len(lines)} rows; allowed: a heading and rows of numbers")
+        raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
     separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
     try:
         rows = [(n, next(csv.reader([line], delimiter=separator))) for n, line in lines]
     except csv.Error as problem:
-        raise InputError(f"file {path.name} is no table ({problem}); allowed: a CSV file") from None
+        raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
     if separator == ",":
         return rows
     return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
@@ -126,7 +126,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
 def _text(path: Path) -> str:
     try:
         if not path.is_file():
-            raise InputError(f"file {str(path)!r} does not exist; allowed: a CSV file")
+            raise InputError(f"file {str(path)!r} does not exist; give a CSV file")
         if path.stat().st_size > MOST_BYTES:
             raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
         content = path.read_bytes()
@@ -140,4 +140,4 @@ def _text(path: Path) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(f"file {path.name} is not text; allowed: CSV in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(f"file {path.name} is not text; give CSV in UTF-8, UTF-16 or Windows-1252")

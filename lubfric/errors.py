@@ -2,16 +2,45 @@
 
 from __future__ import annotations
 
+TO_DO = ("give ", "leave ", "write ")  # begin a way out, as against a range or the values that are allowed
+
 
 class LubfricError(Exception):
-    """Base class: catch this to catch everything lubfric raises on purpose."""
+    """Base class: catch this to catch everything lubfric raises on purpose.
+
+    ``hints`` say what else may be behind it. They are added on its way up, and end its message.
+    """
+
+    hints: tuple[str, ...] = ()
+
+    def hint(self, text: str) -> None:
+        """Add what may be behind it, once; nothing where the text is empty."""
+        if text and text not in self.hints:
+            self.hints += (text,)
+
+    def __str__(self) -> str:
+        return "; ".join((self.worded(), *self.hints))
+
+    def worded(self) -> str:
+        """The message without the hints."""
+        return str(self.args[0]) if self.args else ""
 
 
 class InputError(LubfricError, ValueError):
     """An input is outside its allowed range, raised before any work starts.
 
-    The message names the quantity, the value, the allowed range and the unit.
+    The message names the quantity, the value, the allowed range and the unit. ``quantity``, which begins it (``also``:
+    others it is about), and ``allowed``, the range or what to do ("give ...", "leave it out"), can be read off the
+    error.
     """
+
+    def __init__(self, said: str, quantity: str = "", allowed: str = "", also: tuple[str, ...] = ()):
+        super().__init__(said, quantity, allowed, also)
+        self.said, self.quantity, self.allowed, self.also = said, quantity, allowed, also
+
+    def worded(self) -> str:
+        lead = "; " if self.allowed.startswith(TO_DO) else "; allowed: "
+        return f"{self.quantity}{self.said}{self.allowed and lead + self.allowed}"
 
 
 class OutputError(LubfricError, OSError):
@@ -34,9 +63,6 @@ class ConvergenceError(LubfricError, RuntimeError):
         self.report = report
         self.result = result
 
-    def __str__(self) -> str:
-        return self.message
-
 
 class ValidityError(LubfricError, ValueError):
     """A converged solution lies outside the range of the model, so that its coefficient is no answer.
@@ -50,6 +76,3 @@ class ValidityError(LubfricError, ValueError):
         self.message = message
         self.entries = entries
         self.result = result
-
-    def __str__(self) -> str:
-        return self.message

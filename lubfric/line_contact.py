@@ -38,7 +38,7 @@ class LineContact:
     def __post_init__(self):
         speed = validate.number("entrainment_speed", self.entrainment_speed, "m/s")
         if speed == 0.0:
-            raise InputError("entrainment_speed = 0 m/s carries no steady film; allowed: any other finite speed")
+            raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
         if not isinstance(self.lubricant, Lubricant):
             raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.lubricant.Lubricant")
         checked = {

@@ -77,13 +77,15 @@ class Lubricant(Brief):
         if self.viscosity_law == "roelands":
             if alpha == 0.0:
                 raise InputError(
-                    "pressure_viscosity_coefficient = 0 1/Pa has no Roelands exponent; allowed: "
-                    "> 0 1/Pa, or viscosity_law = 'constant'"
+                    " = 0 1/Pa has no Roelands exponent",
+                    "pressure_viscosity_coefficient",
+                    "> 0 1/Pa, or viscosity_law = 'constant'",
                 )
             if math.log(eta0) + ROELANDS_LOG_VISCOSITY <= 0.0:
                 raise InputError(
-                    f"viscosity = {eta0:g} Pa s is out of range for the Roelands law; allowed: "
-                    f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s"
+                    f" = {eta0:g} Pa s is out of range for the Roelands law",
+                    "viscosity",
+                    f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s",
                 )
         if self.eyring_stress is not None:
             positive("eyring_stress", self.eyring_stress, "Pa")

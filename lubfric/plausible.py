@@ -126,28 +126,21 @@ def _index(scene) -> float | None:
 
 @contextmanager
 def told_slips(section: str, values: dict):
-    """Add the likely slip, where one fits, to the message of an `InputError` about one of ``values``."""
+    """Add the likely slip, where one fits, to an `InputError` about one of ``values``."""
     try:
         yield
     except InputError as error:
-        text = str(error)
-        for key, value in values.items():
-            meant = slip(f"{section}.{key}", value)
-            if meant and meant not in text and any(f"{key}{sign}" in text for sign in (" = ", "[", " has ", " x ")):
-                raise InputError(f"{text}; {meant}") from None
+        for name in (error.quantity, *error.also):
+            key = name.rpartition(".")[2].partition("[")[0]
+            error.hint(slip(f"{section}.{key}", values.get(key)) or "")
         raise
 
 
 @contextmanager
 def told_doubts(scene):
-    """Add the unusual values of a scene to the message of an `InputError` or `ConvergenceError`: they are its likely
-    cause."""
+    """Add the unusual values of a scene to an `InputError` or `ConvergenceError`: they are its likely cause."""
     try:
         yield
     except (InputError, ConvergenceError) as error:
-        told = "; ".join(doubt.text for doubt in doubts(scene))
-        if not told or told in str(error):
-            raise
-        if isinstance(error, InputError):
-            raise InputError(f"{error}; {told}") from None
-        raise ConvergenceError(f"{error}; {told}", error.report, error.result) from error
+        error.hint("; ".join(doubt.text for doubt in doubts(scene)))
+        raise

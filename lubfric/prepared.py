@@ -146,7 +146,7 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
 
 def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
     if surface is not None or contact is not None:
-        raise InputError("like brings its own surface and contact; allowed: like, or surface and contact")
+        raise InputError("like brings its own surface and contact; give like, or surface and contact, not both")
     for name, a, b in (
         ("surface", scene.surface, old.surface),
         ("counterface", scene.counterface, old.counterface),
@@ -168,7 +168,7 @@ def _levels(given) -> tuple[FilmLevel, ...]:
 def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
     names = [level.name for level in levels]
     if not names:
-        raise InputError("film_levels is empty; allowed: at least one level (`lubfric.film.contract.FilmLevel`)")
+        raise InputError("film_levels is empty; give at least one level (`lubfric.film.contract.FilmLevel`)")
     if scene.numerics.film_level not in ("auto", "none", *names):
         raise InputError(
             f"numerics.film_level = {scene.numerics.film_level!r} is none of the levels there are; allowed: "

@@ -20,7 +20,7 @@ def keyword_before(before: str, today: str) -> Callable[[Callable[P, R]], Callab
         def call(*args: P.args, **given: P.kwargs) -> R:
             if before in given:
                 if today in given:
-                    raise InputError(f"{before} and {today} say the same thing; allowed: {today}")
+                    raise InputError(f"{before} and {today} say the same thing; give {today} alone")
                 given[today] = given.pop(before)
             return function(*args, **given)
 

@@ -157,7 +157,7 @@ class FrictionResult(Shown):
     def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
         if found is None:
             raise InputError(
-                f"this point keeps no {name}; allowed: lubfric.friction(..., fields=True) under a cylinder"
+                f"this point keeps no {name}; solve it by lubfric.friction(..., fields=True), under a cylinder"
             )
         return found
 
@@ -169,7 +169,7 @@ class FrictionResult(Shown):
                 else "its fields were not kept, or come from a contact curve"
             )
             raise InputError(
-                f"this point has no {name} of its contact: {why}; allowed: a point in contact, with fields=True"
+                f"this point has no {name} of its contact: {why}; a point in contact, solved with fields=True, has one"
             )
         return self.balance.contact.fields
 

@@ -94,11 +94,11 @@ class Roughness(Brief):
 
     def __post_init__(self):
         if self.file is None and (self.sq is None or self.correlation_length is None):
-            raise InputError(f"surface needs {NEEDED}")
+            raise InputError(f" needs {NEEDED}", "surface")
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and not isinstance(self.file, str):
-            raise InputError(f"surface.file = {validate.shown(self.file)}; allowed: a path in quotes")
+            raise InputError(f" = {validate.shown(self.file)}", "surface.file", "write a path in quotes")
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:
@@ -111,9 +111,8 @@ class Roughness(Brief):
 def not_for_this(name: str, value: Any, generated: bool) -> InputError:
     """The error for a key that has no meaning for the kind of map there is."""
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
-    return InputError(
-        f"surface.{name} = {validate.shown(value)} applies to {this}, and this one is {other}; allowed: leave it out"
-    )
+    told = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
+    return InputError(told, f"surface.{name}", "leave it out")
 
 
 def check_keys(given: dict[str, Any]) -> None:
@@ -126,15 +125,14 @@ def check_keys(given: dict[str, Any]) -> None:
 
 @contextmanager
 def named(section: str) -> Iterator[None]:
-    """Make an `InputError` about a field name the ``section`` that the field stands in."""
+    """Make an `InputError` about a `Roughness` name the ``section`` that it stands in."""
     try:
         yield
     except InputError as error:
-        if section != "counterface":
-            raise
-        raise InputError(
-            str(error).replace("surface.", "counterface.").replace("surface needs", "counterface needs")
-        ) from None
+        first, dot, key = error.quantity.partition(".")
+        if first == "surface":
+            error.quantity = f"{section}{dot}{key}"
+        raise
 
 
 def counterface(values: dict[str, Any]) -> Roughness:

@@ -88,7 +88,7 @@ def run_folder(path, fingerprint: str):
     """
     path = Path(path)
     if path.exists() and not path.is_dir():
-        raise InputError(f"--out {path} is a file; allowed: a folder, existing or not")
+        raise InputError(f"--out {path} is a file; give a folder, existing or not")
     with FolderLock(path):
         clear_parts(path)
         yield RunFolder(path, fingerprint)

@@ -210,9 +210,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
-        raise InputError(
-            f"{option} {validate.shown(text)}: a comma separates speeds; allowed: a point in decimals, 0.01"
-        )
+        raise InputError(f"{option} {validate.shown(text)}: a comma separates speeds; write a point in decimals, 0.01")
     try:
         numbers = [float(word) for word in words]
     except ValueError:

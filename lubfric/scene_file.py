@@ -108,7 +108,9 @@ def _map_path(name: str, given, folder: Path) -> Path:
     near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
-    raise InputError(f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; allowed: a path from there")
+    raise InputError(
+        f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; give its path from there, or all of it"
+    )
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -133,7 +135,7 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
         if section in table:
             parts[section] = _rough(section, dict(table[section]), folder)
     if not isinstance(table.get("name", name), str):
-        raise InputError(f"name = {validate.shown(table['name'])}; allowed: words in quotes")
+        raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
 
 
@@ -158,7 +160,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
         value = table.get(section, {}).get(key)
         if isinstance(value, dict) or (value is not None and name == "sliding"):
             if name in found:
-                raise InputError(f"[transient] {name} and [{section}] {key} are both histories; allowed: one of them")
+                raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
             found[name] = history(f"{section}.{key}", value, folder)
             table[section].pop(key)
     if not found and "transient" not in table:

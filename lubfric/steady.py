@@ -71,7 +71,7 @@ def friction(
     result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
-            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; allowed: speeds, viscosities and "
+            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
             "stresses of a lubricated contact"
         )
     if raise_on_failure:

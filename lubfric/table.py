@@ -27,7 +27,7 @@ class Columns(dict):
     """Columns of a table by name; one that is not there is an `InputError`."""
 
     def __missing__(self, name: str):
-        raise InputError(f"the table has no column {name!r}; allowed: a table written by 'lubfric run', which has one")
+        raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
 def read_table(path: Path) -> Columns:
@@ -39,5 +39,5 @@ def read_table(path: Path) -> Columns:
         return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:
         raise InputError(
-            f"{path} is no table of numbers, or torn ({shown(str(problem))}); allowed: a table written by 'lubfric run'"
+            f"{path} is no table of numbers, or torn ({shown(str(problem))}); give a table that 'lubfric run' wrote"
         ) from None

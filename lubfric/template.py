@@ -52,7 +52,7 @@ tolerance = 0.01                        # on the friction coefficient, relative;
 def write_template(path: Path) -> None:
     """Write the commented scene to ``path``; raises `InputError` where something is there already."""
     if path.exists():
-        raise InputError(f"{path} exists; allowed: a file that does not, so that no scene is lost")
+        raise InputError(f"{path} exists; give another name, so that no scene is lost")
     if not path.parent.is_dir():
-        raise InputError(f"{path.parent} is no folder; allowed: a file in an existing one")
+        raise InputError(f"{path.parent} is no folder; give a file in an existing one")
     write_whole(path, TEMPLATE.encode())

@@ -79,17 +79,17 @@ def _within(name, value, unit, above, minimum, maximum, least) -> float:
     largest = SANE.get(unit, (LEAST, LARGEST))[1]
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
-    allowed = f"allowed: a finite number in {low}, {maximum:g}] {unit}"
+    allowed = f"a finite number in {low}, {maximum:g}] {unit}"
     try:
         x = _real(value)
     except OverflowError:
-        raise InputError(f"{name} = {shown(value)} {unit} is out of range; {allowed}") from None
+        raise InputError(f" = {shown(value)} {unit} is out of range", name, allowed) from None
     except (TypeError, ValueError, RecursionError):
-        raise InputError(f"{name} = {shown(value)} is not a number; {allowed}") from None
+        raise InputError(f" = {shown(value)} is not a number", name, allowed) from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
-        raise InputError(f"{name} = {x:g} {unit} is out of range; {allowed}")
+        raise InputError(f" = {x:g} {unit} is out of range", name, allowed)
     if 0 < abs(x) < least:
-        raise InputError(f"{name} = {x:g} {unit} is too small; {allowed}, of at least {least:g} where it is not 0")
+        raise InputError(f" = {x:g} {unit} is too small", name, f"{allowed}, of at least {least:g} where it is not 0")
     return x
 
 
@@ -103,21 +103,21 @@ def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) 
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not whole or value < minimum or maximum is not None and value > maximum:
         most = "" if maximum is None else f" and <= {maximum}"
-        raise InputError(f"{name} = {shown(value)} must be a whole number >= {minimum}{most}")
+        raise InputError(f" = {shown(value)} must be a whole number >= {minimum}{most}", name)
     return int(value)
 
 
 def boolean(name: str, value: Any) -> bool:
     """True or False; a word such as "no" is neither."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} = {shown(value)} is neither true nor false; allowed: true, false")
+        raise InputError(f" = {shown(value)} is neither true nor false", name, "true, false")
     return bool(value)
 
 
 def instance(name: str, value: Any, kind: type, allowed: str) -> None:
     """Check that ``value`` is of ``kind``. ``allowed`` says in words where such a value comes from."""
     if not isinstance(value, kind):
-        raise InputError(f"{name} = {shown(value)} is a {type(value).__name__}; allowed: {allowed}")
+        raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
 
 
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
@@ -128,23 +128,21 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """
     a = real_array(name, value, unit)
     if np.ma.is_masked(value):
-        raise InputError(
-            f"{name} has {np.ma.count_masked(value)} of {a.size} values masked; allowed: none (finite values in {unit})"
-        )
+        told = f" has {np.ma.count_masked(value)} of {a.size} values masked"
+        raise InputError(told, name, f"none (finite values in {unit})")
     if a.ndim != ndim:
-        raise InputError(f"{name} has {a.ndim} axes (shape {a.shape}); allowed: exactly {ndim} [{unit}]")
+        raise InputError(f" has {a.ndim} axes (shape {a.shape})", name, f"exactly {ndim} [{unit}]")
     if a.size == 0:
-        raise InputError(f"{name} is empty (shape {a.shape}); allowed: at least one value [{unit}]")
+        raise InputError(f" is empty (shape {a.shape})", name, f"at least one value [{unit}]")
     with np.errstate(invalid="ignore"):
         furthest = max(float(a.max()), -float(a.min()))  # NaN where any value is
     if not math.isfinite(furthest):
         bad = a.size - np.count_nonzero(np.isfinite(a))
-        raise InputError(
-            f"{name} has {bad} of {a.size} values that are NaN or infinite; allowed: finite values in {unit}"
-        )
+        told = f" has {bad} of {a.size} values that are NaN or infinite"
+        raise InputError(told, name, f"finite values in {unit}")
     most = SANE.get(unit, (LEAST, LARGEST))[1]
     if furthest > most:
-        raise InputError(f"{name} reaches {furthest:g} {unit}; allowed: up to {most:g} {unit}")
+        raise InputError(f" reaches {furthest:g} {unit}", name, f"up to {most:g} {unit}")
     return a
 
 
@@ -156,12 +154,11 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
         if found.dtype.kind == "O":
             found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
     except (TypeError, ValueError, OverflowError, RecursionError):
-        hint = f"; allowed: its .heights [{unit}]" if hasattr(value, "heights") else ""
-        raise InputError(
-            f"{name} is {'a height map, ' if hint else ''}not an array of numbers in {unit}{hint}"
-        ) from None
+        instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
+        told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
+        raise InputError(told, name, instead) from None
     if odd or found.dtype.kind not in NUMBERS:
-        raise InputError(f"{name} holds {odd or f'values of type {found.dtype}'}; allowed: real numbers in {unit}")
+        raise InputError(f" holds {odd or f'values of type {found.dtype}'}", name, f"real numbers in {unit}")
     with np.errstate(over="ignore"):
         return found.astype(float, copy=False)
 
@@ -180,9 +177,7 @@ def choice(name: str, value: Any, options: Iterable) -> Any:
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return value
-    raise InputError(
-        f"{name} = {shown(value)} is not known{nearest(value, options)}; allowed: {', '.join(map(repr, options))}"
-    )
+    raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
 
 
 def nearest(word: Any, options: Iterable) -> str:
@@ -206,7 +201,7 @@ def spacing(name: str, value: Any) -> tuple[float, float]:
     """(dx, dy) in metres; one number means equal spacing."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
-        raise InputError(f"{name} = {shown(value)} must be one length or a pair (dx, dy) in m")
+        raise InputError(f" = {shown(value)} must be one length or a pair (dx, dy) in m", name)
     pair = tuple(value) if several else (value, value)
     dx, dy = (positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
     return dx, dy

@@ -1,5 +1,7 @@
 """The documents keep their word: every scene key is described, the CI runs the README's command, examples run."""
 
+import json
+import math
 from dataclasses import fields
 from pathlib import Path
 
@@ -68,3 +70,27 @@ def test_example_scenes_are_valid_but_for_their_file(tmp_path):
     for scene in sorted((ROOT / "docs" / "examples").glob("*.toml")):
         measured = "\nfile = " in scene.read_text()
         assert lubfric.load_scene(scene, surface_file=tmp_path / "map.npy" if measured else None).bodies.load > 0
+
+
+@pytest.mark.parametrize("section", [name for name in SECTIONS if name != "counterface"])
+def test_the_defaults_of_the_page_are_those_of_the_code(section):
+    """Every default that the page states as a number or a word in quotes; the others are said in words."""
+    text = (ROOT / "docs" / "scene.md").read_text()
+    known, seen = {f.name: f.default for f in fields(SECTIONS[section])}, 0
+    columns: list[str] = []
+    for line in text.split(f"## [{section}]")[1].split("\n## ")[0].splitlines():
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if "default" in cells:
+            columns = cells
+        elif "default" in columns and len(cells) == len(columns) and cells[0].strip("`") in known:
+            stated = cells[columns.index("default")].strip("`")
+            try:
+                value = json.loads(stated.replace("1/e", str(math.exp(-1))))
+            except ValueError:
+                continue
+            if known[cells[0].strip("`")] is None:  # found later, as the unit of a file
+                continue
+            assert value == pytest.approx(known[cells[0].strip("`")]), (section, cells[0])
+            seen += 1
+    least = {"bodies": 0, "surface": 6, "numerics": 13}
+    assert seen >= least.get(section, 1)

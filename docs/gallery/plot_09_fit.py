@@ -20,13 +20,11 @@ truth = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.
 noisy = truth.coefficient * (1 + 0.05 * rng.standard_normal(speeds.size))
 
 # %%
-# The search is bounded. The result says how sure each parameter is.
+# The search is bounded. About how long it takes is said before. The result says how sure each parameter is.
 
-found = lubfric.fit(
-    scene,
-    lubfric.Measured(speeds, noisy),
-    parameters={"bodies.boundary_friction_coefficient": (0.05, 0.2)},
-)
+measured, bounds = lubfric.Measured(speeds, noisy), {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
+print(lubfric.explain_fit(scene, measured, bounds))
+found = lubfric.fit(scene, measured, bounds)
 print(found.explain())
 
 axes = found.plot()

@@ -7,12 +7,13 @@ from dataclasses import replace
 
 from ..deterministic.point import deterministic_point
 from ..deterministic.refine import Refined
+from ..point.decision import Decision
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..validity.entry import Validity
 from ..validity.solution import of_motion, of_pressure, of_thickness
-from .resolved import Resolved, resolved_result
+from .resolved import resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
 DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
@@ -26,38 +27,44 @@ def deterministic_answer(
     scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
     known = {} if found.error is None else {"coefficient": found.error}
+    decision = Decision(
+        "deterministic", "asperity spots", scene.numerics.tolerance, film_words=_words(found), notes=_notes(found)
+    )
+    entries = tuple(_entries(prepared, speed, found))
+    per_width, numbers = _per_width(prepared, found), _numbers(prepared, found)
     return replace(
-        resolved_result(prepared, speed, _numbers(prepared, speed, found), begun),
+        resolved_result(prepared, speed, begun, decision, found.result.report, entries, per_width, numbers),
         deterministic=found,
         uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
         errors=field_errors_of(known, NO_PLACES),
     )
 
 
-def _numbers(prepared: Prepared, speed: float, found: Refined) -> Resolved:
+def _per_width(prepared: Prepared, found: Refined) -> dict[str, float]:
     bodies, result = prepared.scene.bodies, found.result
+    return {
+        "contact_load": result.split.spots,
+        "film_load": bodies.load / bodies.width - result.split.spots,
+        "boundary_force": result.boundary,
+        "couette_force": result.couette,
+        "rolling_force": result.rolling,
+    }
+
+
+def _numbers(prepared: Prepared, found: Refined) -> dict[str, float]:
+    result, width = found.result, prepared.scene.bodies.width
     dx, dy = result.spacing
-    return Resolved(
-        film="deterministic",
-        contact="asperity spots",
-        film_words=_words(found),
-        notes=_notes(found),
-        coefficient=result.coefficient,
-        contact_load=result.split.spots,
-        film_load=bodies.load / bodies.width - result.split.spots,
-        boundary=result.boundary,
-        couette=result.couette,
-        rolling=result.rolling,
-        contact_fraction=result.spot_fraction,
-        contact_area=float(result.spots.sum()) * dx * dy,
-        plastic_fraction=result.plastic_fraction,
-        min_gap=result.min_gap,
-        central_gap=result.central_gap,
-        mean_gap=result.mean_gap,
-        load_residual=result.report.residuals["load"],
-        report=result.report,
-        entries=tuple(_entries(prepared, speed, found)),
-    )
+    area = float(result.spots.sum()) * dx * dy
+    return {
+        "coefficient": result.coefficient,
+        "real_contact_area_fraction": result.spot_fraction,
+        "real_contact_area": area * width / prepared.surface.size[1],
+        "plastic_area_fraction": result.plastic_fraction,
+        "min_film": result.min_gap,
+        "central_film": result.central_gap,
+        "mean_gap": result.mean_gap,
+        "load_residual": result.report.residuals["load"],
+    }
 
 
 def _words(found: Refined) -> str:

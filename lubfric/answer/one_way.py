@@ -11,12 +11,13 @@ from ..deterministic.refine import estimate
 from ..film.shear import ShearForce
 from ..one_way.point import OneWay
 from ..one_way.refine import one_way_point
+from ..point.decision import Decision
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..validity.model_form import one_way_error
 from ..validity.solution import of_motion, of_shear
-from .resolved import Resolved, resolved_result
+from .resolved import resolved_result
 
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
 
@@ -31,40 +32,52 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
         not_sampled(error, scene, prepared.surface.size[1], NOT_KNOWN),
         model_form=one_way_error(one.contact_load / (one.contact_load + one.film_load)),
     )
-    result = resolved_result(prepared, speed, _numbers(prepared, speed, one, error), begun)
+    decision = Decision(
+        "one-way", "semi-periodic", scene.numerics.tolerance, film_words=_words(one, error), notes=one.report.notes
+    )
+    per_width, numbers = _per_width(one), _numbers(prepared, one)
+    entries = (
+        *prepared.known,
+        *of_motion(scene, speed, numbers["central_film"]),
+        *of_shear(
+            scene,
+            ShearForce(one.couette, one.rolling),
+            one.film_load,
+            abs(one.coefficient) * (one.contact_load + one.film_load),
+        ),
+    )
+    result = resolved_result(prepared, speed, begun, decision, one.report, entries, per_width, numbers)
     return replace(result, one_way=found, uncertainty=uncertainty, errors=field_errors_of({}, NOT_KNOWN))
 
 
-def _numbers(prepared: Prepared, speed: float, one: OneWay, error: float | None) -> Resolved:
-    """The numbers of ``one``. ``error``: the estimated relative error of f by the grid."""
-    bodies = prepared.scene.bodies
-    strip, central = np.abs(one.x) <= bodies.half_width, float(np.interp(0.0, one.x, one.gap.mean(axis=1)))
-    hardness = math.inf if bodies.hardness is None else bodies.hardness
-    force = abs(one.coefficient) * (one.contact_load + one.film_load)
+def _words(one: OneWay, error: float | None) -> str:
+    """The film in one phrase; ``error``: the estimated relative error of f by the grid."""
     estimated = "" if error is None else f", estimated error {100 * error:.2g} % of f"
-    return Resolved(
-        film="one-way",
-        contact="semi-periodic",
-        film_words=f"in the contact's own gap, of constant density, on {one.gap.shape[0]} x {one.gap.shape[1]} cells"
-        + estimated,
-        notes=one.report.notes,
-        coefficient=one.coefficient,
-        contact_load=one.contact_load,
-        film_load=one.film_load,
-        boundary=one.boundary,
-        couette=one.couette,
-        rolling=one.rolling,
-        contact_fraction=float(one.closed[strip].mean()),
-        contact_area=float(one.closed.mean(axis=1).sum()) * (one.x[1] - one.x[0]) * prepared.surface.size[1],
-        plastic_fraction=float((one.contact_pressure[strip] >= hardness).mean()),
-        min_gap=float(one.gap[~one.closed].min()),
-        central_gap=central,
-        mean_gap=float(one.gap[strip].mean()),
-        load_residual=(one.contact_load + one.film_load) * bodies.width / bodies.load - 1,
-        report=one.report,
-        entries=(
-            *prepared.known,
-            *of_motion(prepared.scene, speed, central),
-            *of_shear(prepared.scene, ShearForce(one.couette, one.rolling), one.film_load, force),
-        ),
-    )
+    return f"in the contact's own gap, of constant density, on {one.gap.shape[0]} x {one.gap.shape[1]} cells{estimated}"
+
+
+def _per_width(one: OneWay) -> dict[str, float]:
+    return {
+        "contact_load": one.contact_load,
+        "film_load": one.film_load,
+        "boundary_force": one.boundary,
+        "couette_force": one.couette,
+        "rolling_force": one.rolling,
+    }
+
+
+def _numbers(prepared: Prepared, one: OneWay) -> dict[str, float]:
+    bodies, length = prepared.scene.bodies, prepared.surface.size[1]
+    strip = np.abs(one.x) <= bodies.half_width
+    hardness = math.inf if bodies.hardness is None else bodies.hardness
+    area = float(one.closed.mean(axis=1).sum()) * (one.x[1] - one.x[0]) * length
+    return {
+        "coefficient": one.coefficient,
+        "real_contact_area_fraction": float(one.closed[strip].mean()),
+        "real_contact_area": area * bodies.width / length,
+        "plastic_area_fraction": float((one.contact_pressure[strip] >= hardness).mean()),
+        "min_film": float(one.gap[~one.closed].min()),
+        "central_film": float(np.interp(0.0, one.x, one.gap.mean(axis=1))),
+        "mean_gap": float(one.gap[strip].mean()),
+        "load_residual": (one.contact_load + one.film_load) * bodies.width / bodies.load - 1,
+    }

@@ -58,7 +58,7 @@ def separation_for_load(
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
     top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
     if span == 0:
-        raise InputError("heights are all equal: no asperities; allowed: a rough surface in m")
+        raise InputError("heights are all equal: no asperities; give a rough surface in m")
 
     def excess(approach, _=None):
         result = asperities.at(float(top - approach))

@@ -62,7 +62,7 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
     """Validated problem; builds the operator when none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
         raise InputError(
-            "gap0 is a height map, not an array; allowed: gap0 = -surface.heights in m (heights point out of "
+            "gap0 is a height map, not an array; give gap0 = -surface.heights in m (heights point out of "
             "the body: the gap is smallest at summits), plus the shape of bodies that are not flat"
         )
     gap0 = validate.array("gap0", gap0, "m", ndim=2)
@@ -89,14 +89,14 @@ def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
     built = (operator.shape, operator.spacing, operator.e_prime, operator.boundary)
     for name, a, b in zip(("shape", "spacing", "e_prime", "boundary"), asked, built):
         if a != b:
-            raise InputError(f"operator was built for {name} = {b}, the contact has {a}; allowed: the same")
+            raise InputError(f"operator was built for {name} = {b}, the contact has {a}; they must be the same")
 
 
 def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
     """Check that exactly one of load and mean gap is given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
-        raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; allowed: exactly one of them")
+        raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; give exactly one of them")
     if mean_gap is not None:
         validate.positive("mean_gap", mean_gap, "m")
         return

@@ -25,12 +25,10 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
     if sq <= 0:
-        raise InputError(
-            "speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; allowed: motion.speed_range in m/s"
-        )
+        raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
     if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
         raise InputError(
-            "speeds = 'auto' finds no range from boundary lubrication to a full film; allowed: motion.speed_range"
+            "speeds = 'auto' finds no range from boundary lubrication to a full film; give motion.speed_range"
         )
     return _speed_of(scene, sq, THIN, SLOWEST, FASTEST), _speed_of(scene, sq, THICK, SLOWEST, FASTEST)
 

@@ -48,7 +48,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
         try:
             low, high = map(float, ends.split(":"))
         except ValueError:
-            raise InputError(f"--parameter {shown(text)}; allowed: 'section.key=lowest:highest', in SI units") from None
+            raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
         found[key.strip()] = (low, high)
     return found
 

@@ -52,13 +52,11 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     from scipy.optimize import least_squares
 
     if scene_of(scene) is not scene:
-        raise InputError(
-            "a fit changes a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
-        )
+        raise InputError("a fit changes a scene; give what lubfric.load_scene returned, not what lubfric.prepare did")
     instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     found = parameters_of(scene, parameters)
     if measured.x.size <= len(found.keys):
-        raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; allowed: more points")
+        raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; give more points")
     begin = _begin(scene, found, {} if start is None else start)
     told = None if on_progress is None else _told(on_progress, measured.x.size)
     predict = predictor(scene, measured, found, checked_executor(executor), told)

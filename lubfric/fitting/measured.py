@@ -40,17 +40,17 @@ class Measured:
             values["deviation"] = validate.array("deviation", self.deviation, "-", ndim=1)
         for name, value in values.items():
             if value.size != x.size:
-                raise InputError(f"{name} has {value.size} values for {x.size} of x; allowed: as many")
+                raise InputError(f"{name} has {value.size} values for {x.size} of x; give as many")
             object.__setattr__(self, name, value)
         if self.deviation is not None and np.any(self.deviation <= 0):
-            raise InputError("deviation holds values that are not positive; allowed: > 0, or leave it out")
+            raise InputError("deviation holds values that are not positive; give positive ones, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):
             raise InputError(
                 "coefficient holds values that are not positive, whose relative deviation means nothing; allowed: > 0, "
                 "or give a deviation"
             )
         if np.unique(x).size < x.size:
-            raise InputError("x holds a value twice; allowed: each once (average repeated measurements)")
+            raise InputError("x holds a value twice; average repeated measurements")
 
 
 def read_measured(
@@ -85,7 +85,7 @@ def read_measured(
     A unit in the heading, in square or round brackets, is converted (`lubfric.columns`).
     """
     if (speed is None) == (slide_roll_ratio is None):
-        raise InputError("a measured curve has one axis; allowed: the heading of speed, or that of slide_roll_ratio")
+        raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")
     over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
     units = ("m/s" if over == SPEED else "-", "-", "-")
     names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)

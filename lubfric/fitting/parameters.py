@@ -55,7 +55,7 @@ class Parameters:
 def parameters_of(scene: Scene, bounds) -> Parameters:
     """The `Parameters` of {"section.key": (low, high)}, the scene checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:
-        raise InputError('parameters must be a dict; allowed: {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
+        raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     low, high = [], []
     for key, pair in bounds.items():
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
@@ -66,7 +66,7 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
         if section not in ("bodies", "lubricant", "motion", "surface") or not name:
             raise InputError(f"parameters: {key!r}; allowed: a number of [bodies], [lubricant], [motion] or [surface]")
         if key in ("motion.entrainment_speed", "motion.speeds"):
-            raise InputError(f"parameters: {key!r} is measured, not fitted; allowed: another number of the scene")
+            raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
         for end in (low[-1], high[-1]):
             scene.with_keys({key: end})
     return Parameters(tuple(bounds), np.array(low), np.array(high))

@@ -30,7 +30,7 @@ STEPS = 64  # halvings of the logarithm of the stress: to 1e-12 and less
 def _thermal(lubricant: Lubricant) -> tuple[float, float]:
     """Temperature [K] and temperature coefficient [1/K] of a lubricant that has them (`Lubricant.heats`)."""
     if lubricant.temperature is None or lubricant.temperature_coefficient is None:
-        raise InputError("lubricant has no temperature [K] or temperature_coefficient [1/K]; allowed: both, or an oil")
+        raise InputError("lubricant has no temperature [K] or temperature_coefficient [1/K]; give both, or an oil")
     return lubricant.temperature, lubricant.temperature_coefficient
 
 

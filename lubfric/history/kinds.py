@@ -111,7 +111,7 @@ class Table(History):
             )
         object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
         if self.repeat and times[0] != 0.0:
-            raise InputError(f"history times start at {times[0]:g} s; allowed for repeat: 0 s")
+            raise InputError(f"history times start at {times[0]:g} s; a table that repeats starts at 0 s")
         if np.any(times[2:] == times[:-2]):
             raise InputError("history times hold the same time three times; allowed: at most twice (a jump)")
         object.__setattr__(self, "times", tuple(float(t) for t in times))

@@ -43,7 +43,8 @@ def history(name: str, given, folder: Path = Path()) -> History:
             return read_history(folder / _word("file", table.pop("file")), **table, unit=UNITS.get(name.split(".")[-1]))
         return KINDS[kind](**table)
     except InputError as error:
-        raise InputError(f"{name}: {error}") from None
+        error.quantity = f"{name}: {error.quantity}"
+        raise
 
 
 def read_history(
@@ -61,7 +62,7 @@ def read_history(
 
 def _word(name: str, value) -> str:
     if not isinstance(value, str) or not value or "\0" in value:
-        raise InputError(f"{name} = {validate.shown(value)}; allowed: a word")
+        raise InputError(f"{name} = {validate.shown(value)}; give a word in quotes")
     return value
 
 
@@ -71,7 +72,7 @@ def checked_history(name: str, value, unit: str, duration: float, *, positive: b
     if isinstance(given, Table) and not given.repeat and given.times[-1] < duration * (1 - 1e-9):
         raise InputError(
             f"{name}: the table ends at {given.times[-1]:g} s, the run lasts {duration:g} s; "
-            "allowed: a table as long as the run, or repeat = true"
+            "give a table as long as the run, or repeat = true"
         )
     if isinstance(given, Table) and given.repeat and duration > MOST_LAPS * given.times[-1]:
         raise InputError(
@@ -80,7 +81,7 @@ def checked_history(name: str, value, unit: str, duration: float, *, positive: b
         )
     low, high = given.range(duration)
     if positive and low <= 0.0:
-        raise InputError(f"{name} falls to {low:g} {unit} during the run; allowed: > 0 {unit} at all times")
+        raise InputError(f"{name} falls to {low:g} {unit} during the run; it must stay above 0 {unit}")
     least, most = LIMITS.get(unit, (1e-30, 1e30))
     for value in (low, high):
         if abs(value) > most or (positive or value != 0) and abs(value) < max(least, validate.LEAST):

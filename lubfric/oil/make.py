@@ -59,8 +59,9 @@ def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
     """An `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448) and a
     viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
+    nu100 = viscosity_at_100(nu40, viscosity_index)
     properties.setdefault("name", f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}")
-    return from_viscosities(nu40, viscosity_at_100(nu40, viscosity_index), **properties, by_index=True)
+    return from_viscosities(nu40, nu100, **properties, by_index=True)
 
 
 def from_table(temperatures, viscosities, **properties) -> Oil:
@@ -102,7 +103,8 @@ def _viscosity(name: str, value: float) -> float:
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         raise InputError(
-            f"{name} = {nu:g} m²/s is out of range; allowed: up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = "
-            f"{nu * 1e-6:g})"
+            f" = {nu:g} m²/s is out of range",
+            name,
+            f"up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g})",
         )
     return nu

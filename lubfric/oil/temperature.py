@@ -19,11 +19,12 @@ RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
 def checked_temperature(temperature: float, name: str = "temperature") -> float:
     """``temperature`` [K], checked to be one that an oil can have. The error says so where °C were likely meant."""
     likely = isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]
-    hint = f"; °C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K" if likely else ""
+    hint = f"°C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K" if likely else ""
     try:
         return validate.number(name, temperature, "K", minimum=RANGE[0], maximum=RANGE[1])
     except InputError as error:
-        raise InputError(f"{error}{hint}") from None
+        error.hint(hint)
+        raise
 
 
 def at_each(function: Callable[[float], float], temperature) -> float | np.ndarray:
@@ -57,7 +58,7 @@ def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
     if not warm > cold:
-        raise InputError(f"temperatures = {cold:g} and {warm:g} K; allowed: two that differ")
+        raise InputError(f"temperatures = {cold:g} and {warm:g} K; give two that differ")
     for nu in (thick, thin):
         validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
     if not thin < thick:

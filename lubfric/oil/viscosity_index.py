@@ -28,13 +28,16 @@ def viscosity_index(nu40: float, nu100: float) -> float:
     nu40, nu100 = validate.positive("nu40", nu40, "m²/s"), validate.positive("nu100", nu100, "m²/s")
     if nu100 < LEAST * (1 - 1e-12):
         raise InputError(
-            f"nu100 = {nu100:g} m²/s is out of range; allowed: from 2e-6 m²/s (2 mm²/s), the viscosity index is not "
-            f"defined below{_millimetres(nu40, nu100)}"
+            f" = {nu100:g} m²/s is out of range",
+            "nu100",
+            f"from 2e-6 m²/s (2 mm²/s), the viscosity index is not defined below{_millimetres(nu40, nu100)}",
         )
     if nu40 <= nu100:
-        raise InputError(f"nu40 = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s; allowed: nu40 > nu100 (swapped?)")
+        raise InputError(
+            f" = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s", "nu40", "nu40 > nu100 (swapped?)", also=("nu100",)
+        )
     if nu100 > 1e-2:
-        raise InputError(f"nu100 = {nu100:g} m²/s is out of range; allowed: up to 0.01 m²/s{_millimetres(nu40, nu100)}")
+        raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", f"up to 0.01 m²/s{_millimetres(nu40, nu100)}")
     return _index(nu40 * 1e6, nu100 * 1e6)
 
 
@@ -70,10 +73,15 @@ def viscosity_at_100(nu40: float, index: float) -> float:
     at_40, least = nu40 * 1e6, LEAST * 1e6
     if at_40 <= least or _index(at_40, least) > index:
         raise InputError(
-            f"viscosity_index = {index:g} (-) with nu40 = {nu40:g} m²/s gives less than 2e-6 m²/s at 100 °C, where the "
-            "index is not defined; allowed: give the kinematic viscosities at 40 and 100 °C instead"
+            f" = {index:g} (-) with nu40 = {nu40:g} m²/s gives less than 2e-6 m²/s at 100 °C, where the index is not "
+            "defined",
+            "viscosity_index",
+            "give the kinematic viscosities at 40 and 100 °C instead",
+            also=("nu40",),
         )
     if _index(at_40, 0.999 * at_40) < index:
-        raise InputError(f"viscosity_index = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s; allowed: a lower index")
+        raise InputError(
+            f" = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s", "viscosity_index", "a lower index", also=("nu40",)
+        )
     root = brentq(lambda at_100: _index(at_40, at_100) - index, least, 0.999 * at_40, xtol=1e-13, rtol=1e-14)
     return root * 1e-6

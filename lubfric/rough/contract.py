@@ -55,7 +55,7 @@ class ContactState:
         """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal stretches of the width;
         of a contact with ``fields``, of a number of cells along y that ``stretches`` divides."""
         if self.fields is None:
-            raise InputError("a contact without fields has nothing along y; allowed: fields of a half-space contact")
+            raise InputError("a contact without fields has nothing along y; solve a half-space contact with fields")
         load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
         gap = weight @ gap / np.sum(weight)
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)

@@ -71,12 +71,12 @@ class FlatContact(RoughContact):
         if pressure > heaviest * (1 + ROUNDING):
             raise InputError(
                 f"bodies.load = {scene.bodies.load:g} N needs {pressure:.4g} Pa of a contact curve that ends at "
-                f"{heaviest:.4g} Pa; allowed: lighter loads, or prepare with the heaviest first"
+                f"{heaviest:.4g} Pa; give a lighter load, or prepare the heaviest first"
             )
         if scene.numerics.tolerance < old.numerics.tolerance:
             raise InputError(
                 f"numerics.tolerance = {scene.numerics.tolerance:g} is tighter than that of the contact curve; "
-                f"allowed: at least {old.numerics.tolerance:g}, or prepare again"
+                f"give {old.numerics.tolerance:g} or more, or prepare again"
             )
         return _under_the_strip(scene, self.curve)
 

@@ -64,7 +64,7 @@ def whole_map(scene: Scene) -> Surface:
 def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
     """The map of one body: generated on the contact grid, or measured, whole and on its own grid."""
     with named(name):
-        return measured_map(rough) if rough.file is not None else generated_map(rough, scene.contact, name)
+        return measured_map(rough, name) if rough.file is not None else generated_map(rough, scene.contact, name)
 
 
 def check_grid(scene: Scene, surface: Surface) -> None:
@@ -105,7 +105,7 @@ def other_seed(seed: int) -> int:
     return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
 
 
-def measured_map(rough: Roughness) -> Surface:
+def measured_map(rough: Roughness, name: str = "surface") -> Surface:
     """A map from a file, prepared as ``rough`` says: form taken off, outliers dealt with, filtered, filled, turned
     and scaled."""
     surface = read_surface(
@@ -120,14 +120,14 @@ def measured_map(rough: Roughness) -> Surface:
     if rough.outliers == "mask":
         surface = surface.without_outliers().level(rough.form)
     elif rough.outliers == "refuse":
-        refuse_outliers(surface)
+        refuse_outliers(surface, name)
     surface = surface.filtered(s=rough.s_filter, l=rough.l_filter).fill()
     if rough.motion_axis == "y":
         surface = surface.transposed()
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
-def refuse_outliers(surface: Surface) -> None:
+def refuse_outliers(surface: Surface, name: str) -> None:
     """Raise `InputError` for points that stand alone above their neighbours. They would carry the load, and they are
     no roughness."""
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
@@ -136,7 +136,7 @@ def refuse_outliers(surface: Surface) -> None:
         z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
         raise InputError(
             f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours and "
-            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; allowed: surface.outliers = "
+            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; give {name}.outliers = "
             "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
         )
 

@@ -48,8 +48,10 @@ class Bodies(Brief):
             validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
             if self.mean_hertz_pressure >= self.hardness:
                 raise InputError(
-                    f"bodies.load = {self.load:g} N is above hardness x Hertz area; allowed: below "
-                    f"{self.hardness * 2 * self.half_width * self.width:g} N"
+                    f" = {self.load:g} N is above hardness x Hertz area",
+                    "bodies.load",
+                    f"below {self.hardness * 2 * self.half_width * self.width:g} N",
+                    also=("bodies.hardness",),
                 )
 
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):

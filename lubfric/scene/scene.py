@@ -45,7 +45,7 @@ class Scene(SceneShown):
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; allowed: an "
+                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; give an "
                 "oil (lubricant.grade, "
                 "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
             )
@@ -88,7 +88,7 @@ class Scene(SceneShown):
 def _dotted(key: str, value) -> str:
     """How to write what a key with its section in front, such as ``numerics.tolerance``, was meant to say."""
     section, _, name = key.partition(".")
-    return f"; allowed: with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
+    return f"; write with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 
 
 def scene_as_dict(scene: Scene) -> dict:

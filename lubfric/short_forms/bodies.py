@@ -53,13 +53,14 @@ def reduced_radius(first: float, second: float) -> float:
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
             raise InputError(
-                f"bodies.radii has {radius!r}; allowed: radii in m, inf for a plane, negative for a hollow"
+                f" has {radius!r}", "bodies.radii", "give radii in m, inf for a plane, negative for a hollow"
             )
         curvature += 1 / radius
     if curvature <= 0:
         raise InputError(
-            f"bodies.radii = [{first:g}, {second:g}] m do not touch along one line; allowed: 1/R1 + 1/R2 > 0 "
-            "(inf for a plane, negative for a hollow that is wider than the other body)"
+            f" = [{first:g}, {second:g}] m do not touch along one line",
+            "bodies.radii",
+            "1/R1 + 1/R2 > 0 (inf for a plane, negative for a hollow that is wider than the other body)",
         )
     return 1 / curvature
 

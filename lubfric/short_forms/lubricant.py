@@ -33,8 +33,7 @@ def resolve(given: dict, old) -> dict:
             return given
     if "viscosity" in given:
         raise InputError(
-            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; allowed: "
-            "one of them"
+            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; give one of them"
         )
     oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
     changed = {key: given.pop(key) for key in PROPERTIES if key in given}

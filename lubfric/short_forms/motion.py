@@ -31,7 +31,7 @@ def resolve(given: dict, old) -> dict:
     if "slip_percent" in given:
         given["slide_roll_ratio"] = validate.number("motion.slip_percent", given.pop("slip_percent"), "%") / 100
     if not isinstance(given.get("speeds", ()), (list, tuple, np.ndarray)):
-        raise InputError(f"motion.speeds = {given['speeds']!r}; allowed: a list of numbers in m/s")
+        raise InputError(f" = {given['speeds']!r}", "motion.speeds", "a list of numbers in m/s")
     if "speed_range" in given:
         given["speeds"] = speeds_of_range("motion.speed_range", given.pop("speed_range"))
     return given
@@ -44,6 +44,6 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
     low = validate.positive(f"{name} lowest", value[0], "m/s")
     high = validate.positive(f"{name} highest", value[1], "m/s")
     if high <= low:
-        raise InputError(f"{name} highest = {high:g} m/s; allowed: above lowest = {low:g} m/s (are they swapped?)")
+        raise InputError(f"{name} highest = {high:g} m/s; it must be above lowest = {low:g} m/s (are they swapped?)")
     count = validate.integer(f"{name} count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))

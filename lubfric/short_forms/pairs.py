@@ -8,7 +8,7 @@ from ..errors import InputError
 def pair(name: str, value, unit: str) -> tuple:
     """A list or tuple of two, one a body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
-        raise InputError(f"{name} = {value!r} must be a pair, one value a body [{unit}]")
+        raise InputError(f" = {value!r} must be a pair, one value a body [{unit}]", name)
     return tuple(value)
 
 
@@ -17,7 +17,7 @@ def only_one(section: str, given: dict, *keys: str) -> None:
     found = [key for key in keys if any(k in given for k in key.split("+"))]
     if len(found) > 1:
         names = " and ".join(found)
-        raise InputError(f"[{section}] has {names}, which say the same thing; allowed: one of {', '.join(keys)}")
+        raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
 
 
 def together(section: str, given: dict, *keys: str) -> bool:

@@ -70,7 +70,7 @@ class FolderLock:
             file.close()
             raise InputError(
                 f"{self.path.parent} is being written by another run (process {holder}); "
-                "allowed: another folder, or wait until it ends"
+                "give another folder, or wait until it ends"
             ) from None
 
 

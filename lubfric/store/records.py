@@ -35,8 +35,9 @@ class Records:
         self._file = None
         self._synced = 0.0
 
-    def add(self, key: str, value) -> None:
-        """Add one record; ``value`` in plain JSON types. Raises `OutputError` when it cannot be kept."""
+    def add(self, key: str, value, sync: bool = False) -> None:
+        """Add one record; ``value`` in plain JSON types. ``sync``: force it to the disk at once. Raises `OutputError`
+        when it cannot be kept."""
         text = json.dumps({"key": key, "value": value}, allow_nan=False).encode()
         line = _checksum(text) + b" " + text + b"\n"
         with saying(f"a record in {self.folder} was not written"):
@@ -46,7 +47,7 @@ class Records:
             try:
                 if self._file.write(line) < len(line):
                     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-                if time.monotonic() - self._synced > SYNC:
+                if sync or time.monotonic() - self._synced > SYNC:
                     self._sync(self._file)
             except OSError:
                 with suppress(OSError):

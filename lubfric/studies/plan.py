@@ -85,9 +85,7 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     InputError : a key or a value is not one that a scene can have
     """
     if scene_of(scene) is not scene:
-        raise InputError(
-            "a study varies a scene; allowed: what lubfric.load_scene returned, not what lubfric.prepare did"
-        )
+        raise InputError("a study varies a scene; give what lubfric.load_scene returned, not what lubfric.prepare did")
     axes = axes_of(scene, {} if vary is None else vary)
     speeds = _speeds(scene, speeds)
     scenes = {}
@@ -111,7 +109,7 @@ def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
     if np.unique(speeds).size < speeds.size:
-        raise InputError("speeds hold a value twice; allowed: each once, in m/s")
+        raise InputError("speeds hold a value twice; give each once, in m/s")
     return tuple(float(u) for u in speeds)
 
 

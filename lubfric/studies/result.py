@@ -198,14 +198,12 @@ def open_study(folder) -> StudyResult:
     """
     path = Path(folder) / PLAN
     if not path.is_file():
-        raise InputError(f"{folder} holds no {PLAN}; allowed: the store of a study")
+        raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
     try:
         plan = json.loads(path.read_text(encoding="utf-8"))
         keys = plan["keys"]
     except (ValueError, KeyError, TypeError, UnicodeDecodeError):
-        raise InputError(
-            f"{path} is damaged; allowed: run the study again on this store, which writes it anew"
-        ) from None
+        raise InputError(f"{path} is damaged; run the study again in this folder, which writes it anew") from None
     if plan["speeds"] == AUTO:
         keys = [key for mark in keys for key in (mark, *chosen_keys(mark))]
     records = Journal(folder).records()

@@ -55,7 +55,7 @@ def study(
     """
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
     if plan is scene and (vary is not None or speeds is not None):
-        raise InputError("vary and speeds belong to the plan; allowed: a scene with them, or a plan alone")
+        raise InputError("vary and speeds belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
     with ExitStack() as stack:
         if store is not None:

@@ -123,9 +123,7 @@ def _check_key(scene: Scene, key, seen: set) -> None:
     section, _, field = str(key).partition(".")
     sections = [name for name in scene.__dataclass_fields__ if name not in ("name", "transient")]
     if section not in sections:
-        raise InputError(
-            f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; allowed: section.key"
-        )
+        raise InputError(f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; write section.key")
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
     fields = (*part.__dataclass_fields__, *short_keys(section))
     if field and field not in fields:
@@ -133,9 +131,9 @@ def _check_key(scene: Scene, key, seen: set) -> None:
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
         )
     if key in ("motion", "motion.speeds", "motion.entrainment_speed"):
-        raise InputError(f"vary: {key!r} is not varied as a key; allowed: speeds = [...] in m/s")
+        raise InputError(f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s")
     if key in seen:
-        raise InputError(f"vary: {key!r} is given twice; allowed: once")
+        raise InputError(f"vary: {key!r} is given twice; give it once")
     seen.add(key)
 
 
@@ -151,9 +149,7 @@ def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
         rows = [row if isinstance(row, tuple) and len(row) == 1 else (row,) for row in rows]  # of `sample`: as it is
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
-            raise InputError(
-                f"vary: {', '.join(keys)} go together; allowed: a list of {len(keys)} values each, not {row!r}"
-            )
+            raise InputError(f"vary: {', '.join(keys)} go together; give {len(keys)} values each time, not {row!r}")
     return Axis(name, keys, tuple(tuple(_plain(value) for value in row) for row in rows))
 
 

@@ -58,5 +58,5 @@ def checked_indices(surface, s: float | None, l: float | None) -> tuple[float | 
     if l is not None:
         l = checked_index("l_filter", l, surface.size, surface.spacing)
     if s is not None and l is not None and s >= l:
-        raise InputError(f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave; allowed: s_filter below l_filter")
+        raise InputError(f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave; give an s_filter below l_filter")
     return s, l

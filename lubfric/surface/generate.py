@@ -111,7 +111,7 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     spectrum = fft.rfft2(quarter[rows][:, columns]).real
     if spectrum.min() < -ROUNDING * spectrum.max():
-        raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; allowed: other lengths or spacing")
+        raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; give other lengths or another spacing")
     spectrum[spectrum < ROUNDING * spectrum.max()] = 0.0
     spectrum[0, 0] = 0.0
     if cutoff is not None:

@@ -237,7 +237,7 @@ class Surface(FrozenArrays, Shown):
         if not np.isfinite(self.heights).all():
             raise InputError(
                 f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN); "
-                f"allowed for {purpose}: none, call level() and fill() first"
+                f"{purpose} takes none: call level() and fill() first"
             )
         return self
 

@@ -38,7 +38,7 @@ def read_instrument(path: Path, channel: int, lateral_unit: str | None) -> Surfa
     except Exception as problem:  # the package raises many kinds for files it cannot read
         raise InputError(
             f"path = {str(path)!r}, channel {channel}, cannot be read by SurfaceTopography "
-            f"({type(problem).__name__}: {validate.shown(str(problem))}); allowed: a complete file of a format it knows"
+            f"({type(problem).__name__}: {validate.shown(str(problem))}); give a complete file of a format it knows"
         ) from problem
     if found not in UNITS:
         raise InputError(
@@ -66,6 +66,6 @@ def _package(path: Path):
     except ImportError as problem:
         raise InputError(
             f"path = {str(path)!r} needs the package SurfaceTopography, which is not installed ({problem}); "
-            f"allowed: after {HINT} it is read, or convert it to .x3p"
+            f"it is read after {HINT}; or convert it to .x3p"
         ) from None
     return open_topography

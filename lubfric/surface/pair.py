@@ -25,9 +25,7 @@ def combined(first, second):
     """
     for name, surface in (("first", first), ("second", second)):
         if not np.isfinite(surface.heights).all():
-            raise InputError(
-                f"{name} surface has unmeasured points (NaN); allowed: none, call level() and fill() first"
-            )
+            raise InputError(f"{name} surface has unmeasured points (NaN); call level() and fill() first")
     second = replace(
         second, heights=second.heights[:, ::-1], mask=None if second.mask is None else second.mask[:, ::-1]
     )

@@ -91,7 +91,7 @@ def _existing(path) -> Path:
         path = Path(path)
         found = path.is_file()
     except (TypeError, ValueError, OSError) as problem:
-        raise InputError(f"path = {validate.shown(path)} is no path ({problem}); allowed: a file") from None
+        raise InputError(f"path = {validate.shown(path)} is no path ({problem}); give a file") from None
     if not found:
         raise InputError(f"path = {validate.shown(str(path))}: no such file")
     try:
@@ -140,8 +140,7 @@ def _refuse(suffix, **given) -> None:
     for name, value in given.items():
         if value is not None:
             raise InputError(
-                f"{name} = {value!r} is given, and this {suffix} file carries its own or has "
-                "none; allowed: leave it out"
+                f"{name} = {value!r} is given, and this {suffix} file carries its own or has none; leave it out"
             )
 
 

@@ -97,7 +97,7 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
     if decimal == "," or not commas or semicolon or tab:
         if commas and decimal == ".":
-            raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; allowed: decimal = ','")
+            raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; give decimal = ','")
         return separator, bool(commas) or decimal == ","
     if decimal == ".":
         return ",", False
@@ -110,7 +110,7 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
             path,
             *commas[0],
             "and all others have commas that can separate values or be decimal marks; "
-            "allowed: decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), "
+            "give decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), "
             "or another separator",
         )
     return ",", False

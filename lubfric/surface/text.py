@@ -66,8 +66,7 @@ def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
         raise InputError(
-            f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more "
-            "than once; allowed: each once"
+            f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more than once; give each once"
         )
     heights[i, j] = table[:, 2]
     return heights, (dx, dy), notes

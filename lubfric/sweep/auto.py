@@ -22,7 +22,7 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
     """A curve at speeds of its own choice. Arguments as in `lubfric.stribeck`. Where speeds failed, the result says
     so."""
     if fields is True:
-        raise InputError("fields = True with speeds = 'auto'; allowed: the speeds in m/s whose fields are kept")
+        raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
     walk = Walk(prepared.scene, fingerprint(prepared, wanted), (), frozenset(wanted))
     found: dict[float, object] = {}

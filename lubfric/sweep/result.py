@@ -94,9 +94,7 @@ class StribeckResult(CurveResult):
     def _interpolant(self) -> Interpolant:
         points = [p for p in self.points if p is not None and p.speed != 0]
         if len(points) < FEWEST or len({abs(p.speed) for p in points}) < len(points):
-            raise InputError(
-                f"{len(points)} speeds are solved; allowed for a curve between them: {FEWEST} different ones"
-            )
+            raise InputError(f"{len(points)} speeds are solved; a curve between them needs {FEWEST} different ones")
         samples = samples_of(points)
         return Interpolant(samples, knee_of(samples))
 

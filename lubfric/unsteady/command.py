@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from pathlib import Path
 
@@ -77,8 +78,16 @@ def plot_again(folder: Path) -> bool:
     source = folder / "history.csv"
     if not source.is_file():
         return False
-    plot_history(folder / "history.png", read_table(source), folder.resolve().name)
+    plot_history(folder / "history.png", read_table(source), _name(folder))
     return True
+
+
+def _name(folder: Path) -> str:
+    """Name of the scene of a run, or of its folder where the record of the run is not there or torn."""
+    try:
+        return str(json.loads((folder / "result.json").read_text(encoding="utf-8"))["scene"]["name"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return folder.resolve().name
 
 
 def _progress(reached: list[float]):
@@ -88,9 +97,9 @@ def _progress(reached: list[float]):
         reached[0] = now
         if row is not None and pace.due(now >= duration):
             say(
-                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = "
-                f"{row['coefficient']:.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, h_min = "
-                f"{row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
+                f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
+                f"{row['coefficient']:<8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
+                f"h_min = {row['min_film'] * 1e9:<6.4g} nm (step {row['steps']:.0f})"
             )
 
     return on_step

@@ -34,9 +34,18 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     second.legend(frameon=False, ncols=3, fontsize=8)
     load_shares(third, t, c["contact_load"] / c["load"])
     third.legend(frameon=False, ncols=2, fontsize=8)
+    _error_band(fourth, t, c)
     friction_over_time(fourth, c)
     fourth.set_xlim(t[0], t[-1])
     figure.savefig(path, dpi=150)
+
+
+def _error_band(axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Two standard errors of f to either side over the shown times ``t``, where the table has the standard error."""
+    error = c.get("sampling_error", np.zeros(0))
+    if np.any(error > 0):
+        low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
+        axes.fill_between(t, low, high, color=BLUE, alpha=0.2, lw=0, label="2 standard errors: finite surface")
 
 
 def animate(path: Path, result, half_width: float) -> None:

@@ -43,4 +43,4 @@ def resume(store) -> tuple[Progress, Outputs] | None:
     if found is None:
         return None
     now, rows, fields = found
-    return now, Outputs(list(rows), list(fields))
+    return now, Outputs(rows, fields)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -91,16 +92,17 @@ def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
 
 
 def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, Outputs]:
-    now, outputs = resume(store) or (started(start, plan.first_step), Outputs())
-    if not outputs.rows and plan.times[0] == 0.0:
-        keep(sharing, outputs, store, now, start)
-    for now in steps(sharing, plan, now):
-        if now.at_output:
-            keep(sharing, outputs, store, now, now.solution)
-        if store:
-            store.save(state_of(now))
-        if on_step:
-            on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
+    with store or nullcontext():
+        now, outputs = resume(store) or (started(start, plan.first_step), Outputs())
+        if not outputs.rows and plan.times[0] == 0.0:
+            keep(sharing, outputs, store, now, start)
+        for now in steps(sharing, plan, now):
+            if now.at_output:
+                keep(sharing, outputs, store, now, now.solution)
+            if store:
+                store.save(state_of(now))
+            if on_step:
+                on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
     return now, outputs
 
 
@@ -119,7 +121,7 @@ def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.nda
     plan = base.transient
     if times is None:
         if plan is None:
-            raise InputError("scene has no [transient] table; allowed: one, or output times in s")
+            raise InputError("scene has no [transient] table; give one, or output times in s")
         return scene, np.linspace(0.0, plan.duration, plan.outputs + 1)
     times = checked_times(times)
     last = float(times[-1])

@@ -24,9 +24,9 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, StepSolution, float]:
     base = scene_of(scene)
     plan = changes(base)
     if base.numerics.model == "deterministic":
-        raise InputError("numerics.model = 'deterministic' is steady; allowed for a transient: 'auto', 'full'")
+        raise InputError("numerics.model = 'deterministic' is steady; for a run in time give 'auto' or 'full'")
     if base.numerics.closure == "one-way":
-        raise InputError("numerics.closure = 'one-way' is steady; allowed for a transient: 'load', 'separation'")
+        raise InputError("numerics.closure = 'one-way' is steady; for a run in time give 'load'")
     if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
         raise InputError(
             "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), found "
@@ -56,7 +56,7 @@ def _refuse_steady_only(scene: Scene) -> None:
         value = getattr(scene.numerics, name)
         if value not in allowed:
             raise InputError(
-                f"numerics.{name} = {value!r} is not done in a transient; allowed: {', '.join(map(repr, allowed))}"
+                f"numerics.{name} = {value!r} is not for a run in time; allowed: {', '.join(map(repr, allowed))}"
             )
 
 
@@ -78,7 +78,7 @@ def _setting(prepared: Prepared, load: History, finer: float) -> Setting:
     sigma = max(prepared.surface.sq, 0.0)
     if not rough and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
         raise InputError(
-            "smooth surfaces at rest have no film to start from; allowed: transient.initial_film > 0 m, or "
+            "smooth surfaces at rest have no film to start from; give transient.initial_film > 0 m, or "
             "an entrainment speed before t = 0"
         )
     reach = float(np.max(np.abs(prepared.contact.x))) if rough else 0.0

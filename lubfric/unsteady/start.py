@@ -39,7 +39,7 @@ def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
     if contact.state.volume_residual > 0.0:
         raise InputError(
             f"transient.initial_film: the surfaces touch at {contact.state.mean_film:g} m of mean film; "
-            f"allowed: a film above {contact.state.mean_gap:g} m, or initial = 'rest'"
+            f"give a film above {contact.state.mean_gap:g} m, or initial = 'rest'"
         )
     return replace(found, payload=contact)
 
@@ -55,7 +55,7 @@ def _resting(sharing: Sharing) -> StepSolution:
     z[-1] = (state.mean_gap - sharing.mean_row @ flat) / setting.problem.film_unit
     if z[-1] <= 0.0:
         raise InputError(
-            "at rest the contact leaves no room for a film under the undeformed cylinder; allowed: "
+            "at rest the contact leaves no room for a film under the undeformed cylinder; give "
             "initial = 'steady' with an entrainment speed, or transient.initial_film"
         )
     found = setting.at_rest(z)
@@ -69,7 +69,7 @@ def _steady(sharing: Sharing) -> tuple[StepSolution, float]:
     viscosity = changes(scene).viscosity
     c, speed = setting.contact, setting.contact.speed.before(0.0)
     if speed == 0.0:
-        raise InputError("transient.initial = 'steady' with no entrainment before t = 0; allowed: 'rest', or a speed")
+        raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
     cold = scene.lubricant.viscosity if viscosity is None else viscosity.before(0.0)
     values = scene.with_(
         bodies={"load": sharing.total(0.0), "radius": c.radius.before(0.0)},

@@ -1,6 +1,8 @@
 """Likely slips: every usual range holds the built-in scenes, and a value in a mistaken unit is told with the right
 one."""
 
+import pickle
+
 import pytest
 
 import lubfric
@@ -29,6 +31,23 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
 def test_a_value_that_no_unit_explains_is_still_told():
     told = doubts(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
     assert told and "bodies.radius = 900 m" in told[0].text
+
+
+def test_an_error_carries_what_it_says():
+    """Quantity, range and hints are data, and words only in its text; they survive a process."""
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene("paper").with_(counterface={"sq": 5.0, "correlation_length": 1e-5})
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert error.quantity == "counterface.sq" and error.allowed == "a finite number in [0, 1] m" and not error.hints
+    error.hint("um meant?")
+    error.hint("um meant?")
+    assert str(error) == f"{error.quantity}{error.said}; allowed: {error.allowed}; um meant?"
+
+
+@pytest.mark.parametrize("index", ["x", [1.0], (1e3, 1e3), None, 10**400])
+def test_a_viscosity_index_that_is_no_number_is_an_input_error(index):
+    with pytest.raises(lubfric.InputError, match="viscosity_index"):
+        lubfric.load_scene("paper").with_(lubricant=OIL | {"viscosity_index": index})
 
 
 def test_the_error_about_a_value_names_the_unit():

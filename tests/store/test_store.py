@@ -180,7 +180,7 @@ with FolderLock(sys.argv[1]):
 def test_a_second_writer_is_refused_until_the_first_is_gone(tmp_path):
     holder = started(HOLDER, tmp_path)
     holder.stdout.readline()
-    with pytest.raises(lubfric.InputError, match=f"another run .process {holder.pid}.; allowed: another folder"):
+    with pytest.raises(lubfric.InputError, match=f"another run .process {holder.pid}.; give another folder"):
         with FolderLock(tmp_path):
             pass
     holder.send_signal(signal.SIGKILL)

@@ -4,23 +4,15 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
+import small_study
+from small_study import same
 
 import lubfric
 from lubfric.studies import trail
 from lubfric.studies.journal import Journal
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6},
-    surface={"correlation_length": 4e-6},
-    numerics={"sampling": "patch", "tolerance": 0.02},
-)
+SCENE = small_study.SCENE.with_(numerics={"tolerance": 0.02})
 VARY = {"lubricant.viscosity": [0.1, 0.4]}
-
-
-def same(one, other):
-    np.testing.assert_array_equal(one.status, other.status)
-    for name in one.columns.keys() - {"seconds"}:
-        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
 @pytest.fixture(scope="module")

@@ -11,20 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_study import SCENE, same
 
 import lubfric
 
 ROOT = Path(__file__).parents[2]
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
-)
 VARY, SPEEDS = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}, tuple(np.geomspace(0.003, 0.3, 8))
-
-
-def same(one, other):
-    np.testing.assert_array_equal(one.status, other.status)
-    for name in one.columns.keys() - {"seconds"}:
-        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
 @pytest.fixture(scope="module")

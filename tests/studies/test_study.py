@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_study import SCENE, same
 
 import lubfric
 from lubfric.studies import run as run_module
@@ -22,21 +23,8 @@ from lubfric.studies.trail import Trail, points_of
 from lubfric.studies.walk import Walk
 
 ROOT = Path(__file__).parents[2]
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"sampling": "patch"})
-    .with_(contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
-)
 SPEEDS = (0.003, 0.03, 0.3)
 VARY = {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}
-
-
-def same(one, other):
-    """Equal to the last bit but for the time taken."""
-    assert one.dims == other.dims and one.columns.keys() == other.columns.keys()
-    np.testing.assert_array_equal(one.status, other.status)
-    for name in one.columns.keys() - {"seconds"}:
-        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
 @pytest.fixture(scope="module")

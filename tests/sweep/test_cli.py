@@ -235,7 +235,7 @@ def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_
     rows = (tmp_path / "a" / "stribeck.csv").read_text().splitlines()
     (tmp_path / "a" / "stribeck.csv").write_text("\n".join([*rows, rows[-1]]) + "\n")
     assert main(["plot", str(tmp_path / "a")]) == 2
-    assert "of one run" in capsys.readouterr().err
+    assert "run 'lubfric run' again" in capsys.readouterr().err
 
 
 def test_a_decimal_comma_is_no_list_of_speeds(tmp_path, capsys):

@@ -17,7 +17,7 @@ from lubfric.history import Harmonic, Ramp, Table
 from lubfric.history.plan import Transient
 from lubfric.prepared import prepare
 from lubfric.store import write_checked
-from lubfric.unsteady.checkpoint import FIELDS, ROWS, STATE, Checkpoint
+from lubfric.unsteady.checkpoint import OUTPUTS, STATE, Checkpoint
 from lubfric.unsteady.sharing import Sharing
 
 SCENE = (
@@ -213,18 +213,20 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
 
 
 def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
-    store = Checkpoint(tmp_path, ["one"])
-    store.append(np.zeros(3), np.zeros(5))  # killed before the first state
-    assert store.load() is None and not (tmp_path / ROWS).exists()
-    for i in range(2):
-        store.append(np.arange(3.0) + i, np.arange(5.0) - i)
-    store.save({})
-    store.append(np.zeros(3), np.zeros(5))  # killed here
+    with Checkpoint(tmp_path, ["another"]) as other:  # of a run killed before its first state
+        other.append(np.full(3, np.nan), np.zeros(5))
+    with Checkpoint(tmp_path, ["one"]) as store:
+        assert store.load() is None
+        for i in range(2):
+            store.append(np.arange(3.0) + i, np.arange(5.0) - i)
+        store.save({})
+        store.append(np.ones(3), np.ones(5))  # killed here: that output is computed once more
     again = Checkpoint(tmp_path, ["one"])
     state, rows, fields = again.load()
-    assert rows.tolist() == [[0, 1, 2], [1, 2, 3]] and fields[1].tolist() == [-1, 0, 1, 2, 3]
-    again.append(np.ones(3), np.ones(5))
-    again.save({})
+    assert [row.tolist() for row in rows] == [[0, 1, 2], [1, 2, 3]] and fields[1].tolist() == [-1, 0, 1, 2, 3]
+    with again:
+        again.append(np.ones(3), np.ones(5))
+        again.save({})
     assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
@@ -234,21 +236,22 @@ def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
 
 
 def test_any_damage_of_a_checkpoint_is_refused(tmp_path):
-    store = Checkpoint(tmp_path, ["one"])
-    for i in range(2):
-        store.append(np.arange(3.0) + i, np.arange(5.0) - i)
-    store.save({"level": np.arange(20.0)})
+    with Checkpoint(tmp_path, ["one"]) as store:
+        for i in range(2):
+            store.append(np.arange(3.0) + i, np.arange(5.0) - i)
+        store.save({"level": np.arange(20.0)})
     rng = np.random.default_rng(2)
-    for name in (STATE, ROWS, FIELDS):
-        whole = (tmp_path / name).read_bytes()
+    (outputs,) = (tmp_path / OUTPUTS).iterdir()
+    for path, name in ((tmp_path / STATE, STATE), (outputs, OUTPUTS)):
+        whole = path.read_bytes()
         for at in rng.integers(0, len(whole), 40):
             overwritten = bytearray(whole)
             overwritten[at] ^= int(rng.integers(1, 256))
             for content in (bytes(overwritten), whole[:at]):
-                (tmp_path / name).write_bytes(content)
-                with pytest.raises(lubfric.InputError, match=f"{name} is damaged.*empty one to begin again"):
+                path.write_bytes(content)
+                with pytest.raises(lubfric.InputError, match=f"{name} is damaged.*empty folder to begin again"):
                     Checkpoint(tmp_path, ["one"]).load()
-        (tmp_path / name).write_bytes(whole)
+        path.write_bytes(whole)
     assert Checkpoint(tmp_path, ["one"]).load() is not None
 
 

@@ -23,7 +23,14 @@ TOLD_BY = {
 }
 SPEEDS = (0.1, 0.06, 0.03, 0.01, 0.003)
 COUNT = {"quick": 1, "default": 2, "full": 6}
-COLUMNS = ("surfaces", "model", "points", "within what is told", "within twice that", "rms of f over what is told")
+COLUMNS = (
+    "surfaces",
+    "model",
+    "points",
+    "within the stated error",
+    "within twice it",
+    "rms of f over the stated error",
+)
 ONE, TWO = 0.6, 0.9  # shares that are asked of all together
 
 

@@ -16,7 +16,7 @@ BIAS = 0.3  # of the sampling tolerance
 PIECES = (0.85, 0.99)
 WITHIN = 0.95
 ENDLESS = "plain balances of long patches"
-COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "told too few")
+COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "says few spots")
 
 
 def checks(result: Result) -> Iterator[Check]:

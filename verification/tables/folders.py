@@ -137,7 +137,7 @@ def refinement() -> Cells:
             f"{max(r[-1] for r in mine):.1f} GB",
         ]
         rows.append(row)
-    columns = ["U (m/s)", "surfaces", "largest change of f, 256 to 512", "order", "largest estimate told at 512"]
+    columns = ["U (m/s)", "surfaces", "largest change of f, 256 to 512", "order", "largest stated error at 512"]
     return [*columns, "processor time at 512, median", "memory"], rows
 
 

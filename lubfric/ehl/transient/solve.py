@@ -112,7 +112,7 @@ def _check_start(contact: ContactHistory) -> None:
         validate.positive("initial_film", contact.initial_film, "m")
     elif contact.speed.before(0.0) == 0.0:
         raise InputError(
-            "entrainment_speed = 0 m/s before t = 0 carries no steady film; allowed: initial_film > 0 m, or a speed"
+            "entrainment_speed = 0 m/s before t = 0 carries no steady film; give initial_film > 0 m, or a speed"
         )
 
 

@@ -98,7 +98,7 @@ def solve_differential_deflection(
     if start is not None:
         instance("start", start, EHLResult, "an EHLResult or None")
     if domain is not None and inlet_length is not None:
-        raise InputError("domain and inlet_length both say where the grid begins; allowed: one of them")
+        raise InputError("domain and inlet_length both say where the grid begins; give one of them")
     problem = make_problem(contact, inlet_length)
     return solve_differential(problem, effort, domain_ends(problem, domain), start, raise_on_failure)
 
@@ -131,7 +131,7 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
         if np.shape(domain) != (2,):
-            raise InputError(f"domain = {domain!r} is not a pair; allowed: (first, last) in m")
+            raise InputError(f"domain = {domain!r} is not a pair; give (first, last) in m")
         first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
         return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
     first = -2.0 * b - 20.0 * rise if problem.inlet_length is None else -problem.inlet_length / unit
