@@ -222,12 +222,13 @@ def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
         store.save({})
         store.append(np.ones(3), np.ones(5))  # killed here: that output is computed once more
     again = Checkpoint(tmp_path, ["one"])
-    state, rows, fields = again.load()
-    assert [row.tolist() for row in rows] == [[0, 1, 2], [1, 2, 3]] and fields[1].tolist() == [-1, 0, 1, 2, 3]
+    _, outputs = again.load()
+    assert [row.tolist() for row, _ in outputs] == [[0, 1, 2], [1, 2, 3]]
+    assert outputs[1][1].tolist() == [-1, 0, 1, 2, 3]
     with again:
         again.append(np.ones(3), np.ones(5))
         again.save({})
-    assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
+    assert Checkpoint(tmp_path, ["one"]).load()[1][2][0].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
     write_checked(tmp_path / STATE, b"the state of another version")
