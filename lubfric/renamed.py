@@ -1,4 +1,4 @@
-"""Keywords by the name they had before."""
+"""A keyword by the name it had before."""
 
 from __future__ import annotations
 
@@ -10,20 +10,18 @@ from .errors import InputError
 
 P = ParamSpec("P")
 R = TypeVar("R")
+BEFORE, TODAY = "density", "density_law"
 
 
-def keyword_before(before: str, today: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """A decorator: the function takes its keyword ``today`` under the name ``before`` as well."""
+def density_before(function: Callable[P, R]) -> Callable[P, R]:
+    """``function``, which takes its keyword ``density_law`` under the name ``density`` as well."""
 
-    def decorated(function: Callable[P, R]) -> Callable[P, R]:
-        @wraps(function)
-        def call(*args: P.args, **given: P.kwargs) -> R:
-            if before in given:
-                if today in given:
-                    raise InputError(f"{before} and {today} say the same thing; give {today} alone")
-                given[today] = given.pop(before)
-            return function(*args, **given)
+    @wraps(function)
+    def call(*args: P.args, **given: P.kwargs) -> R:
+        if BEFORE in given:
+            if TODAY in given:
+                raise InputError(f"{BEFORE} and {TODAY} say the same thing; give {TODAY} alone")
+            given[TODAY] = given.pop(BEFORE)
+        return function(*args, **given)
 
-        return call
-
-    return decorated
+    return call

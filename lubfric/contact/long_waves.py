@@ -41,9 +41,9 @@ class LongWaves:
         """Be asked at ``cells`` (flat; None: all), which are in these ``row`` of ``count`` cells."""
         self.owner = None if cells is None else row // FACTOR * self.shape[1] + (cells - row * count) // FACTOR
 
-    def take_off(self, field, sums, workers=None) -> None:
+    def take_off(self, field, sums) -> None:
         """Subtract what ``field`` (nx, ny) has of it from ``sums`` at the cells."""
-        found = filtered(_summed(field), self.symbol, self.padded, workers)
+        found = filtered(_summed(field), self.symbol, self.padded, None)
         if self.owner is not None:
             sums -= found.ravel().take(self.owner)
             return

@@ -14,6 +14,8 @@ from .imposed import LinePressure, line_deflection
 from .rolling import Rolling
 from .start import State
 
+LUMP = 6  # neighbouring nodes that act as one line force far away
+
 
 @dataclass(frozen=True, repr=False)
 class EHLResult(Shown, OfLineContact):
@@ -156,12 +158,12 @@ def smallest(x: np.ndarray, values: np.ndarray) -> float:
     return float(values[i] - slope**2 / (4.0 * curvature))
 
 
-def _far_deflection(result: EHLResult, x: np.ndarray, group: int = 6) -> np.ndarray:
+def _far_deflection(result: EHLResult, x: np.ndarray) -> np.ndarray:
     cells = np.diff(result.x)
     force = np.zeros_like(result.x)
     force[1:] += 0.5 * cells * result.pressure[1:]
     force[:-1] += 0.5 * cells * result.pressure[:-1]
-    starts = np.arange(0, force.size, group)
+    starts = np.arange(0, force.size, LUMP)
     lumps = np.add.reduceat(force, starts)
     moments = np.add.reduceat(force * result.x, starts)
     keep = lumps > 0.0

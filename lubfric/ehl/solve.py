@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..line_contact import LineContact
 from ..lubricant import Lubricant
-from ..renamed import keyword_before
+from ..renamed import density_before
 from ..report import CONVERGED
 from ..validate import instance, integer, number, positive
 from .assemble import assemble, grid_error
@@ -48,7 +48,7 @@ class Effort:
         return min(self.least_cells, FINEST)
 
 
-@keyword_before("density", "density_law")
+@density_before
 def solve_ehl(
     *,
     load_per_width: float,

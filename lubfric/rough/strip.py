@@ -26,7 +26,7 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
     if not weight.any():
         raise InputError(
             "contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width "
-            f"{validate.positive('half_width', half_width, 'm'):g} m; allowed: finer grids"
+            f"{validate.positive('half_width', half_width, 'm'):g} m; give finer ones"
         )
     return weight
 
@@ -41,10 +41,12 @@ def check_strip(scene: Scene, step: float, length: float) -> None:
             f"its half-width {half_width:.3g} m"
         )
     if length < 2 * half_width:
-        ways = "a larger contact.shape" if scene.surface.file is None else f"a longer map, {TOO_SHORT}"
+        generated = scene.surface.file is None
+        what = "the patch (contact.shape x contact.spacing)" if generated else "the map"
+        ways = "a larger contact.shape" if generated else f"a longer map, {TOO_SHORT}"
         raise InputError(
-            f"the patch is {length:.3g} m long in x (contact.shape x contact.spacing); allowed: at "
-            f"least the Hertz strip, {2 * half_width:.3g} m: {ways}"
+            f"{what} is {length:.3g} m long in x, the direction of motion; allowed: at least the Hertz strip, "
+            f"{2 * half_width:.3g} m: {ways}"
         )
 
 

@@ -7,13 +7,13 @@ import numpy as np
 from ..plot import BLUE, GREY, friction_lines, plain_ticks
 
 
-def axes_or_new(ax, size=(7, 4.5)):
+def axes_or_new(ax):
     """``ax``, or the axes of a new figure."""
     if ax is not None:
         return ax
     from matplotlib import pyplot
 
-    return pyplot.subplots(figsize=size, layout="constrained")[1]
+    return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
 
 
 def curve_axes(curve, ax=None, **style):

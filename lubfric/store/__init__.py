@@ -3,7 +3,7 @@
 from .codec import decode, encode
 from .fingerprint import digest, fingerprint
 from .lock import FolderLock
-from .records import Records
+from .records import Records, growth
 from .whole import clear_parts, read_checked, whole_file, write_checked, write_whole
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "digest",
     "encode",
     "fingerprint",
+    "growth",
     "read_checked",
     "whole_file",
     "write_checked",

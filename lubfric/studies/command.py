@@ -9,6 +9,7 @@ from .. import validate
 from ..console import Pace, keeping, put, say, say_written
 from ..errors import ConvergenceError
 from ..report import ITERATION_LIMIT, Report
+from .cost import in_words
 from .file import load_study
 from .pool import MOST_WORKERS, pool
 from .result import StudyResult, open_study
@@ -62,10 +63,14 @@ def _kept(folder) -> str:
 
 
 def _progress(begun: float):
-    pace = Pace()
+    pace, first = Pace(), -1
 
     def on_progress(done: int, total: int) -> None:
+        nonlocal first
+        first = done if first < 0 else first  # what the store held already took no time
         if pace.due(done == total):
-            say(f"[{done}/{total}] {time.perf_counter() - begun:.0f} s")
+            passed = time.perf_counter() - begun
+            left = f", about {in_words(passed * (total - done) / (done - first))} left" if first < done < total else ""
+            say(f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s{left}")
 
     return on_progress

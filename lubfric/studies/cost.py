@@ -82,8 +82,8 @@ def in_words(seconds: float) -> str:
     """A foretold time, with the unit that suits it."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds > 2 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{float(f'{seconds / size:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
 
 
 def film_clock(scene: Scene, speed: float) -> float:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 
 from ..errors import InputError
 from ..scene import Scene
-from ..store import FolderLock, write_whole
+from ..store import FolderLock, growth, write_whole
 from ..store.whole import clear_parts
-from .journal import Journal
+from .journal import POINTS, Journal
 from .plan import StudyPlan, plan_study
 from .result import PLAN, StudyResult, plan_as_dict
 from .spread import checked_executor, spread
@@ -75,25 +75,44 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
     batches = [replace(batch, folder=folder).with_known(records) for batch in plan.batches]
     batches = [batch for batch in batches if not all(walk.ended(rows) for walk in batch.walks)]
 
+    progress = Progress(on_progress, total)
+
     def tell(found: dict[str, dict]) -> None:
         rows.update(found)
-        before = len(left)
         left.difference_update(found)
-        if on_progress and len(left) < before:
-            on_progress(total - len(left), total)
+        progress.tell(total - len(left))
 
     def again(batch: Batch) -> Batch:
         found = journal.records()  # what the lost worker had finished is known
         tell({key: row_of(record) for key, record in found.items()})
         return batch.with_known(found)
 
-    if on_progress:
-        on_progress(total - len(left), total)
-    for key, row in spread(executor, rows_of, batches, again):
+    progress.tell(total - len(left))
+    look: Callable | None = None
+    if on_progress and folder is not None and plan.speeds:  # a batch of many points comes back only when it ends
+        begun, added = total - len(left), growth(os.path.join(folder, POINTS))
+
+        def look() -> None:
+            progress.tell(min(begun + added(), total - 1))
+
+    for key, row in spread(executor, rows_of, batches, again, look):
         tell({key: row})
     for batch in batches:  # only now: an executor that loses the rows of a batch hands it out again
         journal.finish(batch.name)
     return StudyResult.of_rows(plan_as_dict(plan), rows)
+
+
+class Progress:
+    """Calls ``on_progress`` (None: nobody listens) with the number of points that are done whenever it has grown."""
+
+    def __init__(self, on_progress, total: int):
+        self._on_progress, self._total, self._told = on_progress, total, -1
+
+    def tell(self, done: int) -> None:
+        """``done`` points are done, as far as the caller knows."""
+        if self._on_progress and done > self._told:
+            self._told = done
+            self._on_progress(done, self._total)
 
 
 def rows_of(batch: Batch) -> Iterator[tuple[str, dict]]:

@@ -73,7 +73,7 @@ class CurveResult(Shown):
         if good.any():
             known, f = values[good], np.array([point.coefficient for point in self.points if point is not None])
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
-        return facts | {"failed": str(len(self.errors)), "not held": str(len(self.validity))}
+        return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
 
 
 def columns_of(points) -> dict[str, np.ndarray]:

@@ -18,6 +18,7 @@ from ..store import Records, decode, encode, fingerprint, read_checked, write_ch
 from ..store.whole import PART
 
 STATE, OUTPUTS = "state.bin", "outputs"
+Output = tuple[np.ndarray, np.ndarray]  # at an output time: a row of numbers, and one of fields
 
 
 class Checkpoint:
@@ -39,8 +40,8 @@ class Checkpoint:
     def __exit__(self, *_) -> None:
         self._records.close()
 
-    def load(self) -> tuple[Any, list[np.ndarray], list[np.ndarray]] | None:
-        """(state, rows, fields) of an interrupted run of the same problem, or None where there is none.
+    def load(self) -> tuple[Any, list[Output]] | None:
+        """The state and the outputs of an interrupted run of the same problem, or None where there is none.
 
         Raises `InputError` for the state of another problem, and for files that were cut or overwritten.
         """
@@ -64,8 +65,7 @@ class Checkpoint:
         keys = [self._key(number) for number in range(self._count)]
         if not all(key in records for key in keys):
             raise _damaged(self._records.folder)
-        rows, fields = ([_numbers(records[key][part]) for key in keys] for part in ("row", "field"))
-        return kept["state"], rows, fields
+        return kept["state"], [(_numbers(records[key]["row"]), _numbers(records[key]["field"])) for key in keys]
 
     def append(self, row: np.ndarray, field: np.ndarray) -> None:
         """Add one output."""

@@ -59,8 +59,9 @@ UNITS = {
 }
 
 
-def moment(sharing: Sharing, solution: StepSolution, now: Progress) -> dict[str, float]:
-    """One row of the result, by name in the order of ``UNITS``."""
+def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
+    """One row of the result, by name in the order of ``UNITS``: the last step's."""
+    solution = now.solution
     time, in_time = now.time, sharing.prepared.scene
     scene, sliding = scene_at(in_time, time), sliding_at(in_time, time)
     setting, t, contact = sharing.setting, solution.terms, solution.payload

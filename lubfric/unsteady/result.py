@@ -16,9 +16,9 @@ from ..sampling.uncertainty import UncertaintyCurve, percent, student
 from ..show import Shown
 from ..show.axes import history_axes, loop_axes
 from ..validity import Validity, gathered
+from .checkpoint import Output
 from .judge import judged_outputs
 from .moment import UNITS
-from .progress import Outputs
 from .sharing import Sharing
 
 MANY = 30  # blocks less one: of a line
@@ -129,15 +129,15 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: Outputs) -> TransientResult:
+def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
     prepared, setting = sharing.prepared, sharing.setting
     p, n = setting.problem, setting.grid.n + 1
-    table = np.array(outputs.rows).reshape(len(outputs.rows), len(UNITS))
+    table = np.array([row for row, _ in outputs]).reshape(len(outputs), len(UNITS))
     columns = dict(zip(UNITS, table.T))
     surface = float(np.max(columns["sampling_error"], initial=0.0))
     told = "not known" if np.isnan(surface) else f"standard error of f at most {percent(surface)}"
-    fields = np.array(outputs.fields).reshape(len(outputs.fields), 2 * n)
+    fields = np.array([field for _, field in outputs]).reshape(len(outputs), 2 * n)
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,

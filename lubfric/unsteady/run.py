@@ -17,9 +17,8 @@ from ..prepared import Prepared, scene_of
 from ..scene import Scene
 from ..validity import Validity, refused
 from .at_a_time import changes
-from .checkpoint import Checkpoint
-from .moment import UNITS
-from .progress import Outputs, keep, resume, state_of
+from .checkpoint import Checkpoint, Output
+from .moment import UNITS, moment
 from .result import TransientResult, collect
 from .setup import begin
 from .sharing import Sharing
@@ -91,19 +90,36 @@ def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
     return plan_of(times, changing.histories, sharing.setting.first_step, tolerance)
 
 
-def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, Outputs]:
+def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, list[Output]]:
     with store or nullcontext():
-        now, outputs = resume(store) or (started(start, plan.first_step), Outputs())
-        if not outputs.rows and plan.times[0] == 0.0:
-            keep(sharing, outputs, store, now, start)
+        now, outputs = (store and store.load()) or (started(start, plan.first_step), [])
+        if not outputs and plan.times[0] == 0.0:
+            _add(sharing, outputs, store, replace(now, solution=start))
         for now in steps(sharing, plan, now):
             if now.at_output:
-                keep(sharing, outputs, store, now, now.solution)
+                _add(sharing, outputs, store, now)
             if store:
-                store.save(state_of(now))
+                store.save(_state(now))
             if on_step:
-                on_step(now.time, plan.end, dict(zip(UNITS, outputs.rows[-1])) if now.at_output else None)
+                on_step(now.time, plan.end, dict(zip(UNITS, outputs[-1][0])) if now.at_output else None)
     return now, outputs
+
+
+def _add(sharing: Sharing, outputs: list[Output], store, now: Progress) -> None:
+    """Add the output at the time of ``now``: its row, and its pressures and films."""
+    terms = now.solution.terms
+    sharing.prepared.contact.check(now.solution.payload.state)
+    row = np.array(list(moment(sharing, now).values()), dtype=float)
+    outputs.append((row, np.concatenate([terms.P, terms.H])))
+    if store:
+        store.append(*outputs[-1])
+
+
+def _state(now: Progress) -> Progress:
+    """All that a resume needs: ``now``, without what the next step makes again."""
+    contact = now.payload
+    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
+    return replace(now, payload=bare, solution=None)
 
 
 def _severe(result: TransientResult) -> tuple[Validity, ...]:

@@ -370,6 +370,26 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     assert f"16 x lubricant.viscosity {min(drawn):.4g} to {max(drawn):.4g}" in many
 
 
+def test_progress_on_an_executor_is_that_of_the_store(tmp_path, monkeypatch):
+    """A batch comes back only when it ends; its points are counted as they reach the store. None is counted twice."""
+    told: list[tuple[int, int]] = []
+    monkeypatch.setattr("lubfric.studies.spread.LOOK", 0.01)
+    with ThreadPoolExecutor(1) as executor:
+        for _ in range(2):
+            lubfric.study(
+                SCENE,
+                {"bodies.load": [3.0, 4.0, 5.5]},
+                np.geomspace(1e-3, 0.3, 8),
+                executor=executor,
+                store=tmp_path,
+                on_progress=lambda *what: told.append(what),
+            )
+    done = [number for number, _ in told]
+    first = done.index(24) + 1
+    assert done[0] == 0 and done[:first] == sorted(set(done)) and first > 6 and done[first:] == [24]
+    assert {total for _, total in told} == {24}
+
+
 @pytest.mark.parametrize("speeds", [np.geomspace(1e-3, 0.3, 4), "auto"])
 def test_explain_leaves_out_what_the_store_holds(tmp_path, speeds):
     """Half of a study is solved in a store: the rest of the whole costs what the other half costs alone."""

@@ -222,12 +222,13 @@ def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
         store.save({})
         store.append(np.ones(3), np.ones(5))  # killed here: that output is computed once more
     again = Checkpoint(tmp_path, ["one"])
-    state, rows, fields = again.load()
-    assert [row.tolist() for row in rows] == [[0, 1, 2], [1, 2, 3]] and fields[1].tolist() == [-1, 0, 1, 2, 3]
+    _, outputs = again.load()
+    assert [row.tolist() for row, _ in outputs] == [[0, 1, 2], [1, 2, 3]]
+    assert outputs[1][1].tolist() == [-1, 0, 1, 2, 3]
     with again:
         again.append(np.ones(3), np.ones(5))
         again.save({})
-    assert Checkpoint(tmp_path, ["one"]).load()[1][2].tolist() == [1, 1, 1]
+    assert Checkpoint(tmp_path, ["one"]).load()[1][2][0].tolist() == [1, 1, 1]
     with pytest.raises(lubfric.InputError, match="another run"):
         Checkpoint(tmp_path, ["two"]).load()
     write_checked(tmp_path / STATE, b"the state of another version")
@@ -304,7 +305,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
     assert names == {"history.csv", "history.png", "fields.npz", "result.json", "animation.gif"}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
-    assert "t = 0.02 of 0.02 s" in capsys.readouterr().err
+    assert "t = 0.02     of 0.02 s" in capsys.readouterr().err
     (tmp_path / "out" / "history.png").unlink()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
 

@@ -58,17 +58,16 @@ def film_deflection(quick: bool) -> PaperFigure:
         column[0].set(title=name, ylabel="friction coefficient (-)", ylim=(0, None))
         column[1].set(xlabel="entrainment speed U (m/s)", ylabel="$F_H/F_T$ (-)")
     grid[0, 0].legend(fontsize=8)
-    words = "; ".join(
-        f"{name}: coefficient changed by at most {one[0]:.1f} % (Johnson) and {two[0]:.1f} % (both pressures), "
-        "F_H by a factor "
-        f"of {one[1]:.3g} to {one[2]:.3g} and {two[1]:.3g} to {two[2]:.3g}"
+    words = "\n".join(
+        f"- {name}: f changes by at most {one[0]:.1f} % (Johnson) and {two[0]:.1f} % (both pressures), F_H by a "
+        f"factor of {one[1]:.3g} to {one[2]:.3g} and {two[1]:.3g} to {two[2]:.3g}."
         for name, (one, two) in most.items()
     )
     return PaperFigure(
         "film",
         "Option: which pressure deforms the film",
-        f"{words}. In the paper's own light case (102 MPa) the choice hardly matters, which is why the "
-        "paper can leave it open.",
+        "In the paper's own light case (102 MPa) the choice hardly matters, which is why the paper can leave it open."
+        f"\n\n{words}",
         "In the paper only the film's own pressure deforms the film. Johnson, Greenwood and Poon, and after them "
         "Gelinck and Schipper (Tribol. Int. 33 (2000) 175-181), let the whole load deform it, by the modulus "
         "E' F_H/F_T at the load F_H. That is the deflection of the total pressure when both pressures have the same "

@@ -184,7 +184,7 @@ def parabola(setting: Setting, film: float) -> np.ndarray:
     return np.append(np.zeros(setting.grid.n + 1), film / setting.problem.film_unit)
 
 
-def steady_start(setting: Setting, load: float | None = None, spring: Spring | None = None) -> StepSolution:
+def steady_start(setting: Setting, load: float | None = None) -> StepSolution:
     """The steady state of the conditions just before t = 0, with ``load`` [N/m] in place of the history's if it is
     given."""
     c, p, grid = setting.contact, setting.problem, setting.grid
@@ -199,7 +199,7 @@ def steady_start(setting: Setting, load: float | None = None, spring: Spring | N
     centre = grid.n // 2
     z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
     now = now if load is None else replace(now, load=load / (p.contact.e_prime * p.film_unit))
-    return solve_step(grid, p, now, steady(grid), z, spring=spring, max_steps=40)
+    return solve_step(grid, p, now, steady(grid), z, max_steps=40)
 
 
 def discretisation(setting: Setting, solution: StepSolution) -> float:

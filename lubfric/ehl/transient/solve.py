@@ -13,7 +13,7 @@ from ...history.read import checked_history
 from ...lubricant import Lubricant
 from ...march.bdf import started
 from ...march.course import Plan, checked_times, plan_of, report_of, steps
-from ...renamed import keyword_before
+from ...renamed import density_before
 from ...report import CONVERGED, Report
 from ..result import smallest
 from .active_set import StepSolution
@@ -44,7 +44,7 @@ class TransientFilm:
     report: Report
 
 
-@keyword_before("density", "density_law")
+@density_before
 def solve_transient_ehl(
     *,
     load_per_width,

@@ -15,7 +15,7 @@ from ...ehl.start import expected_rupture, rupture_guess
 from ...errors import InputError
 from ...line_contact import LineContact
 from ...lubricant import Lubricant
-from ...renamed import keyword_before
+from ...renamed import density_before
 from ...report import CONVERGED
 from ...validate import instance, integer, number
 from .equations import load_row
@@ -44,7 +44,7 @@ class UniformEffort:
         integer("bandwidth", self.bandwidth, minimum=0)
 
 
-@keyword_before("density", "density_law")
+@density_before
 def solve_differential_deflection(
     *,
     load_per_width: float,

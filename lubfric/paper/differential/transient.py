@@ -23,7 +23,7 @@ from ...line_contact import LineContact
 from ...lubricant import Lubricant
 from ...march.bdf import Memory, started
 from ...march.course import Plan, checked_times, plan_of, report_of, steps
-from ...renamed import keyword_before
+from ...renamed import density_before
 from ...report import CONVERGED
 from .equations import Squeeze
 from .mesh import NEAR, make_mesh
@@ -85,7 +85,7 @@ class UniformSetting:
         return math.sqrt(float(np.mean((difference / solution.film)[P > WET * P.max()] ** 2)))
 
 
-@keyword_before("density", "density_law")
+@density_before
 def solve_differential_transient(
     *,
     load_per_width,
