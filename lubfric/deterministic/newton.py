@@ -37,10 +37,13 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation it asks for (`settled`). A step leaves every cell a fifth of its gap
-    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or the
-    residual has not fallen for ten steps.
+    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or for
+    `PATIENCE` steps neither the residual has fallen nor that which the whole step would have led to. (That falls first,
+    while a heavily loaded film finds its shape in short steps.)
     """
-    history, krylov = [], 0
+    history: list[float] = []
+    promised: list[float] = []
+    krylov = 0
     at = look(problem, state, past)
     for count in range(most + 1):
         at = settled(problem, at, past)
@@ -48,7 +51,9 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
         worst = max(found.values())
         history.append(worst)
         best = Found(at, found, tuple(history), count, krylov)
-        if not math.isfinite(worst) or worst <= tolerance or count == most or _stalled(history):
+        if not math.isfinite(worst) or worst <= tolerance or count == most:
+            return best
+        if _stalled(history) and _stalled(promised):
             return best
         try:
             step = System(problem, at, past).solve()
@@ -57,7 +62,8 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
         krylov += step.iterations
         if not np.all(np.isfinite(step.gap)):
             return best
-        at = _advanced(problem, at, step, past)
+        at, whole = _advanced(problem, at, step, past)
+        promised.append(whole)
     raise AssertionError("the last step returns")
 
 
@@ -67,16 +73,18 @@ def _stalled(history) -> bool:
     return not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
-def _advanced(problem: Problem, at: Look, step, past) -> Look:
+def _advanced(problem: Problem, at: Look, step, past) -> tuple[Look, float]:
+    """Where a part of ``step`` leads, and the merit of the longest that was tried."""
     length = _longest(problem, at, step)
     before = _merit(problem, at, at.state.kind != TOUCHING)
+    merits: list[float] = []
     for _ in range(HALVINGS):
         new = _moved(problem, at, step, length, past)
-        after = _merit(problem, new, at.state.kind != TOUCHING)
-        if after <= (GROWTH if length > SHORTEST else SURGE) * before:
+        merits.append(_merit(problem, new, at.state.kind != TOUCHING))
+        if merits[-1] <= (GROWTH if length > SHORTEST else SURGE) * before:
             break
         length /= 2
-    return new
+    return new, merits[0]
 
 
 def _longest(problem: Problem, at: Look, step) -> float:

@@ -19,6 +19,7 @@ FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 250  # LU factorisations: from a state
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
+ADVICE = "longer cells, or a sweep of nearer speeds from a faster one, may lead there"
 THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
 # a Newtonian
 
@@ -44,12 +45,16 @@ def solve_point(
     result.
     """
     work = Work()
-    attempts = _attempts(problem, starts, tolerance, work)
-    name, found = next(attempts)
-    while not found.residual <= tolerance and (attempt := next(attempts, None)) is not None:
-        if not attempt[1].residual >= found.residual:
-            name, found = attempt
+    tried: list[tuple[str, Found]] = []
+    for attempt in _attempts(problem, starts, tolerance, work):
+        tried.append(attempt)
+        if attempt[1].residual <= tolerance:
+            break
+    name, found = min(tried, key=lambda one: one[1].residual if one[1].residual >= 0 else math.inf)
     report = _report(found, tolerance, work, name)
+    if not report.converged:
+        ways = ", ".join(f"{way} ({at.residual:.1e})" for way, at in tried)
+        report = replace(report, advice=f"tried, with the residual left: {ways}; {ADVICE}")
     result = assemble(problem, found.look, report)
     if raise_on_failure:
         report.raise_if_failed(result)

@@ -33,6 +33,6 @@ def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
     """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind contact and film it has ruptured."""
     p = dry.pressure
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
-    full = RUPTURE * math.sqrt(2 * problem.radius * film)
+    full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
     return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)

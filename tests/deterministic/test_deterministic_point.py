@@ -11,8 +11,8 @@ from lubfric.deterministic import lay_out, solve_point
 from lubfric.deterministic.forces import forces
 from lubfric.deterministic.refine import estimate, solve_refined
 from lubfric.deterministic.solve import Start
-from lubfric.deterministic.start import dry_contact
-from lubfric.deterministic.state import look, residuals
+from lubfric.deterministic.start import dry_contact, dry_start
+from lubfric.deterministic.state import FLUID, RUPTURED, look, residuals
 from lubfric.deterministic.transfer import refined_start, state_on
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant
@@ -192,6 +192,8 @@ def test_a_failure_is_reported_and_carries_what_was_found():
     with pytest.raises(lubfric.ConvergenceError) as failed:
         solve_point(problem, tolerance=1e-17)
     report = failed.value.report
+    for way in ("from the dry contact", "in time from"):
+        assert way in str(failed.value)
     assert not report.converged and report.residual > 1e-17 and failed.value.result.pressure.shape[1] == 16
     assert solve_point(problem, tolerance=report.residual * 1.01).report.converged
 
@@ -200,3 +202,20 @@ def test_too_many_cells_are_refused_before_any_work():
     flat = Surface(np.zeros((8, 4096)), (1e-8, 1e-8), periodic_axes=(True, True))
     with pytest.raises(lubfric.InputError, match="cells"):
         lay_out(flat, contact(917.0, 0.01), sliding=0.02, boundary_friction=0.09)
+
+
+def test_a_bearing_at_a_gigapascal_is_solved_from_the_dry_contact():
+    """From a cold start by Newton's method alone: in the valleys of the Hertz strip the start has fluid, and the film
+    finds its shape in short steps before the residual falls. Load, gap and signs are those of the map's own judge."""
+    from verification.stability.whole_map import bearing, check
+
+    heavy = bearing(200e-9, 2.72e5, 0.3, across=32)
+    start = dry_start(heavy, dry_contact(heavy), heavy.contact.moes_film)
+    inside = np.abs(heavy.x) <= heavy.contact.half_width
+    assert (
+        heavy.contact.peak_pressure > 0.99e9 and (start.kind[inside] == FLUID).all() and (start.kind == RUPTURED).any()
+    )
+    found = solve_point(heavy)
+    assert "from the dry contact; " in found.report.notes[0] and found.report.iterations <= 50
+    wrong = check(heavy, found)
+    assert max(wrong["load"], wrong["gap"], wrong["signs"]) <= 1
