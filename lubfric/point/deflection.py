@@ -40,30 +40,30 @@ def solved_as_deflected(
     """``prepared`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance
     needs it, and its solution (`solved`).
 
-    A balance that is far beyond the share of its film's own pressure goes to the whole load at once: that of the
-    neighbour, ``start``, if the solution says so too; without one, that of a loose solve, or one that fails. The choice
-    does not depend on ``start``.
+    Where a neighbour, ``start``, or else a loose solve is far beyond the share of a film's own pressure, the whole load
+    is tried first, and stays if its own solution says so too. The choice does not depend on ``start``.
     """
+
+    def by(option: str, start: Balance | None) -> tuple[Prepared, Solved]:
+        chosen = deflected_by(prepared, option)
+        return chosen, solved(chosen, speed, start, given_grid=given_grid)
+
     scene = prepared.scene
     if scene.numerics.film_deflection != "auto":
         return prepared, solved(prepared, speed, start, given_grid=given_grid)
-    limit, error, option = budget.DEFLECTION * scene.numerics.tolerance, 0.0, "hydrodynamic"
-    if speed != 0 and (start is None or start.film is None):
-        error, start = _loose_error(prepared, speed)
-    elif speed != 0 and start is not None and own_pressure_error(scene, start) > CERTAIN * limit:
-        chosen = deflected_by(prepared, "scaled")
-        found = solved(chosen, speed, start, given_grid=given_grid)
-        start = found.balance
-        if (error := own_pressure_error(scene, start)) > CERTAIN * limit:
+    limit = budget.DEFLECTION * scene.numerics.tolerance
+    error, start = _expected_error(prepared, speed, start)
+    if error > CERTAIN * limit:
+        chosen, found = by("scaled", start)
+        if start is not None:
+            error, start = own_pressure_error(scene, found.balance), found.balance
+        if error > CERTAIN * limit:
             return chosen, _told(found, error, limit, "scaled")
-    if error <= CERTAIN * limit:
-        chosen = deflected_by(prepared, option)
-        found = solved(chosen, speed, start, given_grid=given_grid)
-        error, start = own_pressure_error(scene, found.balance), found.balance
+    chosen, found = by("hydrodynamic", start)
+    error = own_pressure_error(scene, found.balance)
     if error > limit:
-        chosen, option = deflected_by(prepared, "scaled"), "scaled"
-        found = solved(chosen, speed, start, given_grid=given_grid)
-    return chosen, _told(found, error, limit, option)
+        chosen, found = by("scaled", found.balance)
+    return chosen, _told(found, error, limit, chosen.scene.numerics.film_deflection)
 
 
 def _told(found: Solved, error: float, limit: float, option: str) -> Solved:
@@ -73,9 +73,13 @@ def _told(found: Solved, error: float, limit: float, option: str) -> Solved:
     return replace(found, decision=replace(found.decision, deflection=told))
 
 
-def _loose_error(prepared: Prepared, speed: float) -> tuple[float, Balance | None]:
-    """`own_pressure_error` of a loose solve, and its balance; infinite and None where that fails, which says nothing of
-    the point itself."""
+def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> tuple[float, Balance | None]:
+    """`own_pressure_error` of a neighbour or, without one, of a loose solve, and its balance; infinite and None where
+    that fails, which says nothing of the point itself."""
+    if speed == 0:
+        return 0.0, start
+    if start is not None and start.film is not None:
+        return own_pressure_error(prepared.scene, start), start
     try:
         found = solved(_loose(prepared), speed).balance
     except LubfricError:

@@ -79,6 +79,7 @@ def test_lubfric_command_lines_run(page, tmp_path, monkeypatch):
     """In one folder with the checkout's scenes and examples, one after the other, as the page tells them."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
+    (tmp_path / "rig.csv").write_text(RIG, encoding="utf-8")
     for words in command_lines(page):
         if is_for(words, "lubfric"):
             assert main(words[1:]) == 0, words

@@ -151,7 +151,7 @@ def test_info_foretells_the_length_within_a_factor_of_four():
         found = lubfric.friction(model, speed).uncertainty
         assert 0.25 < length / found.length < 4
         assert speed > 0.02 or 0.3 < error / found.sampling < 3
-    assert "line of about" in describe_scene(PAPER)
+    assert "the first is 1.4 mm long" in describe_scene(PAPER)
 
 
 @pytest.mark.parametrize("speed, neighbour", [(0.0068, 0.01), (0.01, 0.03)])
