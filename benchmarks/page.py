@@ -24,10 +24,13 @@ def write(name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], aske
 
 
 def command(name: str, parser: ArgumentParser, options: Namespace) -> str:
-    """The command as it was typed, without files and folders but those of the documents."""
+    """The command as it was typed, without files and folders but those of the documents. An argument without a dash
+    is named."""
     words = ["python", f"benchmarks/{BENCHMARKS[name]}"]
+    named = [action.dest for action in parser._get_positional_actions()]
+    words += [key.upper() for key in named if getattr(options, key) != parser.get_default(key)]
     for key, value in vars(options).items():
-        if value == parser.get_default(key) or isinstance(value, Path):
+        if key in named or value == parser.get_default(key) or isinstance(value, Path):
             continue
         given = value if isinstance(value, list) else [value]
         words += [f"--{key}", *(f"{v:g}" if isinstance(v, float) else str(v) for v in given)]

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
 from ..prepared import Prepared
 from ..studies.journal import Journal, Point
 from ..studies.spread import spread
 from ..studies.trail import first_point, points_of
-from ..studies.walk import Batch
+from ..studies.walk import Batch, Walk
 
 
-def solve_walks(prepared: Prepared, walks: list, executor, store, keep: Callable) -> None:
+def solve_walks(prepared: Prepared, walks: list[tuple[Walk, np.ndarray]], executor, store, keep: Callable) -> None:
     """Solve the first walk, which has one point, then the others, which start from it. Every point that ends is given
     to ``keep(index, outcome)``, once.
 

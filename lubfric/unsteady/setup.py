@@ -17,22 +17,27 @@ from .line import long_enough
 from .sharing import Sharing, make_sharing
 from .start import first_state
 
+DONE = {  # what a run in time does of the options of the steady model
+    "model": ("auto", "full"),
+    "closure": ("load",),
+    "film_level": ("auto", "ehl"),
+    "contact_level": ("auto", "flat", "semi-periodic"),
+    "film_deflection": ("auto", "hydrodynamic"),
+    "cavitated_shear": ("none",),
+}
+
 
 def begin(scene: Scene | Prepared) -> tuple[Sharing, StepSolution, float]:
     """Check a scene with a ``transient`` and make it ready. Returns what is marched, the state at t = 0, and the
     relative error of the films of a steady start by the grid (NaN from another start)."""
     base = scene_of(scene)
     plan = changes(base)
-    if base.numerics.model == "deterministic":
-        raise InputError("numerics.model = 'deterministic' is steady; for a run in time give 'auto' or 'full'")
-    if base.numerics.closure == "one-way":
-        raise InputError("numerics.closure = 'one-way' is steady; for a run in time give 'load'")
-    if base.numerics.film_deflection not in ("auto", "hydrodynamic") or base.numerics.cavitated_shear != "none":
-        raise InputError(
-            "a transient needs numerics.film_deflection = 'hydrodynamic' (or 'auto'), found "
-            f"{base.numerics.film_deflection!r}, and cavitated_shear = 'none', found {base.numerics.cavitated_shear!r}"
-        )
-    _refuse_steady_only(base)
+    for name, allowed in DONE.items():
+        value = getattr(base.numerics, name)
+        if value not in allowed:
+            raise InputError(
+                f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
+            )
     load = plan.load or Constant(base.bodies.load)
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
         raise InputError(
@@ -46,18 +51,6 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, StepSolution, float]:
         if not grid_error > base.numerics.tolerances.film:  # NaN: no steady start to judge by
             break
     return sharing, start, grid_error
-
-
-def _refuse_steady_only(scene: Scene) -> None:
-    """Raise `InputError` for what is asked of the steady model by name and a transient does not do."""
-    done = {"film_level": ("auto", "ehl"), "closure": ("load",)}
-    done["contact_level"] = ("auto", "flat", "semi-periodic")
-    for name, allowed in done.items():
-        value = getattr(scene.numerics, name)
-        if value not in allowed:
-            raise InputError(
-                f"numerics.{name} = {value!r} is not for a run in time; allowed: {', '.join(map(repr, allowed))}"
-            )
 
 
 def _setting(prepared: Prepared, load: History, finer: float) -> Setting:
