@@ -30,7 +30,7 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
     one, error = found[-1], estimate([one.coefficient for one in found])
     uncertainty = replace(
         not_sampled(error, scene, prepared.surface.size[1], NOT_KNOWN),
-        model_form=one_way_error(one.contact_load / (one.contact_load + one.film_load)),
+        model_form=one_way_error(one.contact_load / (one.contact_load + one.film_load), one.left_out),
     )
     decision = Decision(
         "one-way", "semi-periodic", scene.numerics.tolerance, film_words=_words(one, error), notes=one.report.notes

@@ -26,6 +26,7 @@ from .trial import Before, Trial, both_conditions, presses, too_much_film, too_t
 TOLERANCE = 2e-3  # of the load
 SHARES, LIFTS = (-9.0, 9.0), (-9.0, 9.0)  # ln(F_H/F_C); ln(lift/scale)
 THINNER = 0.5  # of the load over the lift, in logarithms, roughly: 1 between smooth bodies
+EVEN = 0.5  # of the mean gap: a film on the spots that is thicker is that of a whole contact (docs/model-error.md)
 PRESSED = 50e6  # Pa: a Newtonian film above it is sheared at no more than f_b p
 
 
@@ -35,7 +36,8 @@ class OneWay:
     (bool), (nx, ny); forces per width [N/m]; spot_film [m]: that on the spots of the
     contact, by which its gap is lifted; unknown: ln(F_H/F_C) or, where the bodies are lifted, ln(lift/scale), from
     which a neighbour starts, with the film of Moes [m]; and the slope of the balance over it, or the tangent of both
-    conditions (`together`; None: not known)."""
+    conditions (`together`; None: not known); left_out: the deflection of the bodies by the film, which the closure
+    leaves out, its rms over the Hertz strip over the mean gap there [-]."""
 
     x: np.ndarray
     gap: np.ndarray
@@ -54,6 +56,7 @@ class OneWay:
     moes_film: float
     slope: float | None
     tangent: np.ndarray | None
+    left_out: float
     report: Report
 
     @property
@@ -93,13 +96,25 @@ def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLER
     report = Report(
         "one-way load sharing", root.status, len(root.history), abs(root.value), tolerance,
         {"load": abs(root.value)}, root.history, root.payload.film.sets,
-        ("the bodies are lifted off each other, undeformed",) if apart else (),
+        _notes(problem, root.payload, apart),
     )  # fmt: skip
     result = _result(
         problem, root.payload, apart, found, report, start.slope if start and start.lifted == apart else None
     )
     report.raise_if_failed(result)
     return result
+
+
+def _notes(problem: Problem, at: Trial, apart: bool) -> tuple[str, ...]:
+    if apart:
+        return ("the bodies are lifted off each other, undeformed",)
+    even = at.spot_film / float(at.gap[_strip(problem)].mean())
+    if even <= EVEN:
+        return ()
+    return (
+        f"the film on the spots has {even:.2f} of the mean gap: a film carries what is counted as contact, and f may "
+        "be a tenth too low",
+    )
 
 
 def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, tolerance: float) -> Solved:
@@ -178,5 +193,15 @@ def _result(problem: Problem, at: Trial, apart: bool, found: Solved, report: Rep
         problem.contact.moes_film,
         found.root.slope or slope,
         found.tangent,
+        _left_out(problem, p, at.gap),
         report,
     )
+
+
+def _left_out(problem: Problem, pressure, gap) -> float:
+    strip = _strip(problem)
+    return float(problem.operator.apply(pressure)[strip].std() / gap[strip].mean())
+
+
+def _strip(problem: Problem) -> np.ndarray:
+    return np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])

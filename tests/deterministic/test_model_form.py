@@ -20,14 +20,19 @@ def test_it_is_largest_about_lift_off():
     assert load_sharing_error(math.nan, 1.0) == 0.0 and load_sharing_error(math.inf, 0.0) == 0.0
     films = [load_sharing_error(ratio, 0.0) for ratio in (1.0, 3.0, 5.0, 12.0, 50.0)]
     assert films[0] == MOST and np.all(np.diff(films) <= 0) and films[-1] < 0.002
-    assert one_way_error(0.2) > one_way_error(0.0) > one_way_error(0.9) > 0
+    assert one_way_error(0.2, 0.0) > one_way_error(0.0, 0.0) > one_way_error(0.9, 0.0) > 0
+    left_out = [one_way_error(0.9, u) for u in (0.0, 1e-3, 7e-3, 0.1)]
+    assert np.all(np.diff(left_out) > 0) and left_out[-1] == one_way_error(0.2, 0.0)
 
 
 @pytest.mark.parametrize("closure", ["load", "one-way"])
 def test_a_result_carries_it(closure):
     point = lubfric.friction(SCENE.with_(numerics={"closure": closure}), 0.01)
     share = point.contact_load / SCENE.bodies.load
-    expected = one_way_error(share) if closure == "one-way" else load_sharing_error(math.nan, share)
+    if closure == "one-way":
+        expected = one_way_error(share, point.one_way[-1].left_out)
+    else:
+        expected = load_sharing_error(math.nan, share)
     assert point.uncertainty.model_form == pytest.approx(expected)
 
 
@@ -36,3 +41,21 @@ def test_the_deterministic_film_lies_within_a_few_of_it():
     whole = lubfric.friction(SCENE.with_(numerics={"model": "deterministic", "grid": "given"}), 0.003)
     assert math.isnan(whole.uncertainty.model_form)
     assert abs(shared.coefficient / whole.coefficient - 1) < 3 * shared.uncertainty.model_form
+
+
+def test_what_the_one_way_closure_leaves_out_is_the_deflection_by_its_film():
+    """Summed over cells by the line load and the strip of each column where nothing changes across: the waves run along
+    y = const, so the deflection is that of a plane, found here by Flamant's logarithm between cells."""
+    waves = lubfric.Surface(
+        np.repeat(2e-8 * np.cos(2 * np.pi * np.arange(128) / 16)[:, None], 4, axis=1),
+        (1e-6, 1e-6),
+        periodic_axes=(True, True),
+    )
+    scene = SCENE.with_(numerics={"closure": "one-way", "grid": "given"})
+    one = lubfric.friction(lubfric.prepare(scene, surface=waves), 0.02).one_way[-1]
+    p, dx, e_prime = one.film_pressure.mean(axis=1), one.x[1] - one.x[0], scene.bodies.e_prime
+    ends = (one.x[:, None] - one.x[None, :]) + np.array([-0.5, 0.5])[:, None, None] * dx
+    whole = np.diff(ends * np.log(np.abs(ends)), axis=0)[0]
+    u = -4 / (np.pi * e_prime) * whole @ p
+    strip = np.abs(one.x) <= scene.bodies.half_width
+    assert one.left_out == pytest.approx(u[strip].std() / one.gap[strip].mean(), rel=0.02)

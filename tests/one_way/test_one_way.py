@@ -193,3 +193,17 @@ def test_one_condition_nested_in_the_other_gives_the_same(speed, monkeypatch):
 def test_the_order_of_elimination_has_every_cell_once():
     for shape in ((1, 1), (5, 2), (7, 3), (12, 8)):
         assert sorted(_order(*shape)) == list(range(shape[0] * shape[1]))
+
+
+def test_a_contact_that_a_film_carries_is_told():
+    """110 N, limiting stress: at 0.3 m/s the film on the spots is nearly the whole gap, and the deterministic film
+    counts next to nothing as asperities; at 0.003 m/s they carry."""
+    heavy = SCENE.with_(
+        bodies={"load": 110.0},
+        lubricant={"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e6},
+        numerics={"grid": "auto"},
+    )
+    fast, slow = (lubfric.friction(heavy, speed) for speed in (0.3, 0.003))
+    assert any("a film carries what is counted as contact" in note for note in fast.report.notes)
+    assert not any("counted as contact" in note for note in slow.report.notes)
+    assert fast.one_way[-1].spot_film > 0.5 * fast.mean_gap and slow.one_way[-1].spot_film < 0.5 * slow.mean_gap

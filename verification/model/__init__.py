@@ -80,7 +80,7 @@ def model_error(level: str, folder: Path | None = None, scene: Scene | None = No
             if d.method == "one-way" and d.speed in PROMISED:
                 name = f"one-way at {d.speed:g} m/s, {d.surfaces} surfaces: rms of f"
                 yield Check(name, d.rms, PROMISED[d.speed], 0.0, "deterministic film", AT_MOST)
-    ratios = [d.rms / summary.told(d) for d in gathered if d.method in summary.TOLD_BY and d.surfaces > 1]
+    ratios = [d.rms / d.told for d in gathered if d.method in held_out.TELLING and d.surfaces > 1]
     if ratios:  # at the quick level each group has one surface
         name = "largest rms of f over uncertainty.model_form"
         yield Check(name, max(ratios), MOST_OVER, 0.0, "lubfric.validity.model_form", AT_MOST)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -52,7 +53,8 @@ class Setting:
 
 @dataclass(frozen=True)
 class Point:
-    """One operating point by one method. A failure has NaN and its words."""
+    """One operating point by one method; told: what its result says of the error of its model. A failure has NaN and
+    its words."""
 
     setting: Setting
     speed: float
@@ -63,6 +65,7 @@ class Point:
     film_ratio: float
     seconds: float
     failure: str = ""
+    told: float = math.nan
 
 
 FLUIDS = {
@@ -160,6 +163,7 @@ def _sweep(setting: Setting, method: str, model: Prepared) -> list[Point]:
                 result.mean_gap,
                 result.film_to_roughness_ratio,
                 time.process_time() - begun,
+                told=result.uncertainty.model_form,
             )
         )
     return found

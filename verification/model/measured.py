@@ -7,13 +7,16 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 import lubfric
 from lubfric.prepared import Prepared
 from lubfric.scene import Scene
 
 from .. import kept
-from ..check import AT_MOST, Check, Item, Table
+from ..check import AT_LEAST, AT_MOST, Check, Item, Table
 from . import summary
+from .held_out import ONE, TELLING, told_ratios
 from .measure import BOX, REFERENCE, WIDTH, Point, Setting, all_points, numerics_of
 
 AXES = ("x", "y")
@@ -31,6 +34,10 @@ def measured_map(scene: Scene, cells: int, speeds: tuple[float, ...], folder: Pa
     yield Table("measured-map", f"Each model against the deterministic film: {name}", *summary.table(gathered))
     failed = sum(d.failures for d in gathered if d.method == REFERENCE)
     yield Check("points of the deterministic film that failed", failed, 0.0, 0.0, "the solver's own report", AT_MOST)
+    for method in TELLING:
+        ratios = told_ratios(found, method)
+        words = f"{method}: share of {ratios.size} points within model_form"
+        yield Check(words, float(np.mean(ratios <= 1)), ONE, 0.0, "deterministic film", AT_LEAST)
 
 
 def kept_points(folder: Path) -> list[Point]:
