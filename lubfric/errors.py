@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-TO_DO = ("give ", "leave ", "write ")  # begin a way out, as against a range or the values that are allowed
-
 
 class LubfricError(Exception):
     """Base class: catch this to catch everything lubfric raises on purpose.
@@ -30,17 +28,16 @@ class InputError(LubfricError, ValueError):
     """An input is outside its allowed range, raised before any work starts.
 
     The message names the quantity, the value, the allowed range and the unit. ``quantity``, which begins it (``also``:
-    others it is about), and ``allowed``, the range or what to do ("give ...", "leave it out"), can be read off the
-    error.
+    others it is about), ``allowed``, and ``way_out``, what to do where no range says it, can be read off the error.
     """
 
-    def __init__(self, said: str, quantity: str = "", allowed: str = "", also: tuple[str, ...] = ()):
-        super().__init__(said, quantity, allowed, also)
-        self.said, self.quantity, self.allowed, self.also = said, quantity, allowed, also
+    def __init__(self, said: str, quantity: str = "", allowed: str = "", way_out: str = "", also: tuple[str, ...] = ()):
+        super().__init__(said, quantity, allowed, way_out, also)
+        self.said, self.quantity, self.allowed, self.way_out, self.also = said, quantity, allowed, way_out, also
 
     def worded(self) -> str:
-        lead = "; " if self.allowed.startswith(TO_DO) else "; allowed: "
-        return f"{self.quantity}{self.said}{self.allowed and lead + self.allowed}"
+        allowed = self.allowed and f"; allowed: {self.allowed}"
+        return f"{self.quantity}{self.said}{allowed}{self.way_out and '; ' + self.way_out}"
 
 
 class OutputError(LubfricError, OSError):

@@ -98,7 +98,7 @@ class Roughness(Brief):
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and not isinstance(self.file, str):
-            raise InputError(f" = {validate.shown(self.file)}", "surface.file", "write a path in quotes")
+            raise InputError(f" = {validate.shown(self.file)}", "surface.file", way_out="write a path in quotes")
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:
@@ -112,7 +112,7 @@ def not_for_this(name: str, value: Any, generated: bool) -> InputError:
     """The error for a key that has no meaning for the kind of map there is."""
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     told = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
-    return InputError(told, f"surface.{name}", "leave it out")
+    return InputError(told, f"surface.{name}", way_out="leave it out")
 
 
 def check_keys(given: dict[str, Any]) -> None:

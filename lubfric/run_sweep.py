@@ -119,13 +119,16 @@ def _doubts(curve) -> tuple[str, ...]:
     if not told:
         return ()
     worst = max(told, key=lambda p: p.uncertainty.sampling if math.isfinite(p.uncertainty.sampling) else math.inf)
-    first = f"error of f at {worst.speed:g} m/s: {'; '.join(worst.uncertainty.notes)}"
+    first = f"error of f at {worst.speed:.4g} m/s: {'; '.join(worst.uncertainty.notes)}"
     if others := len(told) - 1:
         first += f" (the largest; result.json has {others} more {'speeds' if others > 1 else 'speed'})"
     few = [p.speed for p in told if p.uncertainty.few_spots]
     if not few or few == [worst.speed]:
         return (first,)
-    return first, f"few spots carry the load at {', '.join(f'{u:g}' for u in few)} m/s: these intervals are too narrow"
+    return (
+        first,
+        f"few spots carry the load at {', '.join(f'{u:.4g}' for u in few)} m/s: these intervals are too narrow",
+    )
 
 
 def _beside(curve) -> tuple[str, ...]:
@@ -135,8 +138,10 @@ def _beside(curve) -> tuple[str, ...]:
         return ()
     worst = max(told, key=lambda p: p.uncertainty.model_form)
     count = f"{len(told)} {'speeds' if len(told) > 1 else 'speed'}"
-    most = f"at most {percent(worst.uncertainty.model_form)}, at {worst.speed:g} m/s"
-    return (f"not in the intervals: error of load sharing itself, larger than they are at {count} ({most})",)
+    most = f"up to {percent(worst.uncertainty.model_form)} at {worst.speed:.4g} m/s"
+    return (
+        f"not in the intervals: the error of load sharing itself, {most}; it is larger than the interval at {count}",
+    )
 
 
 def _stated(found: Uncertainty) -> float:

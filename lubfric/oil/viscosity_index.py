@@ -76,7 +76,7 @@ def viscosity_at_100(nu40: float, index: float) -> float:
             f" = {index:g} (-) with nu40 = {nu40:g} m²/s gives less than 2e-6 m²/s at 100 °C, where the index is not "
             "defined",
             "viscosity_index",
-            "give the kinematic viscosities at 40 and 100 °C instead",
+            way_out="give the kinematic viscosities at 40 and 100 °C instead",
             also=("nu40",),
         )
     if _index(at_40, 0.999 * at_40) < index:

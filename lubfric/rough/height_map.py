@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
+from scipy.fft import next_fast_len
 
 from .. import validate
 from ..errors import InputError
@@ -56,15 +60,27 @@ def extended(scene: Scene) -> bool:
 
 def whole_map(scene: Scene) -> Surface:
     """The heights of both bodies as one map: measured ones whole and on their own grid, generated ones on the contact
-    grid."""
-    maps = [_of_one_body(scene, rough, name) for rough, name in rough_bodies(scene)]
+    grid. A generated one that faces a measured one is as large as that: repeated along it, a few of its summits would
+    stand for all."""
+    bodies, domain, found = rough_bodies(scene), scene.contact, {}
+    for rough, name in bodies:
+        if rough.file is not None:
+            with named(name):
+                found[name] = measured_map(rough, name)
+            domain = over(found[name], scene.contact)
+    for rough, name in bodies:
+        if rough.file is None:
+            with named(name):
+                found[name] = generated_map(rough, domain, name)
+    maps = [found[name] for _, name in bodies]
     return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
 
 
-def _of_one_body(scene: Scene, rough: Roughness, name: str) -> Surface:
-    """The map of one body: generated on the contact grid, or measured, whole and on its own grid."""
-    with named(name):
-        return measured_map(rough, name) if rough.file is not None else generated_map(rough, scene.contact, name)
+def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
+    """``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, without one, of the surface."""
+    spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
+    nx, ny = (next_fast_len(math.ceil(a / d * (1 - 1e-9))) for a, d in zip(surface.size, spacing))
+    return replace(domain, shape=(nx, ny), spacing=spacing)
 
 
 def check_grid(scene: Scene, surface: Surface) -> None:

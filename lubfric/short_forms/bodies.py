@@ -53,7 +53,7 @@ def reduced_radius(first: float, second: float) -> float:
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
             raise InputError(
-                f" has {radius!r}", "bodies.radii", "give radii in m, inf for a plane, negative for a hollow"
+                f" has {radius!r}", "bodies.radii", way_out="give radii in m, inf for a plane, negative for a hollow"
             )
         curvature += 1 / radius
     if curvature <= 0:

@@ -73,7 +73,7 @@ def fitted(surface, axis: int, count: int, edge: str | None):
             np.take(surface.heights, pick, axis),
             closed=count % n == 0,
             mask=mask,
-            note=f"repeated along {'xy'[axis]} from {n} to {count} points",
+            note=f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points",
         )
     need = count if edge is None else prepare.points_to_close(count, edge)
     if need > n:

@@ -9,7 +9,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.cli import main
-from lubfric.rough.height_map import contact_map
+from lubfric.rough.height_map import contact_map, whole_map
 from lubfric.roughness import Roughness
 from lubfric.scene import ContactDomain
 
@@ -67,6 +67,24 @@ def test_the_order_of_two_measured_bodies_does_not_matter(maps):
     texts = [f"[surface]\n{a}[counterface]\n{b}" for a, b in ((one, one + "sq = 3e-8\n"), (one + "sq = 3e-8\n", one))]
     found = [lubfric.friction(lubfric.load_scene(scene_file(maps, text))).coefficient for text in texts]
     assert found[0] == pytest.approx(found[1], rel=5e-3)
+
+
+@pytest.mark.parametrize("generated", ["surface", "counterface"])
+def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path, generated):
+    """Repeated along the map, the summits of one patch would stand for all of it, and its stated error would be too
+    small."""
+    large = lubfric.generate_surface((300, 320), GRID, sq=1e-9, correlation_length=4e-6, acf="gaussian", seed=5)
+    np.save(tmp_path / "large.npy", large.heights)
+    other = {"surface": "counterface", "counterface": "surface"}[generated]
+    text = GENERATED.replace("[surface]", f"[{generated}]") + f"[{other}]\nfile = 'large.npy'\nspacing = {GRID}\n"
+    scene = lubfric.load_scene(scene_file(tmp_path, text))
+    nx, ny = scene.contact.shape
+    z = whole_map(scene).heights
+    assert z.shape == large.shape and z.std() == pytest.approx(1e-7, rel=0.1)
+    for first, second in ((z[:-nx], z[nx:]), (z[:, :-ny], z[:, ny:])):
+        assert abs(np.corrcoef(first.ravel(), second.ravel())[0, 1]) < 0.3
+    unlimited = scene.with_(contact={"shape": None, "spacing": None})  # the map has a grid for both
+    assert whole_map(unlimited).shape == large.shape
 
 
 def test_a_map_shorter_than_the_strip_leads_to_what_can_be_done(maps):
