@@ -15,7 +15,8 @@ class Lines(Protocol):
 
     - ``scene``: the scene whose surface it is; ``cells``: those of every line; ``lengths``: correlation lengths [m] at
       1/e along x and y.
-    - ``available`` [m]: length of the longest line there is (infinite where more can be made).
+    - ``available`` [m]: length of the longest line there is (infinite where more can be made); ``pieces``: number of
+      different pieces (`pair`), likewise.
     - ``nested``: True where a longer line holds the shorter ones, and so takes their place. False where it is another
       place of the surface, and so joins them.
     - ``exact_sq``: every line has exactly the Sq of the surface.
@@ -29,6 +30,8 @@ class Lines(Protocol):
     def lengths(self) -> tuple[float, float]: ...
     @property
     def available(self) -> float: ...
+    @property
+    def pieces(self) -> float: ...
     @property
     def nested(self) -> bool: ...
     @property

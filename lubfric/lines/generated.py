@@ -26,6 +26,7 @@ class GeneratedLines:
     cells: Cells
     lengths: tuple[float, float]
     available: float = math.inf
+    pieces: float = math.inf
     nested: bool = False
 
     @property

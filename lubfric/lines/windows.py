@@ -41,6 +41,11 @@ class MeasuredLines:
         return (self.surface.shape[1] - self._blend()) * self.surface.spacing[1]
 
     @property
+    def pieces(self) -> float:
+        """One of each window."""
+        return len(self.starts)
+
+    @property
     def available(self) -> float:
         """Longest line [m] that the map holds."""
         unit, (count, step) = (
@@ -65,9 +70,9 @@ class MeasuredLines:
         return max(1, round(length / self.window))
 
     def pair(self, index: int, length: float) -> Surface:
-        """A piece of one window on the map's own cells."""
+        """A piece of window number ``index`` on the map's own cells."""
         fx, fy = self.cells.factors
-        whole = self._columns(self.starts[index % len(self.starts)])
+        whole = self._columns(self.starts[index])
         blend, unit = self._blend(), 4 * fy
         rows = min(whole.shape[1] - blend, round(length / self.surface.spacing[1])) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2

@@ -139,14 +139,18 @@ def _ratio(fine, coarse, step, correlation) -> tuple[float, float]:
 
 
 def mean_error(steps) -> BlockError:
-    """Error of the mean change of the gap over several pieces [m]. It is zero where there are none to compare."""
+    """Error of the mean change of the gap over several pieces [m]. It is zero where there are none to compare.
+
+    Pieces too short for blocks tell it by what they differ by. Fewer than three of these tell no scatter: it is taken
+    to be as large as the changes themselves.
+    """
     if not steps:
         return BlockError(0.0, 1)
-    if not all(math.isfinite(g.error.error) for g in steps):  # too short for blocks: what the pieces differ by
-        if len(steps) < FEWEST:
-            return BlockError(math.inf, 0)
-        gaps = [g.gap for g in steps]
-        return BlockError(float(np.std(gaps, ddof=1)) / math.sqrt(len(steps)), len(steps) - 1)
+    if not all(math.isfinite(g.error.error) for g in steps):
+        gaps = np.array([g.gap for g in steps])
+        few = gaps.size < FEWEST
+        scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))
+        return BlockError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
     found = add_errors(*(g.error for g in steps))
     return BlockError(found.error / len(steps), found.freedom)
 

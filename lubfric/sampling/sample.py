@@ -210,14 +210,20 @@ def _grid(prepared, speed: float, found: Solved, response: Response, before) -> 
     per_gap = response.per_gap("coefficient")
     enough = budget.CONTACT_GRID * numerics.tolerance / per_gap
     scatter = PAIR_SHARE * numerics.sampling_tolerance / per_gap
+    most = min(MOST_PAIRS, lines.pieces)
     near = tuple(step.at_load(load) for step in before)
-    if near and mean_error(near).error <= scatter and gap_left(near) <= KEPT * enough:
+    if near and _settled(near, most, scatter) and gap_left(near) <= KEPT * enough:
         return near
     steps: list[GridStep] = []
     point = at(prepared, speed, found.contact, balance)
-    while not steps or (len(steps) < MOST_PAIRS and mean_error(steps).error > scatter):
-        if len(steps) == FEWEST and not math.isfinite(steps[0].error.error):
-            break
+    while not _settled(steps, most, scatter):
         length = PAIR * lines.lengths[1]
         steps.append(grid_step(lines, len(steps), length, point, balance.film, load, response.slopes.gap, enough))
     return tuple(steps)
+
+
+def _settled(steps, most: float, scatter: float) -> bool:
+    """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more, or they
+    are three too short for blocks."""
+    short = len(steps) >= FEWEST and not math.isfinite(steps[0].error.error)
+    return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)

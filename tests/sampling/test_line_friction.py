@@ -16,7 +16,8 @@ from lubfric.point.adapt import solved
 from lubfric.prepared import on_halved_cells
 from lubfric.rough.height_map import contact_map
 from lubfric.sampling import line_friction as lines_solved
-from lubfric.sampling.grid_pair import gap_left, mean_of
+from lubfric.sampling.grid_pair import GridStep, gap_left, mean_error, mean_of
+from lubfric.sampling.influence import BlockError
 from lubfric.sampling.line_friction import line_friction
 from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.response import Response, Slopes, touched_length
@@ -224,3 +225,37 @@ def test_contact_that_cells_hide_matters_most_where_there_is_no_friction():
     model = lubfric.prepare(PAPER)
     shares = [hidden_share(model, SimpleNamespace(coefficient=f), model.surface, 1e-9) for f in (0.02, 0.01, 0.0)]
     assert shares[1] == pytest.approx(2 * shares[0], rel=1e-12) and 0 < shares[0] < shares[2] == math.inf
+
+
+def test_no_piece_of_a_map_is_compared_twice(tmp_path):
+    """A map of a single window, ground along x: the same piece again would say that its scatter is none."""
+    heights = lubfric.generate_surface(
+        (128, 512), (0.5e-6, 0.5e-6), sq=80e-9, correlation_length=(2.2e-6, 40e-6), seed=2
+    ).heights
+    np.save(tmp_path / "map.npy", heights[:, :200])
+    rough = {"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "extension": "mirror"}
+    scene = lubfric.load_scene(
+        {
+            "bodies": {"radius": 2e-3, "width": 6e-3, "load": 20.0, "e_prime": 231e9}
+            | {"boundary_friction_coefficient": 0.1},
+            "lubricant": {"viscosity": 0.36, "pressure_viscosity_coefficient": 2.5e-8, "eyring_stress": 5e6},
+            "motion": {"entrainment_speed": 0.01, "slide_roll_ratio": 1.0},
+            "surface": rough,
+        }
+    )
+    model = lubfric.prepare(scene)
+    windows = model.lines.pieces
+    pieces = {model.lines.pair(i, 1e-3).heights.tobytes() for i in range(windows)}
+    grid = line_friction(model, 0.01)[1].grid
+    assert len(pieces) == windows and len(grid) <= windows
+    with pytest.raises(IndexError):
+        model.lines.pair(windows, 1e-3)
+
+
+def test_few_short_pieces_scatter_by_as_much_as_they_change():
+    def piece(gap):
+        return GridStep(gap, BlockError(np.inf, 0), 0.0, np.nan, 1.0, 0.0, 0.0, 1.0)
+
+    assert mean_error([piece(-3e-9)]) == BlockError(pytest.approx(3e-9), 1)
+    assert mean_error([piece(3e-9), piece(4e-9)]) == BlockError(pytest.approx(2.5e-9), 2)
+    assert mean_error([piece(1e-9), piece(2e-9), piece(3e-9)]) == BlockError(pytest.approx(1e-9 / 3**0.5), 2)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .measure import REFERENCE, Point
+from .measure import METHODS, REFERENCE, Point
 
 FASTEST = 'Eq. (8) over "hertz"'
 
@@ -101,7 +101,7 @@ def rows(found: list[Deviation]) -> tuple[tuple, ...]:
 def table(found: list[Deviation]) -> tuple[list[str], list[list[str]]]:
     """Columns and rows of docs/model-error.md: a row for each load, autocorrelation and speed, with mean / rms [%] of f
     by every method."""
-    methods = [m for m in dict.fromkeys(d.method for d in found) if m != REFERENCE]
+    methods = [m for m in METHODS if m != REFERENCE and any(d.method == m for d in found)]
     rows = []
     for key in dict.fromkeys((d.load, d.acf, d.speed) for d in found):
         here = {d.method: d for d in found if (d.load, d.acf, d.speed) == key}
