@@ -178,9 +178,8 @@ def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     if not math.isfinite(sampling):
         sampling, notes = math.nan, ("the map is too short along y, or holds too few windows, for a standard error",)
     needed = (sampling / scene.numerics.sampling_tolerance) ** 2 if line.map_ends else 1.0
-    known = uncertainty_of(
-        found.coefficient, relative, sampling, error, line.together, scene, needed if needed > 1 else 1.0, notes
-    )
+    needed = 1.0 if needed < 1 else needed  # NaN where the error is not known
+    known = uncertainty_of(found.coefficient, relative, sampling, error, line.together, scene, needed, notes)
     return known, field_errors_of(errors | {"coefficient": math.hypot(relative, sampling)}, why_not(line.point))
 
 

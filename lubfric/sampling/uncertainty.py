@@ -26,7 +26,7 @@ class Uncertainty:
         the surface
     participation : number of equally loaded spots that would carry as unevenly
     length : of the line used [m]
-    area_needed : how many times more of a measured map would be needed (1: enough)
+    area_needed : how many times more of a measured map would be needed (1: enough; NaN: ``sampling`` is not known)
     model_form : estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the interval;
         NaN where it is not known
     """

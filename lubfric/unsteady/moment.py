@@ -71,7 +71,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
     shear, heat = film_shear(sharing, scene, time, sliding, solution)
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     force = boundary + shear.total
-    sense = np.sign(sliding) if sliding else 1.0
+    sense = np.sign(sliding) or np.sign(setting.contact.speed.before(time)) or 1.0
     state = contact.state
     balance = state.volume_residual if contact.load > 0.0 else 0.0
     return {

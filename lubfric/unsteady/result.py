@@ -49,9 +49,10 @@ class TransientResult(Shown):
     Attributes
     ----------
     columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
-        direction in which it slides over the lower one, over F_T; friction_force and its parts [N], along +x; mean_film
-        and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the pressurised film; net_inflow,
-        stored and cavity_growth [m²/s], the balance of the lubricant over the last step, per unit width; time_error
+        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its
+        parts [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of
+        the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last
+        step, per unit width; time_error
         [-], the local error of the last step over the tolerance; sampling_error [-], the relative standard error of f
         because the line of rough surface is finite (`lubfric.sampling.moment_error`). It is the same surface at all
         times, so that error rises and falls with f as one; inlet_film_factor [-], flash_temperature_rise and

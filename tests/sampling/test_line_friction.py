@@ -232,7 +232,7 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     heights = lubfric.generate_surface(
         (128, 512), (0.5e-6, 0.5e-6), sq=80e-9, correlation_length=(2.2e-6, 40e-6), seed=2
     ).heights
-    np.save(tmp_path / "map.npy", heights[:, :200])
+    np.save(tmp_path / "map.npy", heights[:40, :200])
     rough = {"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "extension": "mirror"}
     scene = lubfric.load_scene(
         {
@@ -250,6 +250,8 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     assert len(pieces) == windows and len(grid) <= windows
     with pytest.raises(IndexError):
         model.lines.pair(windows, 1e-3)
+    unsure = lubfric.friction(model, 0.01).uncertainty
+    assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
 
 
 def test_few_short_pieces_scatter_by_as_much_as_they_change():

@@ -44,6 +44,17 @@ def test_a_steady_scene_stays_at_the_steady_answer():
     assert found.coefficient[-1] == pytest.approx(found.coefficient[0], rel=3e-4)
 
 
+def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
+    """The map is mirrored with the motion; the coefficient is that of the steady model, sign and all."""
+    rolling = SCENE.with_(motion={"slide_roll_ratio": 0.0, "entrainment_speed": -0.02})
+    heights = prepare(rolling).surface
+    mirrored = prepare(rolling, replace(heights, heights=heights.heights[::-1]))
+    found = run(Transient(0.1), [0.0, 0.1], mirrored)
+    forwards = lubfric.friction(rolling.with_(motion={"entrainment_speed": 0.02}))
+    np.testing.assert_allclose(found.coefficient, lubfric.friction(mirrored).coefficient, rtol=5e-3)
+    np.testing.assert_allclose(found.coefficient, forwards.coefficient, rtol=5e-3)
+
+
 def test_a_slow_ramp_follows_the_stribeck_curve():
     speed = Ramp(start=0.02, end=0.1, until=2.0)
     found = run(Transient(2.0, speed=speed), np.linspace(0, 2, 6))
