@@ -9,7 +9,7 @@ from typing import Self
 
 from ..film.contract import Film, FilmLevel
 from ..report import CONVERGED, Report
-from ..roots import increasing_root
+from ..roots import Root, increasing_root
 from ..rough.contract import ContactState
 from . import total_pressure
 from .forces import Forces, forces
@@ -18,6 +18,7 @@ from .split import BOUNDS, divided, foretold_split
 
 THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
 NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
+SPLIT, FLATTEST, ROOTS = 4.0, 0.1, 4  # of ln(F_H/F_C), where a film is imposed; a slope not known; searches
 LARGEST_DRIFT = 0.3  # of ln(F_H/F_C), that one step between speeds is taken to miss like the one before
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
 
@@ -119,15 +120,18 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
     begin, foretold = (point.guessed_split(), None) if start is None else _begin(point, start)
-    root = increasing_root(
-        partial(volume_residual if by_load else load_residual, point),
-        begin if by_load else begin - THICKER,
-        step=FIRST_STEP if by_load and start is None else NEXT_STEP,
-        bounds=BOUNDS,
-        tolerance=point.settings.balance_tolerance,
-        slope=foretold,
-        first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
-    )
+    if by_load:
+        root = increasing_root(
+            partial(volume_residual, point),
+            begin,
+            step=FIRST_STEP if start is None else NEXT_STEP,
+            bounds=BOUNDS,
+            tolerance=point.settings.balance_tolerance,
+            slope=foretold,
+            first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
+        )
+    else:
+        root = _imposed(point, begin - THICKER, first)
     found = root.payload
     residuals = {"volume": min(root.history), "load": 0.0}
     if not by_load:
@@ -159,6 +163,23 @@ def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[flo
     load = point.scene.bodies.load
     found = point.trial_with_imposed_film(divided(load, split)[0], last)
     return math.log((found.contact_load + found.film_load) / load), found
+
+
+def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
+    """The root of `load_residual`. Where what the contact gains the film loses, the load hardly tells the division: the
+    search goes on until the residual over its slope is within `SPLIT` of the balance's tolerance too."""
+    tolerance, value, x, last = point.settings.balance_tolerance, None, begin, first
+    before: tuple[float, ...] = ()
+    for _ in range(ROOTS):
+        root = increasing_root(
+            partial(load_residual, point), x, step=NEXT_STEP, bounds=BOUNDS, tolerance=tolerance, first=(value, last)
+        )
+        root = replace(root, history=(*before, *root.history[bool(before) :]))
+        needed = SPLIT * point.settings.balance_tolerance * abs(root.slope or FLATTEST)
+        if point.scene.numerics.balance_tolerance is not None or abs(root.value) <= needed or root.status != CONVERGED:
+            return root
+        tolerance, value, x, last, before = needed, root.value, root.x, root.payload, root.history
+    return root
 
 
 def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:

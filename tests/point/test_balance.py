@@ -63,6 +63,28 @@ def test_both_closures_find_the_one_balance(speed):
     assert separation.film_load == pytest.approx(load.film_load, rel=1e-6)
 
 
+def test_an_imposed_film_finds_the_division_where_the_load_hardly_tells_it():
+    """Over the whole patch the mean gap is many films thick: what the contact gains the film loses."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.005034811870123, "width": 0.004010034878559, "load": 732.49, "hardness": 4.674e9},
+        lubricant={
+            "viscosity": 0.33863375416467817,
+            "pressure_viscosity_coefficient": 1.9102448901951204e-08,
+            "density_law": "dowson-higginson",
+            "eyring_stress": 5e6,
+            "limiting_stress_coefficient": 0.05,
+            "limiting_stress_offset": 2e6,
+        },
+        motion={"entrainment_speed": -3.0228334218e-4, "slide_roll_ratio": 0.02},
+        surface={"sq": 2.4961498e-8, "correlation_length": 3.328283219e-5, "seed": 748477722},
+        contact={"region": "box", "shape": (48, 64), "spacing": 6.71260919e-6},
+        numerics={"sampling": "patch", "film_deflection": "auto", "heat": "off"},
+    )
+    load, separation = (lubfric.friction(scene.with_(numerics={"closure": c})) for c in ("load", "separation"))
+    assert separation.mean_gap > 20 * separation.central_film
+    assert separation.coefficient == pytest.approx(load.coefficient, rel=0.015)
+
+
 def test_film_share_grows_with_speed():
     shares = [shared(point(u, tolerance=1e-8)).film_load for u in np.geomspace(1e-4, 10, 30)]
     assert np.all(np.diff(shares) >= 0) and shares[0] < 1e-3 and shares[-1] == 1.0
