@@ -7,12 +7,16 @@ its range. `lubfric.history.read` makes them from a scene file or a CSV file.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import validate
 from ..errors import InputError
+from .corners import corners
+
+ROUNDING = 1e-12  # relative: times that are closer are one time
 
 
 class History:
@@ -86,7 +90,8 @@ class Table(History):
     """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
 
     A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table
-    must last as long as the run.
+    must last as long as the run. A step ends at every corner (`lubfric.history.corners`), so that none leaps over a
+    pulse.
     """
 
     times: tuple[float, ...] = ()
@@ -125,15 +130,32 @@ class Table(History):
 
     def _value(self, time: float, side: str) -> float:
         t, v = self.times, self.values
-        if self.repeat and time > 0.0:
-            laps = math.floor(time / t[-1])
-            time -= laps * t[-1]
-            if laps and side == "left" and time <= 1e-12 * t[-1]:
-                time = t[-1]
-        i = int(np.searchsorted(np.asarray(t), time, "left" if side == "left" else "right"))
+        time = self._on_a_row(time, side)
+        i = bisect_left(t, time) if side == "left" else bisect_right(t, time)
         if i == 0 or i == len(t):
             return v[min(i, len(t) - 1)]
         return v[i - 1] + (v[i] - v[i - 1]) * (time - t[i - 1]) / (t[i] - t[i - 1])
+
+    def _on_a_row(self, time: float, side: str) -> float:
+        """``time`` in the first period, and on the row of the table from which only rounding parts it: 0.1 + 0.2 s is
+        a jump at 0.3 s."""
+        t = self.times
+        near = ROUNDING * max(time, t[-1])
+        if self.repeat and time > 0.0:
+            laps = math.floor((time + near) / t[-1])
+            time = max(time - laps * t[-1], 0.0)
+            if laps and side == "left" and time <= near:
+                return t[-1]
+        i = bisect_left(t, time)
+        return next((row for row in t[max(i - 1, 0) : i + 1] if abs(row - time) <= near), time)
+
+    def stops(self, duration: float) -> tuple[float, ...]:
+        """The corners, of every period."""
+        found = np.array([*corners(np.array(self.times), np.array(self.values)), *self.times[-1:]])
+        if self.repeat:
+            laps = np.arange(math.ceil(duration / self.times[-1]))
+            found = (found[None, :] + laps[:, None] * self.times[-1]).ravel()
+        return tuple(float(x) for x in found if 0.0 < x < duration)
 
     def jumps(self, duration: float) -> tuple[float, ...]:
         """Times [s] at which the value jumps, 0 <= t < duration."""

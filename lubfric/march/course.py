@@ -14,6 +14,7 @@ from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 from .bdf import Progress, Solver, advance
 
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good
+ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.history.kinds`
 
 
 @dataclass(frozen=True)
@@ -42,11 +43,24 @@ def checked_times(times) -> np.ndarray:
 
 
 def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
-    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change."""
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Times that only rounding parts
+    are one: no step is as short as that."""
     histories, end = tuple(histories), float(times[-1])
-    jumps = frozenset(t for h in histories for t in h.jumps(end))
-    stops = sorted({*times.tolist(), *jumps, *(t for h in histories for t in h.stops(end))})
-    return Plan(times, tuple(stops), jumps, first_step, tolerance)
+    jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
+    stops = np.union1d(times, jumps)
+    stops = np.union1d(stops, _onto(stops, [t for h in histories for t in h.stops(end)]))
+    return Plan(times, tuple(stops.tolist()), frozenset(jumps.tolist()), first_step, tolerance)
+
+
+def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
+    """The times ``found`` [s], rising, each on the one of ``known``, or on the one before it, from which only rounding
+    parts it."""
+    times = np.unique(np.array(found, float))
+    times = times[np.diff(times, prepend=-np.inf) > ROUNDING * np.abs(times)]
+    right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
+    for near in (known[right - 1], known[np.minimum(right, known.size - 1)]):
+        times = np.where(np.abs(near - times) <= ROUNDING * np.abs(times), near, times)
+    return np.unique(times)
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
