@@ -8,7 +8,7 @@ from functools import partial
 from typing import Self
 
 from ..film.contract import Film, FilmLevel
-from ..report import CONVERGED, Report
+from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..roots import Root, increasing_root
 from ..rough.contract import ContactState
 from . import total_pressure
@@ -167,7 +167,7 @@ def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[flo
 
 def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
     """The root of `load_residual`. Where what the contact gains the film loses, the load hardly tells the division: the
-    search goes on until the residual over its slope is within `SPLIT` of the balance's tolerance too."""
+    search goes on until the residual over its slope is within `SPLIT` of the balance's tolerance too, or has failed."""
     tolerance, value, x, last = point.settings.balance_tolerance, None, begin, first
     before: tuple[float, ...] = ()
     for _ in range(ROOTS):
@@ -179,7 +179,7 @@ def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
         if point.scene.numerics.balance_tolerance is not None or abs(root.value) <= needed or root.status != CONVERGED:
             return root
         tolerance, value, x, last, before = needed, root.value, root.x, root.payload, root.history
-    return root
+    return replace(root, status=ITERATION_LIMIT)
 
 
 def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
