@@ -15,7 +15,7 @@ AT_40 = 40 + CELSIUS
 
 def resolve(given: dict, old) -> dict:
     """Plain fields of [lubricant] from an oil at ``temperature`` [K] or ``temperature_celsius``: viscosity,
-    pressure-viscosity coefficient (as given, else estimated) and temperature coefficient.
+    pressure-viscosity coefficient and temperature coefficient (both as given, else of the oil).
 
     The oil is given by ``grade`` with ``viscosity_index``, by ``nu40`` and ``nu100`` [m²/s], by ``viscosity_table``
     (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
@@ -46,7 +46,7 @@ def resolve(given: dict, old) -> dict:
     temperature = given.pop("temperature", getattr(old, "temperature", None))
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
-    return given | fields_of(oil.with_(**changed), temperature)
+    return fields_of(oil.with_(**changed), temperature) | _own_coefficient(old) | given
 
 
 def fields_of(oil: Oil, temperature: float) -> dict:
@@ -60,6 +60,14 @@ def fields_of(oil: Oil, temperature: float) -> dict:
         "conductivity": oil.thermal_conductivity,
         "oil": oil,
     }
+
+
+def _own_coefficient(old) -> dict:
+    """The temperature coefficient of the lubricant before, where it was given and is not that of its oil."""
+    if getattr(old, "oil", None) is None:
+        return {}
+    of_oil = old.oil.temperature_coefficient(old.temperature)
+    return {} if old.temperature_coefficient == of_oil else {"temperature_coefficient": old.temperature_coefficient}
 
 
 def _kelvin(celsius) -> float:
