@@ -29,7 +29,7 @@ def resolve(given: dict, old) -> dict:
             return given
         if "viscosity" in given:
             return {"oil": None} | given
-        if not {"temperature", "pressure_viscosity_coefficient"} & set(given):
+        if not {"temperature", "pressure_viscosity_coefficient", "conductivity"} & set(given):
             return given
     if "viscosity" in given:
         raise InputError(

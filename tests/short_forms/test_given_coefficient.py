@@ -42,3 +42,9 @@ def test_it_reaches_the_friction_of_a_hot_film():
     f, of_numbers = (lubfric.friction(s, 5.0).coefficient for s in (beside, base.with_(lubricant=numbers)))
     assert f == pytest.approx(of_numbers, rel=1e-12)
     assert f > 1.05 * lubfric.friction(base.with_(lubricant=OIL), 5.0).coefficient
+
+
+def test_a_conductivity_given_later_is_kept_as_well():
+    scene = lubfric.load_scene("paper").with_(lubricant=OIL).with_(lubricant={"conductivity": 0.2})
+    for changed in ({}, {"temperature_celsius": 60}, {"density": 900}):
+        assert scene.with_(lubricant=changed).lubricant.conductivity == 0.2
