@@ -33,7 +33,7 @@ from benchmarks import page
 from lubfric.studies import run
 
 FEW = 10  # every so many batches are run here too
-solve = run.run_piece
+solve = run.rows_of
 
 
 def plan(points: int):
@@ -49,30 +49,30 @@ def plan(points: int):
     return lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, max(points // 100, 1)))
 
 
-def timed(piece):
-    """`run_piece`, with a line in times.jsonl: who, what, when, processor time, memory [MiB]."""
+def timed(batch):
+    """`rows_of`, with a line in times.jsonl: who, what, when, processor time, memory [MiB]."""
     began, used = time.time(), time.process_time()
-    rows = solve(piece)
+    rows = list(solve(batch))
     told = {
         "process": os.getpid(),
-        "piece": piece.batch.curves[0].name,
-        "whole": not any(piece.done.values()),
+        "batch": batch.name,
+        "whole": not batch.known,
         "began": began,
         "ended": time.time(),
         "cpu": time.process_time() - used,
         "memory": int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20,
     }
-    with (Path(piece.folder) / "times.jsonl").open("a") as file:
+    with (Path(batch.folder) / "times.jsonl").open("a") as file:
         file.write(json.dumps(told) + "\n")
     return rows
 
 
-def idle(pieces: list[dict]) -> float:
+def idle(batches: list[dict]) -> float:
     """Share of the time between first and last batch in which a process held none."""
     by_process = defaultdict(list)
-    for piece in pieces:
-        by_process[piece["process"]].append(piece)
-    held = sum(piece["ended"] - piece["began"] for piece in pieces)
+    for batch in batches:
+        by_process[batch["process"]].append(batch)
+    held = sum(batch["ended"] - batch["began"] for batch in batches)
     ends = [(min(p["began"] for p in own), max(p["ended"] for p in own)) for own in by_process.values()]
     first, last = min(b for b, _ in ends), max(e for _, e in ends)
     return 1 - held / ((last - first) * len(ends))
@@ -105,7 +105,7 @@ def main() -> None:
     folder = arguments.out or Path(tempfile.mkdtemp())
     whole = plan(arguments.points)
     few = replace(whole, batches=whole.batches[::FEW])
-    run.run_piece = timed
+    run.rows_of = timed
     lubfric.study(few, store=folder / "few")
     with ProcessPoolExecutor(arguments.workers) as executor:
         result = lubfric.study(whole, executor=executor, store=folder / "all")
@@ -113,29 +113,29 @@ def main() -> None:
     again = lubfric.open_study(folder / "all")
     opened = time.perf_counter() - begun
     size = sum(path.stat().st_size for path in (folder / "all").rglob("*"))
-    alone, pieces = (
+    alone, batches = (
         [json.loads(line) for line in (folder / part / "times.jsonl").read_text().splitlines()]
         for part in ("few", "all")
     )
-    pieces.sort(key=lambda piece: piece["ended"])
-    here = {piece["piece"]: piece["cpu"] for piece in alone if piece["whole"]}
-    there = {piece["piece"]: piece["cpu"] for piece in pieces if piece["whole"]}
+    batches.sort(key=lambda batch: batch["ended"])
+    here = {b["batch"]: b["cpu"] for b in alone if b["whole"]}
+    there = {b["batch"]: b["cpu"] for b in batches if b["whole"]}
     both = sorted(here.keys() & there.keys())
     ratio = sum(here[name] for name in both) / sum(there[name] for name in both)
-    wall, used = pieces[-1]["ended"] - min(p["began"] for p in pieces), sum(p["cpu"] for p in pieces)
-    tenth = max(len(pieces) // 10, 1)
+    wall, used = batches[-1]["ended"] - min(b["began"] for b in batches), sum(b["cpu"] for b in batches)
+    tenth = max(len(batches) // 10, 1)
     rows = [
         ("points", f"{whole.points}, {result.failed} failed, {again.missing} missing"),
-        ("processes", str(len({piece["process"] for piece in pieces}))),
+        ("processes", str(len({b["process"] for b in batches}))),
         ("wall time", f"{wall:.1f} s, {whole.points / wall:.0f} points a second"),
         ("processor time", f"{1e3 * used / whole.points:.2f} ms a point: {used / wall:.2f} cores' worth were had"),
         ("processor time of the same batches, serial over there", f"{ratio:.1%} ({len(both)} batches)"),
-        ("idle", f"{idle(pieces):.1%} of the time of a process"),
+        ("idle", f"{idle(batches):.1%} of the time of a process"),
         (
             "memory of a process",
-            f"{np.median([p['memory'] for p in pieces[:tenth]]):.0f} MiB in the first tenth, "
-            f"{np.median([p['memory'] for p in pieces[-tenth:]]):.0f} MiB in the last, "
-            f"{max(p['memory'] for p in pieces):.0f} MiB at most",
+            f"{np.median([p['memory'] for p in batches[:tenth]]):.0f} MiB in the first tenth, "
+            f"{np.median([p['memory'] for p in batches[-tenth:]]):.0f} MiB in the last, "
+            f"{max(p['memory'] for p in batches):.0f} MiB at most",
         ),
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),
     ]

@@ -4,6 +4,7 @@ agree."""
 import importlib
 import json
 import re
+import sys
 from argparse import ArgumentParser
 from pathlib import Path
 
@@ -39,6 +40,13 @@ def test_a_page_has_no_table_of_results_outside_the_marks(root):
             cells = [cell for line in table.splitlines()[2:] for cell in line.strip("|").split("|")[1:]]
             measured = [cell for cell in cells if re.match(r"\s*[+-]?\d", cell)]
             assert len(measured) <= len(cells) / 2 or (page.name, table.splitlines()[0]) in TYPED, table
+
+
+@pytest.mark.parametrize("script", sorted(p.stem for p in (Path(__file__).parents[2] / "benchmarks").glob("*.py")))
+def test_every_benchmark_finds_what_it_measures(monkeypatch, script):
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2]))
+    monkeypatch.setattr("sys.path", list(sys.path))  # scripts put the root there too
+    assert importlib.import_module(f"benchmarks.{script}").__doc__
 
 
 def test_a_benchmark_puts_its_table_and_the_command_without_paths(tmp_path, root, monkeypatch):
