@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREY, friction_lines, plain_ticks
+from ..plot import BLUE, GREY, friction_lines, interval_band, plain_ticks
 
 
 def axes_or_new(ax):
@@ -17,12 +17,15 @@ def axes_or_new(ax):
 
 
 def curve_axes(curve, ax=None, **style):
-    """Friction over speed of a `lubfric.StribeckResult`, with its parts; where it chose its speeds, as interpolated."""
+    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; where it chose
+    its speeds, as interpolated."""
     axes = axes_or_new(ax)
     good = np.isfinite(curve.coefficient) & (curve.speed != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]
     speed, total = np.abs(curve.speed[order]), (curve.contact_load + curve.film_load)[order]
     f, contact, film = (a[order] for a in (curve.coefficient, curve.boundary_force, curve.shear_force))
+    low, high = curve.uncertainty.interval[order].T
+    interval_band(axes, speed, {"interval_low": low, "interval_high": high})
     if "interpolation" in curve.report.residuals:
         fine = np.geomspace(speed[0], speed[-1], 400)
         friction_lines(axes, fine, (curve.at(fine), *curve.parts_at(fine)), **style)
