@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, is_dataclass
 from pathlib import Path
 
 import numpy as np
@@ -235,11 +235,18 @@ def plan_as_dict(plan) -> dict:
         "lubfric": __version__,
         "name": plan.scene.name,
         "scene": plain(scene_as_dict(plan.scene)),
-        "axes": [{"name": a.name, "keys": list(a.keys), "values": plain(a.values)} for a in plan.axes],
+        "axes": [
+            {"name": a.name, "keys": list(a.keys), "values": [_worded(row) for row in a.values]} for a in plan.axes
+        ],
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
         "keys": list(plan.keys().flat),
     }
+
+
+def _worded(row: tuple) -> list:
+    """Values in plain JSON types; an oil or a whole section in words."""
+    return [repr(value) if is_dataclass(value) else plain(value) for value in row]
 
 
 def _column(values: list) -> np.ndarray:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +85,18 @@ def test_temperatures_are_varied_with_a_viscosity():
     oils = lubfric.plan_study(SCENE.with_keys(oil), {"lubricant.temperature_celsius": [40.0, 100.0]}, [0.1])
     cold, hot = (walk.scene.lubricant.viscosity for walk in oils.walks)
     assert hot < 0.2 * cold
+
+
+def test_oils_and_whole_sections_are_named_in_the_tables(tmp_path):
+    oils = [lubfric.oil.from_grade("ISO VG 68", index) for index in (60, 160)]
+    warm = SCENE.with_(lubricant={"oil": oils[0], "temperature": 330.0}, surface={"sq": 0.0})
+    rough = [warm.surface, replace(warm.surface, seed=5)]
+    result = lubfric.study(warm, {"lubricant.oil": oils, "surface": rough}, [1.0], store=tmp_path / "study")
+    result.to_csv(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text().splitlines()
+    assert len(lines) == 5 and result.failed == 0
+    assert "ISO VG 68, VI 60" in lines[1] and "ISO VG 68, VI 160" in lines[-1] and "seed=5" in lines[2]
+    same(lubfric.open_study(tmp_path / "study"), result)
 
 
 def test_the_flat_contact_shares_its_curve():
