@@ -12,13 +12,14 @@ from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from ..studies.spread import checked_executor
 from ..validate import instance
-from .measured import Measured
+from .measured import SLIP, Measured
 from .parameters import Parameters, parameters_of
 from .predict import Curve, Predictor, jacobian, predictor
 from .result import FitResult
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
+RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
 MOST = 30  # curves on the way, beside those of the differences
 
 
@@ -55,6 +56,8 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
         raise InputError("a fit changes a scene; give what lubfric.load_scene returned, not what lubfric.prepare did")
     instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     found = parameters_of(scene, parameters)
+    if measured.over == SLIP and (given := RATIO.intersection(found.keys)):
+        raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
     if measured.x.size <= len(found.keys):
         raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; give more points")
     begin = _begin(scene, found, {} if start is None else start)
@@ -81,7 +84,7 @@ def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
     values = []
     for key, low, high in zip(found.keys, found.low, found.high):
         section, _, name = key.partition(".")
-        value = start.get(key, getattr(getattr(scene, section), name))
+        value = start.get(key, vars(getattr(scene, section)).get(name))  # a short form has no value there
         number = isinstance(value, (int, float)) and low < value < high
         values.append(float(value) if number else np.nan)
     for key in start:

@@ -117,7 +117,9 @@ def tolerance_of(scene: Scene, measured: Measured) -> float:
 def shares_contact(scene: Scene, parameters: Parameters) -> bool:
     """Whether one map, and one operator or contact curve, serve for all values of the parameters."""
     by_curve = scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
-    making = (*SHARING, "bodies.load", "bodies.radius", "bodies.width") if by_curve else SHARING
+    making = (
+        (*SHARING, "bodies.load", "bodies.hertz_pressure", "bodies.radius", "bodies.width") if by_curve else SHARING
+    )
     if scene.contact.shape is None:
         making = (*making, "bodies.")
     return not any(key.startswith(making) and key not in FREE for key in parameters.keys)

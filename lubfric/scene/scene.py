@@ -66,12 +66,16 @@ class Scene(SceneShown):
         return replace(self, **changed)
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
-        """A copy with the ``values`` by "section.key", or by "section" for a whole one."""
-        sections: dict[str, Any] = {}
+        """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
+        once, in whatever order they stand: a Hertz pressure is that with the radius beside it."""
+        whole = {key: value for key, value in values.items() if "." not in key}
+        sections = {key: dict(value) for key, value in whole.items() if isinstance(value, dict)}
         for key, value in values.items():
-            section, _, field = key.partition(".")
-            sections[section] = sections.get(section, {}) | {field: value} if field else value
-        return self.with_(**sections)
+            section, dot, field = key.partition(".")
+            if dot:
+                sections.setdefault(section, {})[field] = value
+        ready = {key: value for key, value in whole.items() if not isinstance(value, dict)}
+        return (self.with_(**ready) if ready else self).with_(**sections)
 
     def line_contact(self, speed: float) -> LineContact:
         """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""

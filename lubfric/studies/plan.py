@@ -90,10 +90,8 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     speeds = _speeds(scene, speeds)
     scenes = {}
     for index in product(*(range(len(axis.values)) for axis in axes)):
-        varied = scene
-        for axis, i in zip(axes, index):
-            varied = axis.apply(varied, i)
-        scenes[index] = replace(varied, transient=None)
+        values = {key: value for axis, i in zip(axes, index) for key, value in axis.at(i).items()}
+        scenes[index] = replace(scene.with_keys(values), transient=None)
     return StudyPlan(scene, axes, speeds, tuple(_batches(scenes, speeds)))
 
 

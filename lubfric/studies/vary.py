@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from ..short_forms import short_keys
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
 MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
+SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -49,9 +51,9 @@ class Axis:
     keys: tuple[str, ...]
     values: tuple[tuple, ...]
 
-    def apply(self, scene: Scene, index: int) -> Scene:
-        """``scene`` with the values of position ``index``."""
-        return scene.with_keys(dict(zip(self.keys, self.values[index])))
+    def at(self, index: int) -> dict[str, Any]:
+        """The values of position ``index`` by their keys."""
+        return dict(zip(self.keys, self.values[index]))
 
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
@@ -74,7 +76,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
         axis = _listed(name, keys, values)
         for index in range(len(axis.values)):
-            axis.apply(scene, index)
+            scene.with_keys(axis.at(index))
         axes.append(axis)
     return tuple(axes)
 
@@ -130,8 +132,10 @@ def _check_key(scene: Scene, key, seen: set) -> None:
         raise InputError(
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
         )
-    if key in ("motion", "motion.speeds", "motion.entrainment_speed"):
-        raise InputError(f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s")
+    if key == "motion" or key in SPEEDS:
+        raise InputError(
+            f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s, and vary motion.slide_roll_ratio"
+        )
     if key in seen:
         raise InputError(f"vary: {key!r} is given twice; give it once")
     seen.add(key)

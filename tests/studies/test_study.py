@@ -46,6 +46,35 @@ def test_every_point_is_what_friction_gives(serial):
             np.testing.assert_allclose(serial["coefficient"][i, j], alone, rtol=SCENE.numerics.tolerance)
 
 
+@pytest.mark.parametrize("first", ["bodies.hertz_pressure", "bodies.radius"])
+def test_keys_of_several_dimensions_act_together(first):
+    """A Hertz pressure is that with the radius of the same point, w = 2 pi R p²/E', whichever key comes first."""
+    vary = {"bodies.hertz_pressure": [1e8, 2e8], "bodies.radius": [2e-3, 4e-3]}
+    plan = lubfric.plan_study(SCENE, {first: vary[first], **vary}, SPEEDS)
+    for walk in plan.walks:
+        at = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, walk.index)}
+        bodies = walk.scene.bodies
+        assert bodies.radius == at["bodies.radius"]
+        load = 2 * np.pi * bodies.radius * at["bodies.hertz_pressure"] ** 2 / bodies.e_prime * bodies.width
+        assert bodies.load == pytest.approx(load, rel=1e-12)
+    whole = SCENE.with_keys({"bodies.radius": 4e-3, "bodies": {"hertz_pressure": 1e8}})
+    assert whole == SCENE.with_(bodies={"radius": 4e-3, "hertz_pressure": 1e8})
+
+
+@pytest.mark.parametrize(
+    "vary, words",
+    [
+        ({"bodies.load": [3.0, 5.5], "bodies.hertz_pressure": [1e8]}, "say the same thing"),
+        ({"motion.slip_percent": [10.0], "motion.slide_roll_ratio": [0.1, 2.0]}, "say the same thing"),
+        ({"motion.surface_speeds": [(0.0, 0.1), (0.0, 0.2)]}, "give speeds"),
+        ({"motion.speed_range": [(0.1, 1.0, 3)]}, "give speeds"),
+    ],
+)
+def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.plan_study(SCENE, vary, [0.1])
+
+
 def test_the_flat_contact_shares_its_curve():
     flat = SCENE.with_(contact={"geometry": "flat", "spacing": 2e-6})
     plan = lubfric.plan_study(flat, {"bodies.load": [2.0, 5.5]}, SPEEDS)
