@@ -11,7 +11,6 @@ from .console import INTERRUPTED, Interrupted, interruptible, put, say
 from .errors import ConvergenceError, LubfricError
 from .version import __version__
 
-
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
 OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "report", "vtk"), CURVE)
