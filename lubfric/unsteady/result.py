@@ -78,8 +78,10 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """The average of f over the run, and its scatter, fixed and moving."""
-        weight = np.gradient(self.time) if self.time.size > 1 else np.ones(1)
+        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f), and
+        its scatter, fixed and moving."""
+        half = 0.5 * np.diff(self.time)
+        weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         mean = float(np.average(self.coefficient, weights=weight))
         sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
         fixed = sampling * math.sqrt(self.line_length / self.width)
