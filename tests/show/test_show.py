@@ -9,7 +9,9 @@ from matplotlib.figure import Figure
 
 import lubfric
 from lubfric.history import Harmonic, Ramp, Table
+from lubfric.plot import new_figure
 from lubfric.scene_file import builtin_scenes
+from lubfric.show.axes import friction_over_time
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
@@ -116,6 +118,16 @@ def test_a_loop_leaves_out_a_standstill_and_a_history_names_no_band_it_has_not(h
 
     assert "95 %: finite surface" in legend(0.02)
     assert not any("95 %" in text for sampling in (np.nan, 0.0) for text in legend(sampling))
+
+
+def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
+    count = {"load": 2.0, "boundary_force": 0.0, "couette_force": 0.0, "rolling_force": -0.2, "coefficient": 0.1}
+    columns = {name: np.full(2, value) for name, value in count.items()}
+    columns |= {"time": np.array([0.0, 1.0]), "sliding_speed": np.zeros(2), "entrainment_speed": np.full(2, -0.3)}
+    axes = new_figure().subplots()
+    friction_over_time(axes, columns)  # pure rolling, backwards
+    whole, contact, film = (line.get_ydata() for line in axes.get_lines())
+    np.testing.assert_allclose(contact + film, whole)
 
 
 def test_maps_are_drawn_the_right_way_round(point):
