@@ -19,8 +19,8 @@ ROUGH = ("surface", "counterface")  # of which keys that do not apply are refuse
 def scene_as_toml(scene) -> str:
     """The whole ``scene``, with its defaults, except those of a roughness. What is None is left out.
 
-    A ``surface.file`` is written with its whole path. An oil is written as it was given, in place of the numbers that it
-    has at its temperature. Raises `InputError` for a history that is none of the kinds of scene files.
+    A ``surface.file`` is written with its whole path. An oil is written as it was given, in place of its numbers at the
+    temperature. Raises `InputError` for a history that is none of the kinds of scene files.
     """
     lines = [f"name = {json.dumps(scene.name)}"]
     for section in SECTIONS:

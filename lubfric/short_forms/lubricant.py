@@ -99,8 +99,9 @@ def _oil(source: dict, before: Oil | None) -> Oil:
         return from_grade(source["grade"], index, **kept)
     if index is None and together("lubricant", source, "nu40", "nu100"):
         return from_viscosities(source["nu40"], source["nu100"], **kept)
-    if index is not None and (before or "nu40" in source):
-        return from_index(source["nu40"] if "nu40" in source else before.kinematic_viscosity(AT_40), index, **kept)
+    nu40 = source.get("nu40", before and before.kinematic_viscosity(AT_40))
+    if index is not None and nu40 is not None:
+        return from_index(nu40, index, **kept)
     if before is None:
         key = next(iter(source), "base, density or another property")
         raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
