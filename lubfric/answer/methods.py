@@ -70,7 +70,7 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "Eyring stress": lubricant.eyring_stress is not None and slides,
         "limiting stress": lubricant.limiting_stress_coefficient is not None and slides,
         "viscosity over temperature": oil is not None,
-        "viscosity index": oil is not None and oil.by_index,
+        "viscosity index": oil is not None and "viscosity_index" in oil.said,
         "So and Klaus": estimate == "so-klaus",
         "Gold": estimate == "gold",
     }

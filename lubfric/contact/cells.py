@@ -6,7 +6,7 @@ import numpy as np
 
 from ..halfspace.strip import rounded
 
-DENSE = 0.8  # share of the cells from which all are taken: gathering costs more than it saves
+DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
 
 
 class Cells:

@@ -71,7 +71,8 @@ def history_axes(history, ax=None):
 
 def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
     """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`."""
-    sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
+    sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
+    sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film

@@ -13,11 +13,13 @@ from ..errors import InputError
 from ..roughness import Roughness
 from ..scene import Scene
 from ..short_forms import short_keys
+from ..short_forms.lubricant import SOURCES
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
 MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
 SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
+VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -78,6 +80,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         for index in range(len(axis.values)):
             scene.with_keys(axis.at(index))
         axes.append(axis)
+    _check_temperature(scene, seen)
     return tuple(axes)
 
 
@@ -139,6 +142,16 @@ def _check_key(scene: Scene, key, seen: set) -> None:
     if key in seen:
         raise InputError(f"vary: {key!r} is given twice; give it once")
     seen.add(key)
+
+
+def _check_temperature(scene: Scene, keys: set[str]) -> None:
+    """Raise `InputError` for temperatures that leave the viscosity as it is."""
+    given = keys.intersection(("lubricant.temperature", "lubricant.temperature_celsius"))
+    if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
+        raise InputError(
+            f"vary: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 and "
+            "nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
+        )
 
 
 def _listed(name: str, keys: tuple[str, ...], values) -> Axis:

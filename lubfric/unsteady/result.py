@@ -77,8 +77,10 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """The average of f over the run, its error, and its scatter for fixed and for moving roughness."""
-        weight = np.gradient(self.time) if self.time.size > 1 else np.ones(1)
+        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f); its
+        error; and its scatter for fixed and for moving roughness."""
+        half = 0.5 * np.diff(self.time)
+        weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         mean = float(np.average(self.coefficient, weights=weight))
         sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
         fixed = sampling * math.sqrt(self.line_length / self.width)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -68,11 +69,34 @@ def test_keys_of_several_dimensions_act_together(first):
         ({"motion.slip_percent": [10.0], "motion.slide_roll_ratio": [0.1, 2.0]}, "say the same thing"),
         ({"motion.surface_speeds": [(0.0, 0.1), (0.0, 0.2)]}, "give speeds"),
         ({"motion.speed_range": [(0.1, 1.0, 3)]}, "give speeds"),
+        ({"lubricant.temperature_celsius": [40.0, 80.0]}, "moves no viscosity"),
     ],
 )
 def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
     with pytest.raises(lubfric.InputError, match=words):
         lubfric.plan_study(SCENE, vary, [0.1])
+
+
+def test_temperatures_are_varied_with_a_viscosity():
+    keys = ("lubricant.temperature", "lubricant.viscosity")
+    numbers = lubfric.plan_study(SCENE, {keys: [(313.15, 0.2), (353.15, 0.05)]}, [0.1])
+    assert [walk.scene.lubricant.viscosity for walk in numbers.walks] == [0.2, 0.05]
+    oil = {"lubricant.nu40": 68e-6, "lubricant.nu100": 8.6e-6, "lubricant.temperature": 313.15}
+    oils = lubfric.plan_study(SCENE.with_keys(oil), {"lubricant.temperature_celsius": [40.0, 100.0]}, [0.1])
+    cold, hot = (walk.scene.lubricant.viscosity for walk in oils.walks)
+    assert hot < 0.2 * cold
+
+
+def test_oils_and_whole_sections_are_named_in_the_tables(tmp_path):
+    oils = [lubfric.oil.from_grade("ISO VG 68", index) for index in (60, 160)]
+    warm = SCENE.with_(lubricant={"oil": oils[0], "temperature": 330.0}, surface={"sq": 0.0})
+    rough = [warm.surface, replace(warm.surface, seed=5)]
+    result = lubfric.study(warm, {"lubricant.oil": oils, "surface": rough}, [1.0], store=tmp_path / "study")
+    result.to_csv(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text().splitlines()
+    assert len(lines) == 5 and result.failed == 0
+    assert "ISO VG 68, VI 60" in lines[1] and "ISO VG 68, VI 160" in lines[-1] and "seed=5" in lines[2]
+    same(lubfric.open_study(tmp_path / "study"), result)
 
 
 def test_the_flat_contact_shares_its_curve():
