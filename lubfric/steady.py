@@ -51,8 +51,7 @@ def friction(
     ------
     InputError : before any work
     ConvergenceError : a part did not converge; carries report and result
-    ValidityError : f means nothing, because an assumption is violated, and ``numerics.accept`` is false; carries the
-        result
+    ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)
