@@ -11,6 +11,10 @@ from .console import INTERRUPTED, Interrupted, interruptible, put, say
 from .errors import ConvergenceError, LubfricError
 from .version import __version__
 
+CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
+OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
+OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "report", "vtk"), CURVE)
+
 
 def main(argv=None) -> int:
     """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot
@@ -148,7 +152,6 @@ def _oils(arguments) -> int:
 
 
 def _run(arguments) -> int:
-    from .errors import InputError
     from .scene_file import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
@@ -156,23 +159,29 @@ def _run(arguments) -> int:
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
-    if arguments.workers is not None and (arguments.ratios or scene.transient is not None):
-        raise InputError("--workers shares the speeds of a Stribeck curve; leave it out with --ratios and [transient]")
-    if arguments.ratios and scene.transient is None:
+    _check_options(arguments, in_time=scene.transient is not None)
+    if arguments.ratios:
         from .curves.command import run_traction
 
         return run_traction(scene, arguments.out, arguments.ratios)
     if scene.transient is not None:
         from .unsteady.command import run_history
 
-        if arguments.report or arguments.vtk:
-            raise InputError("--report and --vtk show a Stribeck curve; leave them out where the scene has [transient]")
-
         return run_history(scene, arguments.out, arguments.animation)
     from .run_sweep import Extras, run_sweep
 
     more = Extras(arguments.report, arguments.vtk, arguments.workers)
     return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
+
+
+def _check_options(arguments, in_time: bool) -> None:
+    """Raise `InputError` for options of ``lubfric run`` that what it computes has no use for."""
+    from .errors import InputError
+
+    what = IN_TIME if in_time else RATIOS if arguments.ratios else CURVE
+    for option, of in OPTIONS.items():
+        if getattr(arguments, option) not in (None, False) and of != what:
+            raise InputError(f"--{option} is for {of}, and this is {what}; leave it out")
 
 
 def _study(arguments) -> int:

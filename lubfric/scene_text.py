@@ -10,17 +10,17 @@ from typing import Any
 from .errors import InputError
 from .history.kinds import History
 from .history.read import KINDS
-from .oil.oil import Oil
+from .short_forms.lubricant import fields_of
 from .show.scene import SECTIONS
 
 ROUGH = ("surface", "counterface")  # of which keys that do not apply are refused: defaults are left out
 
 
 def scene_as_toml(scene) -> str:
-    """The whole ``scene``, with its defaults, except those of a roughness. What is None is left out.
+    """The whole ``scene``, with its defaults except those of a roughness. What is None is left out.
 
-    A ``surface.file`` is written with its whole path. An oil becomes the numbers that it has at its temperature. Raises
-    `InputError` for a history that is none of the kinds of scene files.
+    A ``surface.file`` is written with its whole path. An oil is written as it was given, instead of its numbers at the
+    temperature. Raises `InputError` for a history that scene files do not have.
     """
     lines = [f"name = {json.dumps(scene.name)}"]
     for section in SECTIONS:
@@ -28,17 +28,23 @@ def scene_as_toml(scene) -> str:
         if part is None:
             continue
         lines += ["", f"[{section}]"]
-        for field in fields(part):
-            value = getattr(part, field.name)
-            if value is None or value == () or (section in ROUGH and value == field.default):
-                continue
-            if isinstance(value, Oil):
-                lines.append("# the oil's numbers at its temperature")
-                continue
-            if field.name == "file":
-                value = str(Path(value).absolute())
-            lines.append(f"{field.name} = {_text(value)}")
+        keys = {field.name: getattr(part, field.name) for field in fields(part)}
+        if section in ROUGH:
+            keys = {field.name: keys[field.name] for field in fields(part) if keys[field.name] != field.default}
+        if keys.get("oil") is not None:
+            keys = _with_oil(keys)
+        if "file" in keys:
+            keys["file"] = str(Path(keys["file"]).absolute())
+        lines += [f"{key} = {_text(value)}" for key, value in keys.items() if value is not None and value != ()]
     return "\n".join(lines) + "\n"
+
+
+def _with_oil(keys: dict[str, Any]) -> dict[str, Any]:
+    """The ``keys`` of a lubricant with those of its oil in place of the numbers that follow from it."""
+    oil = keys.pop("oil")
+    followed = fields_of(oil, keys["temperature"])
+    own = {key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value}
+    return oil.said | own
 
 
 def _text(value) -> str:

@@ -15,9 +15,9 @@ from .rheology import CellFluid, cell_fluid
 
 @dataclass(frozen=True)
 class Balance:
-    """What flows out of each cell less what flows in, ``residual`` [m/s] (nx, ny), and what it was made of.
+    """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
-    film: the gap that the flow sees, at least the floor [m].
+    film: the gap for the flow, at least the floor [m].
     """
 
     residual: np.ndarray
@@ -49,7 +49,7 @@ def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
 
 
 def first_film(problem: Problem, film) -> np.ndarray:
-    """Film [m] (ny,) at the first face: that of the first cell, and half a cell up the parabola."""
+    """Film [m] (ny,) at the first face: that of the first cell, continued up the parabola by half a cell."""
     x, dx = problem.x[0], problem.spacing[0]
     return film[0] - x * dx / (2 * problem.radius) + dx**2 / (8 * problem.radius)
 

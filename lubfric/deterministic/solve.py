@@ -1,4 +1,4 @@
-"""One deterministic operating point on one grid: Newton's method, and the ways out where it fails."""
+"""One deterministic operating point on one grid: Newton's method, and other ways if it fails."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and a
 
 @dataclass(frozen=True)
 class Start:
-    """A ``state`` to begin from, made when it is asked for, and the ``speed`` [m/s] it belongs to."""
+    """A ``state`` to begin from, made when it is needed, and the ``speed`` [m/s] to which it belongs."""
 
     state: Callable[[], State]
     speed: float
@@ -38,12 +38,17 @@ def solve_point(
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), at once and through the
-    speeds in between; from the dry contact lifted by Moes' film; with a Newtonian lubricant from the solution of one
-    with a limiting shear stress; from higher speeds step by step; and from where implicit steps in time lead from the
-    dry contact. Together they take at most `MOST` factorisations. Which one it was is in ``report.notes``. Converged
-    when the largest of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report
-    and result.
+    Tried in turn until one converges:
+
+    - Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), directly and through speeds in
+      between;
+    - from the dry contact, lifted by Moes' film;
+    - for a Newtonian lubricant, from the solution with a limiting shear stress;
+    - from higher speeds, step by step;
+    - from the state that implicit steps in time reach from the dry contact.
+
+    Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
+    of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work()
     tried: list[tuple[str, Found]] = []
@@ -65,8 +70,8 @@ def solve_point(
 
 @dataclass
 class Work:
-    """What the attempts at one point cost: LU factorisations, GMRES iterations, steps in time; residuals along the
-    way."""
+    """The cost of the attempts at one point: LU factorisations, GMRES iterations, steps in time; and their
+    residuals."""
 
     factorisations: int = 0
     krylov: int = 0

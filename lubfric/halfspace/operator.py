@@ -16,6 +16,7 @@ from .strip import Strip, rounded, strip
 
 KINDS = ("periodic", "free")
 NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
+PADDED = 131072  # waves of a block of padded columns
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return filtered(pressure, self.symbol, self.padded, self.workers)
 
     def _under_strip(self, pressure, first: int, last: int) -> np.ndarray:
-        """`apply` where only some rows are loaded."""
+        """`apply` if only some rows are loaded."""
         nx = self.shape[0]
         count = rounded(last - first, nx)
         first = min(first, nx - count)
@@ -61,10 +62,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
 
     def window(self, count: int) -> Strip:
-        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y, made once for every count.
-
-        An exact part of this one, in the same gauge.
-        """
+        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y: an exact part of this one,
+        with the same zero level. Made once for every count."""
         return self._strip(count, count, count - 1)
 
     def _strip(self, count: int, rows: int, farthest: int) -> Strip:
@@ -107,8 +106,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return self._made[key]
 
     def _coarsened(self, factors) -> HalfSpace:
-        """The operator on coarser cells from the low frequencies, which is exact when periodic and close to it when
-        free. With one free axis the kernel is made anew, because its waves end."""
+        """The operator on coarser cells from the low frequencies: exact if periodic, and close to it if free. With one
+        free axis the kernel is made anew, because its waves end."""
         shape = tuple(n // f for n, f in zip(self.shape, factors))
         padded = tuple(m // f for m, f in zip(self.padded, factors))
         spacing = tuple(d * f for d, f in zip(self.spacing, factors))
@@ -149,15 +148,30 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
 
 def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
-    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back."""
+    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
+
+    Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
+    columns stays in the cache.
+    """
     (nx, ny), (mx, my) = field.shape, padded
     spectrum = fft.rfft(field, n=my, axis=1, workers=workers)
-    spectrum = fft.fft(spectrum, n=mx, axis=0, workers=workers, overwrite_x=True)
-    half = mx // 2 + 1
-    spectrum[:half] *= symbol
-    spectrum[half:] *= symbol[(mx - 1) // 2 : 0 : -1]
-    spectrum = fft.ifft(spectrum, axis=0, workers=workers, overwrite_x=True)[:nx]
-    return fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)[:, :ny]
+    if mx == nx:
+        spectrum = _multiplied(spectrum, symbol, mx, workers)
+    else:
+        width = max(1, PADDED // mx)
+        for first in range(0, spectrum.shape[1], width):
+            part = np.s_[:, first : first + width]
+            spectrum[part] = _multiplied(spectrum[part], symbol[part], mx, workers)[:nx]
+    spectrum = fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)
+    return spectrum if my == ny else spectrum[:, :ny].copy()  # a part would hold on to the whole
+
+
+def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
+    """Columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written over."""
+    waves, half = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True), length // 2 + 1
+    waves[:half] *= symbol
+    waves[half:] *= symbol[(length - 1) // 2 : 0 : -1]
+    return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)
 
 
 def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), workers=None) -> HalfSpace:

@@ -1,4 +1,4 @@
-"""The cells of a long line. They are as coarse as the correlation length and the strip allow."""
+"""The cells of a long line: as long as the correlation length and the Hertz strip allow."""
 
 from __future__ import annotations
 
@@ -28,12 +28,13 @@ class Cells:
         return self.spacing[0] * self.factors[0], self.spacing[1] * self.factors[1]
 
     def halved(self) -> Cells:
-        """Cells half as long each way, or as near as the scene's own allow."""
+        """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
         factors = max(1, self.factors[0] // 2), max(1, self.factors[1] // 2)
         return Cells(factors, self.spacing, self.count * self.factors[0] // factors[0])
 
     def columns(self, length: float) -> int:
-        """Cells along y of a line about ``length`` [m] long: a number that transforms fast and halves."""
+        """Number of cells along y of a line of about ``length`` [m]: one that suits the Fourier transform and can be
+        halved."""
         from scipy.fft import next_fast_len
 
         return FAST * next_fast_len(max(1, round(length / (FAST * self.coarse[1]))), real=True)
@@ -44,7 +45,7 @@ class Cells:
 
 
 def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
-    """Choose the cells: at least four in each of the correlation ``lengths`` [m] and two in the half-width of the
+    """Choose the cells: at least four in each of the correlation ``lengths`` [m], and two in the half-width of the
     strip.
 
     Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
@@ -54,7 +55,7 @@ def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
 
 
 def cells_of_a_box(spacing, lengths, half_width: float, columns: int) -> Cells:
-    """The same cells over ``columns`` of the scene's own cells along x, neither more nor less."""
+    """The same cells over exactly ``columns`` of the scene's own cells along x."""
     fx, fy = _factors(spacing, lengths, half_width)
     while columns % fx:
         fx //= 2
@@ -62,11 +63,8 @@ def cells_of_a_box(spacing, lengths, half_width: float, columns: int) -> Cells:
 
 
 def reach_of(scene, sq: float) -> float:
-    """Length [m] along x that holds the contact.
-
-    On either side it ends where an undeformed cylinder that rests on the ends of the Hertz strip has risen by `SUMMITS`
-    Sq.
-    """
+    """Length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
+    Hertz strip, has risen by `SUMMITS` Sq."""
     bodies = scene.bodies
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 

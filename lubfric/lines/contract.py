@@ -10,15 +10,14 @@ from .cells import Cells
 
 
 class Lines(Protocol):
-    """Lines of one rough surface. Each is a `Surface` that is periodic along y. `generated` and `windows` are the two
-    kinds.
+    """Lines of one rough surface. Each is a `Surface` that is periodic along y. `generated` and `windows` make them.
 
     - ``scene``: the scene whose surface it is; ``cells``: those of every line; ``lengths``: correlation lengths [m] at
       1/e along x and y.
-    - ``available`` [m]: length of the longest line there is (infinite where more can be made); ``pieces``: number of
+    - ``available`` [m]: length of the longest line (infinite where more can be generated); ``pieces``: number of
       different pieces (`pair`), likewise.
-    - ``nested``: True where a longer line holds the shorter ones, and so takes their place. False where it is another
-      place of the surface, and so joins them.
+    - ``nested``: True where a longer line contains the shorter ones, and so replaces them. False where it is another
+      place of the surface, and so adds to them.
     - ``exact_sq``: every line has exactly the Sq of the surface.
     """
 
@@ -41,14 +40,15 @@ class Lines(Protocol):
         """Line number ``index``, about ``length`` [m] long."""
 
     def pair(self, index: int, length: float) -> Surface:
-        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long. It is a whole number of the
-        cells of a line long."""
+        """Piece number ``index`` on the scene's own cells, about ``length`` [m] long: a whole number of the cells of a
+        line."""
 
     def windows(self, length: float) -> int:
-        """How many separate stretches of the surface a line of ``length`` [m] is made of."""
+        """Number of separate stretches of the surface in a line of ``length`` [m]."""
 
     def again(self, scene: Scene) -> Lines | None:
-        """The same lines for ``scene``, of another load, motion or tolerance; None where it needs other cells."""
+        """The same lines for ``scene``, with another load, motion or tolerance; None if that scene needs other
+        cells."""
 
     def halved(self) -> Lines:
         """The same surface on cells half as long, no shorter than the scene's own."""

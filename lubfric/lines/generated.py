@@ -1,4 +1,4 @@
-"""Lines of a generated surface: as many and as long as asked. Each is a piece of the same endless surface."""
+"""Lines of a generated surface: pieces of one endless surface, as many and as long as needed."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class GeneratedLines:
 
     @property
     def exact_sq(self) -> bool:
-        """True for the roughness of one body. Those of two bodies are added as they fall."""
+        """True for the roughness of one body. The sum of two bodies has the Sq that it happens to have."""
         return len(rough_bodies(self.scene)) == 1
 
     def windows(self, length: float) -> int:
@@ -43,7 +43,8 @@ class GeneratedLines:
         return self._piece((LINE, index), self.cells, length)
 
     def pair(self, index: int, length: float) -> Surface:
-        """A piece on the scene's own cells, to be compared with every so-manieth cell of itself."""
+        """A piece on the scene's own cells. Every n-th of its cells, in each direction, gives the coarse cells to
+        compare it with."""
         fx, fy = self.cells.factors
         columns = self.cells.columns(length) * fy
         return self._piece((PAIR, index), Cells((1, 1), self.cells.spacing, self.cells.count * fx), length, columns)
@@ -77,10 +78,10 @@ def _one_body(rough: Roughness, name: str, stream, cells: Cells, shape) -> Surfa
 
 
 def generated_lines(scene: Scene) -> GeneratedLines:
-    """Lines of the generated surface of ``scene``, that of both bodies added.
+    """Lines of the generated surface of ``scene``, with the heights of both bodies added.
 
-    Along x they are as long as the patch of the scene. Where the contact is longer they are as long as the contact,
-    unless the patch is the area A.
+    Along x they are as long as the patch of the scene, or as long as the contact if that is longer. Where the patch is
+    the area A, they are as long as the patch.
     """
     patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
@@ -104,5 +105,5 @@ def lengths_of(rough) -> tuple[float, float]:
 
 
 def seed_of(*words: int) -> int:
-    """One number of many: far apart for neighbouring words."""
+    """One seed from several numbers; far apart for neighbouring numbers."""
     return int(np.random.SeedSequence(words).generate_state(1)[0])

@@ -16,8 +16,8 @@ MOST_CELLS = 1_500_000  # of one line: memory
 def next_length(so_far: float, reached: float, asked: float, longest: float) -> float:
     """The length that is still missing for the standard error ``asked``.
 
-    In all (reached/asked)² x 1.15 of the present length is needed. The new part is at least a quarter of the present
-    length, and at most thrice that or ``longest``.
+    The total needed is (reached/asked)² x 1.15 of the present length. The new part is at least a quarter of the present
+    length, and at most three times that or ``longest``.
     """
     wanted = so_far * (SAFETY * (reached / asked) ** 2 - 1.0) if math.isfinite(reached) else GROWTH * so_far
     return min(max(wanted, 0.25 * so_far), (GROWTH - 1.0) * so_far, longest)

@@ -14,8 +14,8 @@ from .windows import measured_lines
 
 
 def takes_line(scene: Scene) -> bool:
-    """Whether ``scene`` is solved on a line: a rough half-space under a cylinder, where sampling is not given as one
-    patch, and the tolerances alone decide what is modelled."""
+    """Whether ``scene`` is solved on a line: it has a rough half-space under a cylinder, does not ask for one patch,
+    and leaves the level of modelling to the tolerances."""
     numerics, contact = scene.numerics, scene.contact
     levels = numerics.model == "auto" and numerics.contact_level == "auto" and numerics.closure != "one-way"
     modelled = contact.geometry == "cylinder" and contact.model == "half-space"
@@ -25,8 +25,7 @@ def takes_line(scene: Scene) -> bool:
 
 
 def lines_of(scene: Scene) -> Lines:
-    """Lines of the scene's surface, generated or measured; on the scene's own cells where ``numerics.grid`` is
-    given."""
+    """Lines of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
     found = measured_lines(scene, whole_map(scene)) if measured(scene) else generated_lines(scene)
     if scene.numerics.grid == "given":
         while found.cells.factors != (1, 1):
@@ -35,7 +34,7 @@ def lines_of(scene: Scene) -> Lines:
 
 
 def pilot(scene: Scene, lines: Lines) -> tuple[Surface, HalfSpaceContact]:
-    """The first line and the contact on it. It is 180 correlation lengths long, where memory and map allow."""
+    """The first line and the contact on it. It is 180 correlation lengths long, if memory and map allow."""
     longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
     surface = lines.line(0, min(PILOT * lines.lengths[1], longest))
     return surface, line_contact(scene, surface)

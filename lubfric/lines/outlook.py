@@ -1,4 +1,4 @@
-"""How long a line will be and what it will cost, foretold from closed forms. Nothing is solved."""
+"""A forecast of how long a line will be and what it will cost, from closed forms. Nothing is solved."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 
 
 def foretold(scene: Scene, lines: Lines, sq: float, speed: float) -> tuple[float, float]:
-    """The relative standard error of f after the pilot, and the length [m] that ``numerics.sampling_tolerance`` takes.
-    Both are orders of magnitude.
+    """The relative standard error of f after the pilot, and the length [m] that ``numerics.sampling_tolerance`` needs,
+    both to an order of magnitude.
 
     The mean gap over a strip of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
-    independent heights. f follows by the share of the load that the rigid film of the whole load would carry if it were
-    as thick as the gap.
+    independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
+    carry if it were as thick as the gap.
     """
     (lx, ly), pilot = lines.lengths, pilot_length(lines)
     if speed == 0:
@@ -47,13 +47,13 @@ def pilot_length(lines: Lines) -> float:
 
 
 def piece_cells(lines: Lines) -> float:
-    """Cells of a piece of the surface on the scene's own cells; 0 where the lines have these."""
+    """Cells of a piece of the surface on the scene's own cells; 0 if the lines have these cells."""
     (fx, fy), step = lines.cells.factors, lines.cells.coarse[1]
     return lines.cells.count * fx * fy * min(PAIR * lines.lengths[1], lines.available) / step if fx * fy > 1 else 0.0
 
 
 def table(scene: Scene, lines: Lines, sq: float, speeds: Sequence[float]) -> list[str]:
-    """Rows for `lubfric info`: what the line and its cost will be at ``speeds`` [m/s]."""
+    """Rows for `lubfric info`: length and cost of the line at ``speeds`` [m/s]."""
     asked, first = scene.numerics.sampling_tolerance, pilot_length(lines)
     dx, dy = lines.cells.coarse
     short = lines.available < SHORT * lines.lengths[1]

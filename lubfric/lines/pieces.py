@@ -1,4 +1,4 @@
-"""Rough contacts on pieces of a surface: on a line, and on a fine piece with ever coarser cells of its own."""
+"""Rough contacts on pieces of a surface: on a line, and on a piece with fine cells that are then made coarser."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def line_contact(scene, surface: Surface, others: Iterable[HalfSpaceContact] = (
 
 
 def thinned(scene, surface: Surface, cells: Cells, factors: tuple[int, int]) -> HalfSpaceContact:
-    """Every ``factors``-th cell of a fine ``surface``. The coarsest choice has the columns of a line of ``cells``."""
+    """Every ``factors``-th cell of a fine ``surface``. The coarsest of them has the columns of a line of ``cells``."""
     fx, fy = factors
     first = cells.factors[0] // 2 % fx
     x = cells.axis()[0] + (np.arange(surface.shape[0]) - cells.factors[0] // 2) * cells.spacing[0]

@@ -1,4 +1,4 @@
-"""Lines from a measured map. Windows of the map, which lie across the motion, are stacked into one line."""
+"""Lines from a measured map: windows, which lie across the motion, are cut from the map and stacked into one line."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ ENOUGH = 8  # windows for an honest standard error
 class MeasuredLines:
     """Lines of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
 
-    ``starts``: first columns of the windows that the map holds independently, in the order in which they are used, so
-    that any number of them is spread over the map. A longer line holds the shorter ones. Beyond its ends the map is
-    continued by its mirror image (`measured_lines`).
+    ``starts``: first columns of the windows that the map holds independently. They are used in this order, so that any
+    number of them is spread over the map. A longer line contains the shorter ones. Beyond its ends the map is continued
+    by its mirror image (`measured_lines`).
     """
 
     scene: Scene
@@ -42,7 +42,7 @@ class MeasuredLines:
 
     @property
     def pieces(self) -> float:
-        """One of each window."""
+        """One for each window."""
         return len(self.starts)
 
     @property
@@ -108,7 +108,7 @@ class MeasuredLines:
 
 
 def stack(pieces, blend: int) -> np.ndarray:
-    """Put arrays (nx, ny) one after the other along y, the last joined to the first.
+    """Join arrays (nx, ny) one after the other along y, and the last to the first.
 
     The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
     add to 1, about the mean of all.
@@ -127,7 +127,7 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
     """Lines of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the motion.
     ``lengths``: its correlation lengths [m] along x and y, where they are known.
 
-    A map that holds fewer than eight windows whole gives more, which reach over its ends. There it is continued by its
+    A map with fewer than eight whole windows gets further ones, which reach over its ends. There it is continued by its
     mirror image. The Hertz strip of every window lies on the map itself: beyond the strip only single high summits
     touch.
     """
@@ -156,8 +156,8 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
 
 
 def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:
-    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond`` of them lie over
-    either end."""
+    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond``: how many of them
+    reach over either end."""
     room = count + 2 * beyond - window
     most = room // step
     return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
@@ -172,7 +172,7 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def spread(count: int) -> list[int]:
-    """0 .. count - 1 in an order that begins in the middle. Each next number is as far from those before as can be."""
+    """0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
     left = set(range(count))
     order: list[int] = []
     while left:

@@ -1,7 +1,7 @@
 """Oils: viscosity index, viscosity over temperature, density, pressure-viscosity coefficient. SI units: m²/s, K, kg/m³,
 1/Pa."""
 
-from .make import from_grade, from_table, from_viscosities, grade_viscosity, named_oil, oil_names
+from .make import from_grade, from_index, from_table, from_viscosities, grade_viscosity, named_oil, oil_names
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
 from .temperature import ViscosityTable, Walther, walther
@@ -13,6 +13,7 @@ __all__ = [
     "ViscosityTable",
     "Walther",
     "from_grade",
+    "from_index",
     "from_table",
     "from_viscosities",
     "gold",

@@ -52,7 +52,16 @@ def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
 
     ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
     """
-    return Oil(walther((AT_40, _viscosity("nu40", nu40)), (AT_100, _viscosity("nu100", nu100))), **properties)
+    nu40, nu100 = _viscosity("nu40", nu40), _viscosity("nu100", nu100)
+    return _through(nu40, nu100, {"nu40": nu40, "nu100": nu100}, properties)
+
+
+def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
+    """An `Oil` from its kinematic viscosity [m²/s] at 40 °C and its viscosity index (ASTM D2270 inverted, then
+    D341)."""
+    nu40 = _viscosity("nu40", nu40)
+    nu100 = viscosity_at_100(nu40, viscosity_index)
+    return _through(nu40, nu100, {"nu40": nu40, "viscosity_index": float(viscosity_index)}, properties)
 
 
 def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
@@ -60,8 +69,13 @@ def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
     viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
     nu100 = viscosity_at_100(nu40, viscosity_index)
-    properties.setdefault("name", f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}")
-    return from_viscosities(nu40, nu100, **properties, by_index=True)
+    said = {"grade": str(grade), "viscosity_index": float(viscosity_index)}
+    return _through(nu40, nu100, said, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
+
+
+def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
+    """An `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
+    return Oil(walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
 
 
 def from_table(temperatures, viscosities, **properties) -> Oil:
@@ -77,7 +91,8 @@ def named_oil(name: str, **properties) -> Oil:
         raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
     entry = OILS[str(name).lower()]
     fields = {"base": entry.base, "density": entry.density, "alpha": entry.alpha, "name": entry.name} | properties
-    return Oil(walther(*((t + CELSIUS, nu * 1e-6) for t, nu in entry.points)), **fields)
+    cold, warm = ((t + CELSIUS, nu * 1e-6) for t, nu in entry.points)
+    return Oil(walther(cold, warm, oil=str(name).lower()), **fields)
 
 
 def oil_names() -> tuple[str, ...]:
@@ -99,7 +114,7 @@ def grade_viscosity(grade: str) -> float:
 
 
 def _viscosity(name: str, value: float) -> float:
-    """A checked kinematic viscosity [m²/s]. The error says so where mm²/s were likely meant."""
+    """A checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         raise InputError(

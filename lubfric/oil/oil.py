@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -35,7 +35,6 @@ class Oil(Brief):
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
     name : in words
-    by_index : True: its viscosity at 100 °C follows from a viscosity index (ASTM D2270)
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """
@@ -48,7 +47,6 @@ class Oil(Brief):
     estimate: str | None = None
     conductivity: float | None = None
     name: str = "oil"
-    by_index: bool = False
 
     def __post_init__(self):
         validate.choice("base", self.base, BASES)
@@ -140,6 +138,24 @@ class Oil(Brief):
         if isinstance(self.viscosity_law, Walther):
             return self.viscosity_law.n
         return self.viscosity_law.piece(temperature).n
+
+    @property
+    def said(self) -> dict[str, Any]:
+        """The keys of [lubricant], with their values, that give this oil again."""
+        law = self.viscosity_law
+        if isinstance(law, ViscosityTable):
+            viscosity: dict[str, Any] = {"viscosity_table": tuple(zip(law.temperatures, law.viscosities))}
+        else:
+            viscosity = dict(law.said) or {"nu40": law(40 + CELSIUS), "nu100": law(100 + CELSIUS)}
+        given = {
+            "base": self.base,
+            "density": self.density,
+            "density_slope": self.density_slope,
+            "pressure_viscosity_coefficient": self.alpha,
+            "alpha_estimate": self.estimate,
+            "conductivity": self.conductivity,
+        }
+        return viscosity | {key: value for key, value in given.items() if value is not None}
 
     @property
     def index(self) -> float:

@@ -17,7 +17,7 @@ RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
 
 
 def checked_temperature(temperature: float, name: str = "temperature") -> float:
-    """``temperature`` [K], checked to be one that an oil can have. The error says so where °C were likely meant."""
+    """``temperature`` [K], checked to be possible for an oil. The error says so if °C were likely meant."""
     likely = isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]
     hint = f"°C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K" if likely else ""
     try:
@@ -42,10 +42,12 @@ class Walther:
     ``m``: intercept [-]; ``n``: slope [-], 2.5 to 4.5 for lubricating oils. The constant is 0.7. The exponential
     matters only below 2 mm²/s (6e-4 of nu there). D341 gives the law for 0.21 to 2e7 mm²/s. Between the two
     temperatures of its points it holds to a few percent for oils without wax. Outside them it is an extrapolation.
+    ``said``: the keys of [lubricant] that it follows from, with their values.
     """
 
     m: float
     n: float
+    said: tuple[tuple[str, float | str], ...] = ()
 
     def __call__(self, temperature: float) -> float:
         """nu [m²/s] at ``temperature`` [K]."""
@@ -53,8 +55,9 @@ class Walther:
         return _viscosity(10 ** (10**power)) * 1e-6
 
 
-def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
-    """`Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises."""
+def walther(first: tuple[float, float], second: tuple[float, float], **said: float | str) -> Walther:
+    """`Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``said``: the
+    keys of [lubricant] that the pairs follow from."""
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
     if not warm > cold:
@@ -68,7 +71,7 @@ def walther(first: tuple[float, float], second: tuple[float, float]) -> Walther:
         )
     a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))
     n = (a - b) / math.log10(warm / cold)
-    return Walther(a + n * math.log10(cold), n)
+    return Walther(a + n * math.log10(cold), n, tuple(said.items()))
 
 
 def _raised(nu: float) -> float:

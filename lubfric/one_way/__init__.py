@@ -1,1 +1,2 @@
-"""Load sharing in the contact's own gap: ``numerics.closure = "one-way"``."""
+"""Load sharing with a film in the gap of the rough contact: ``numerics.closure = "one-way"``
+(docs/deterministic.md)."""

@@ -1,9 +1,8 @@
-"""The film in a given rough gap: Reynolds' equation in the reduced pressure, linear, with rupture.
+"""The film in a given rough gap: Reynolds' equation, linear in the reduced pressure, with rupture.
 
 With Q = ∫ dp eta0/eta the pressure flow is -h³/(12 eta0) grad Q, whatever the viscosity law. Either a cell is full and
-Q >= 0, or Q = 0 and it is filled to a part θ between 0 and 1, so that mass is kept (Jakobsson-Floberg-Olsson). Every
-cell has one unknown, Q or θ, found by active sets. The density is constant and there is no shear thinning, because the
-gap is given and rests on neither.
+Q >= 0, or Q = 0 and the part θ of it is filled, 0 <= θ <= 1, so that mass is conserved (Jakobsson-Floberg-Olsson).
+Every cell has one unknown, Q or θ, found by active sets. The density is constant, and there is no shear thinning.
 """
 
 from __future__ import annotations
@@ -41,8 +40,8 @@ LONGER = 8  # cells, at most, by which a film that begins too late is made longe
 
 @dataclass(frozen=True)
 class Kept:
-    """What the film of a neighbouring gap leaves: where it has ruptured (bool) (nx, ny), and the factors and unknowns
-    of its last linear system, of the same cells (None: not kept)."""
+    """What the film of one gap leaves for the film of the next: where it has ruptured (bool) (nx, ny), and the factors
+    and unknowns of its last linear system, if that was on the same cells (None: not kept)."""
 
     ruptured: np.ndarray
     factors: SuperLU | None = None
@@ -51,8 +50,8 @@ class Kept:
 
 @dataclass(frozen=True)
 class GapFilm:
-    """Q [Pa] and filled part [-] (nx, ny) of a gap; what comes from upstream; what a neighbour can start from; and how
-    many sets were tried."""
+    """The film of a gap: Q [Pa] and filled part [-] (nx, ny); what flows in from upstream; what the next film can start
+    from; and the number of active sets that were tried."""
 
     reduced: np.ndarray
     fill: np.ndarray
@@ -67,12 +66,12 @@ class GapFilm:
 
 
 def gap_film(problem: Problem, gap, near: Kept | None = None, right: float = 0.0) -> GapFilm:
-    """The film of ``gap`` > 0 [m] (nx, ny) at the viscosity of ambient pressure, as Q asks; ``near``: of a neighbouring
-    gap, to start from.
+    """The film of ``gap`` > 0 [m] (nx, ny) at the viscosity of ambient pressure, as Q requires. ``near``: from a
+    neighbouring gap, to start from.
 
-    Stops when no cell changes sides; or when both what does not fit into ruptured cells and what pulls in full ones is
-    at most `LOST`, and ∫ Q has changed by no more than `SETTLED` (not asked for where both are at most ``right``).
-    Raises `ConvergenceError` after `SETS`.
+    Stops when no cell changes between full and ruptured. It also stops when two flows are at most `LOST` (what does not
+    fit into ruptured cells, and what full cells would suck in) and ∫ Q has changed by at most `SETTLED`; that last test
+    is left out where both flows are at most ``right``. Raises `ConvergenceError` after `SETS` sets.
     """
     problem = problem.with_lubricant(Lubricant(problem.lubricant.viscosity, viscosity_law="constant"))
     system = _system(problem, gap)
@@ -96,8 +95,8 @@ def gap_film(problem: Problem, gap, near: Kept | None = None, right: float = 0.0
 
 
 def _longer(ruptured, fill) -> np.ndarray:
-    """``ruptured`` less the cells upstream of those that would be filled (``fill``) twice, four times and so on: one,
-    two and so on."""
+    """``ruptured`` without the cells upstream of those that would be overfilled: one cell upstream where ``fill`` is
+    above 2, two above 4, and so on."""
     found = ruptured.copy()
     for cells in range(1, LONGER + 1):
         found[:-cells] &= fill[cells:] <= 2.0**cells
@@ -105,16 +104,16 @@ def _longer(ruptured, fill) -> np.ndarray:
 
 
 def _outlet(problem: Problem, gap) -> np.ndarray:
-    """Where a smooth film as thick as the mean gap at x = 0 would have ruptured."""
+    """The cells behind the place where a smooth film as thick as the mean gap at x = 0 would rupture."""
     middle = float(gap[np.argmin(np.abs(problem.x))].mean())
     return np.repeat((problem.x > RUPTURE * math.sqrt(2 * problem.radius * middle))[:, None], gap.shape[1], axis=1)
 
 
 @dataclass(frozen=True)
 class _System:
-    """Outflow = 0 of every cell [m/s]. Columns of the matrix by Q and by θ of the cell itself, and of those behind and
-    before it along x, and beside it (5, nx, ny); carried: by the Couette flow of a full cell; entering: from
-    upstream."""
+    """The equations outflow = 0 of all cells [m/s]. Columns of the matrix for Q and for θ: of the cell itself, of the
+    cells behind and before it along x, and of those beside it (5, nx, ny); carried: by the Couette flow of a full cell;
+    entering: from upstream."""
 
     by_reduced: np.ndarray
     by_fill: np.ndarray
@@ -122,8 +121,8 @@ class _System:
     entering: np.ndarray
 
     def solve(self, start: Kept) -> tuple[np.ndarray, Kept]:
-        """θ where the film has ruptured, Q elsewhere, and what to keep; by the factors of ``start`` where it has any
-        that lead there in `FEW` iterations."""
+        """θ where the film has ruptured, Q elsewhere, and what to keep. The factors of ``start`` are used if they lead
+        there in `FEW` iterations."""
         out = start.ruptured
         order, matrix, rows = self._linear(out)
         size, factors = float(np.linalg.norm(rows)), start.factors
@@ -141,7 +140,8 @@ class _System:
         return _put(factors.solve(rows), order, factors, out)
 
     def _linear(self, out) -> tuple[np.ndarray, csc_matrix, np.ndarray]:
-        """Order of elimination, and in that order the matrix and the right side where the film is ``out``."""
+        """Order of elimination, and in that order the matrix and the right side with the film ruptured where
+        ``out``."""
         (nx, ny), order = out.shape, _order(*out.shape)
         index, starts, source = _structure(nx, ny)
         columns = np.where(out, self.by_fill, self.by_reduced)
@@ -156,7 +156,7 @@ class _System:
 
 
 def _put(values, order, factors: SuperLU, out) -> tuple[np.ndarray, Kept]:
-    """``values`` of unknowns in the ``order`` of elimination by cells, and what to keep."""
+    """The unknowns ``values``, given in the ``order`` of elimination, on their cells, and what to keep."""
     unknown = np.empty(out.size)
     unknown[order] = values
     unknown = unknown.reshape(out.shape)
@@ -165,9 +165,9 @@ def _put(values, order, factors: SuperLU, out) -> tuple[np.ndarray, Kept]:
 
 @lru_cache(maxsize=8)
 def _order(nx: int, ny: int) -> np.ndarray:
-    """Numbers of the cells in the order of elimination: minimum degree on cells that depend on their four neighbours,
-    found once for a grid. It fills in a third less than nested dissection, whose cuts are two cells wide for the
-    deterministic film."""
+    """Numbers of the cells in the order of elimination: minimum degree for cells that depend on their four neighbours,
+    found once for a grid. It fills in a third less than nested dissection with cuts two cells wide, as the
+    deterministic film needs them."""
     along = diags([1.0, 1.0], [-1, 1], shape=(nx, nx))
     across = (
         diags([1.0, 1.0, 1.0, 1.0], [-1, 1, ny - 1, 1 - ny], shape=(ny, ny)) if ny > 2 else diags([1.0], shape=(ny, ny))
@@ -179,7 +179,7 @@ def _order(nx: int, ny: int) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def _structure(nx: int, ny: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Row indices and starts of the columns (CSC) in the order of elimination, and where their values stand among the
+    """Row indices and starts of the columns (CSC) in the order of elimination, and where their values stand in the
     columns of `_System`."""
     number = np.arange(nx * ny).reshape(nx, ny)
     place = np.empty(nx * ny, dtype=np.intp)

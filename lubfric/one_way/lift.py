@@ -1,13 +1,14 @@
-"""The film that spots of asperities keep under them lifts the whole gap: the condition of Ertel and Grubin, spot by
+"""Spots of asperities keep a film under them, and it lifts the whole gap: the condition of Ertel and Grubin, spot by
 spot.
 
-The gap keeps the shape of the dry contact and is lifted by one height δ, the film on the spots. The flow builds up a
-reduced pressure Q ahead of a spot, the larger the thinner the film. A spot is carried once Q reaches that of the
-pressure beyond which the film would rub like the contact (`limit`; next to the largest Q that the lubricant has). So δ
-is the height at which the two are equal; Q is the largest on each spot, in the mean over the spots by their loads.
+The gap keeps the shape of the dry contact and is lifted by one height δ, the film on the spots. Ahead of a spot the
+flow builds up a reduced pressure Q; the thinner the film, the larger Q. The film carries a spot when Q reaches the
+reduced pressure at which the film would rub like the contact (`limit`), or comes close to the largest Q of the
+lubricant. δ is the height at which the two are equal. Q is the largest on each spot, averaged over the spots by their
+loads.
 
-Source: the condition of a smooth contact as in J. A. Greenwood, Lubricants 8 (2020) 51,
-doi:10.3390/lubricants8050051. It is not known for spots of a rough contact; docs/model-error.md has what it is worth.
+Source: the condition of a smooth contact as in J. A. Greenwood, Lubricants 8 (2020) 51, doi:10.3390/lubricants8050051.
+It is not known for spots of a rough contact; docs/model-error.md tells how good it is.
 """
 
 from __future__ import annotations
@@ -33,14 +34,15 @@ SLOPE = 1.5  # of one over the other, roughly: Q falls with the film to the powe
 
 @dataclass(frozen=True)
 class Spots:
-    """Spots of a dry contact: cells (indices in C order) with the spot each belongs to, and the loads of the spots."""
+    """Spots of a dry contact: cells (indices in C order), the spot to which each belongs, and the loads of the
+    spots."""
 
     cells: np.ndarray
     spot: np.ndarray
     load: np.ndarray
 
     def mean_of_largest(self, field) -> float:
-        """The largest of ``field`` (nx, ny) on every spot, in the mean by the loads."""
+        """The largest value of ``field`` (nx, ny) on every spot, averaged over the spots by their loads."""
         largest = np.zeros(self.load.size)
         np.maximum.at(largest, self.spot, field.ravel()[self.cells])
         return float(self.load @ largest / self.load.sum())
@@ -60,7 +62,7 @@ def spots_of(pressure) -> Spots:
 
 @dataclass(frozen=True)
 class Lifted:
-    """A gap [m] (nx, ny) with its film, and the height [m] by which it was lifted for that."""
+    """A gap [m] (nx, ny) with its film, and the height [m] by which the gap was lifted."""
 
     gap: np.ndarray
     film: GapFilm
@@ -68,11 +70,11 @@ class Lifted:
 
 
 def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, kept: Kept | None = None) -> Lifted:
-    """``gap`` [m], 0 on the ``spots``, with the film that these keep; ``near`` [m] and ``kept``: those of a
+    """``gap`` [m], 0 on the ``spots``, lifted by the film that these keep. ``near`` [m] and ``kept``: those of a
     neighbour.
 
-    Stops when both reduced pressures agree to `TOLERANCE`. The film is no thinner than the floor; so it is where the
-    flow cannot carry the spots (behind the rupture of the film), and with a constant viscosity.
+    Stops when both reduced pressures agree to `TOLERANCE`. The film is never thinner than the floor. It is at the floor
+    if the flow cannot carry the spots (behind the rupture of the film), and for a constant viscosity.
     """
 
     def at(log_height: float, last: Lifted | None) -> tuple[float, Lifted]:
@@ -94,8 +96,8 @@ def lifted(problem: Problem, gap, spots: Spots, near: float | None = None, kept:
 
 
 def surplus(problem: Problem, spots: Spots, height: float, film: GapFilm) -> float:
-    """ln of the reduced pressure that carries the ``spots`` at a film of ``height`` [m] over what ``film`` builds up;
-    negative: the film is too thin for its flow."""
+    """ln(Q needed/Q built up): of the reduced pressure that carries the ``spots`` under a film of ``height`` [m], over
+    the one that ``film`` builds up. Negative: the film is too thin for its flow."""
     lubricant = problem.lubricant
     limit = pressure_limit(lubricant, height, problem.sliding, problem.boundary_friction)
     built_up = max(spots.mean_of_largest(film.reduced), 1e-300)

@@ -1,9 +1,9 @@
-"""The pressure beyond which a film in a given gap is not believed.
+"""The pressure up to which a film in a given gap is trusted.
 
-A rigid gap lets the pressure of a thin film rise without bound (Q reaches its largest value). In truth the bodies give
-way. The limit is where the lubricant, as a Newtonian fluid, would be sheared above the boundary friction, ``eta(p) Δu/h
-= f_b p``. From there on a film rubs like a contact, and counts as one here. The limit follows from the fluid, the speed
-and the gap. docs/model-error.md tells how far f moves with it.
+In a rigid gap the pressure of a thin film rises without bound (Q reaches its largest value); real bodies would deform.
+The limit is the pressure at which the shear stress of the lubricant, as a Newtonian fluid, reaches the boundary
+friction, ``eta(p) Δu/h = f_b p``. Beyond it a film rubs like a contact, and is counted as one. The limit follows from
+the fluid, the speed and the gap. docs/model-error.md tells how strongly f depends on it.
 """
 
 from __future__ import annotations
@@ -16,9 +16,8 @@ PRESSURES = np.geomspace(1e6, 2e10, 800)  # Pa
 
 
 def pressure_limit(lubricant: Lubricant, film, sliding: float, boundary_friction: float) -> np.ndarray:
-    """The largest p [Pa] with eta(p) Δu/h <= f_b p, at films ``film`` [m] of any shape; infinite for a constant
-    viscosity. Where no pressure is low enough (thin films, fast), the one at which eta/p is least.
-    """
+    """The largest p [Pa] with eta(p) Δu/h <= f_b p, for films ``film`` [m] of any shape; infinite for a constant
+    viscosity. If no pressure is low enough (thin films at high speed), the one at which eta/p is smallest."""
     if lubricant.viscosity_law == "constant":
         return np.full(np.shape(film), np.inf)
     with np.errstate(over="ignore"):

@@ -1,8 +1,8 @@
-"""Load sharing with the contact's own gap: a dry contact, one film in its gap, one root F_C + F_H = F_T.
+"""Load sharing in the contact's own gap: a dry contact, one film in its gap, and one root F_C + F_H = F_T.
 
 There is no area A and no volume balance. The contact shapes the gap, and the film on its spots lifts it (`lift`). The
-film carries what it carries there, and does not deform it (hence one-way). Where the gap of just touching surfaces,
-with the film that the first summit keeps, would carry more than the load, the bodies are lifted further, undeformed.
+film does not deform the gap (hence one-way). If just touching surfaces, lifted by the film that the first summit keeps,
+would carry more than the load, the bodies are lifted off each other, undeformed.
 """
 
 from __future__ import annotations
@@ -33,11 +33,15 @@ PRESSED = 50e6  # Pa: a Newtonian film above it is sheared at no more than f_b p
 @dataclass(frozen=True)
 class OneWay:
     """One operating point. x (nx,) [m]; gap [m], pressure of the contact and of the film [Pa], closed and ruptured
-    (bool), (nx, ny); forces per width [N/m]; spot_film [m]: that on the spots of the
-    contact, by which its gap is lifted; unknown: ln(F_H/F_C) or, where the bodies are lifted, ln(lift/scale), from
-    which a neighbour starts, with the film of Moes [m]; and the slope of the balance over it, or the tangent of both
-    conditions (`together`; None: not known); left_out: the deflection of the bodies by the film, which the closure
-    leaves out, its rms over the Hertz strip over the mean gap there [-]."""
+    (bool), (nx, ny); forces per width [N/m].
+
+    - spot_film [m]: the film on the spots of the contact, by which the gap is lifted.
+    - unknown: ln(F_H/F_C) or, if the bodies are lifted off, ln(lift/scale). A neighbour starts from it, together with
+      the film of Moes [m] and the slope of the balance over it, or the tangent of both conditions (`together`; None:
+      not known).
+    - left_out [-]: the deflection of the bodies by the film, which the closure leaves out: its rms over the Hertz
+      strip, over the mean gap there.
+    """
 
     x: np.ndarray
     gap: np.ndarray
@@ -74,9 +78,10 @@ class Solved:
 
 
 def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLERANCE) -> OneWay:
-    """The division of the load at which contact and film in its gap carry it: |F_C + F_H - F_T| <= tolerance F_T.
+    """The division of the load at which the contact and the film in its gap carry the load: |F_C + F_H - F_T| <=
+    tolerance F_T.
 
-    Raises `ConvergenceError` where no division does.
+    Raises `ConvergenceError` if there is none.
     """
     if start is None:
         touching = touching_film(problem)
@@ -118,8 +123,8 @@ def _notes(problem: Problem, at: Trial, apart: bool) -> tuple[str, ...]:
 
 
 def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, tolerance: float) -> Solved:
-    """Of the load over the lift of bodies that are ``apart``, or over the film's share of it: with the film on the
-    spots at once, and where that does not arrive with that film nested."""
+    """The root: over the lift, if the bodies are ``apart``; else over the film's share of the load, with the film on
+    the spots found at the same time. If that does not converge, the film on the spots is found for every share."""
     if not apart and problem.lubricant.viscosity_law != "constant":
         found = _both(problem, near, before, tolerance)
         if found.converged:
@@ -140,7 +145,7 @@ def _root(problem: Problem, apart: bool, near: OneWay | None, before: Before, to
 
 
 def _both(problem: Problem, near: OneWay | None, before: Before, tolerance: float) -> Together:
-    """The share of the film and ln of the film on the spots [m], at once."""
+    """The share of the film and ln of the film on the spots [m], found together."""
     moes, lowest = problem.contact.moes_film, math.log(problem.floor)
     height = GUESS * moes if near is None else near.spot_film * moes / near.moes_film
     return together(
@@ -159,7 +164,8 @@ def _before(problem: Problem, near: OneWay) -> Before:
 
 
 def on_cells(near: OneWay, x, columns: int) -> np.ndarray:
-    """Where the film of ``near`` has ruptured, on cells at ``x`` [m] in so many ``columns``: the nearest of its own."""
+    """Where the film of ``near`` has ruptured, on cells at ``x`` [m] with ``columns`` cells along y: as on its nearest
+    cells."""
     (nx, ny), step = near.ruptured.shape, near.x[1] - near.x[0]
     along = np.clip(np.rint((x - near.x[0]) / step).astype(int), 0, nx - 1)
     across = ((np.arange(columns) + 0.5) * ny / columns).astype(int)

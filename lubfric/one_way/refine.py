@@ -1,4 +1,4 @@
-"""One-way load sharing of a scene on one grid after the other, as fine as the tolerance asks."""
+"""One-way load sharing of a scene on finer and finer grids, until the tolerance is met."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def one_way_point(scene: Scene, surface: Surface, speed: float, start: tuple[One
 
 
 def _near(start: tuple[OneWay, ...], found: list[OneWay], level: int) -> OneWay | None:
-    """What grid ``level`` begins from: the next coarser one, corrected by what these two grids differed by at the
+    """Where grid ``level`` starts from: the next coarser grid, corrected by the difference of these two grids at the
     neighbour."""
     if level >= len(start) or not found:
         return found[-1] if found else start[0] if start else None

@@ -1,8 +1,8 @@
-"""Two conditions in two unknowns at once: Broyden's method, from a tangent that is roughly known.
+"""Two conditions in two unknowns, solved together by Broyden's method from a roughly known tangent.
 
-The unknowns are the film's share of the load and the film on the spots, the conditions the balance of the load and
-that of the reduced pressures. Every step costs one dry contact and one film. One condition nested in the other costs
-some five times that, and serves where this does not arrive.
+The unknowns are the film's share of the load and the film on the spots. The conditions are the balance of the load and
+that of the reduced pressures. Every step costs one dry contact and one film. To nest one condition in the other costs
+some five times as much, and is done if this method does not converge.
 
 Source: C. G. Broyden, Math. Comp. 19 (1965) 577-593, doi:10.1090/S0025-5718-1965-0198670-6.
 """
@@ -23,8 +23,8 @@ MOST = 14  # evaluations
 
 @dataclass(frozen=True)
 class Together:
-    """Where it ended: unknowns and values of the conditions (2,), the payload that came with them, the tangent (2, 2),
-    the largest value over its tolerance on the way, and whether that fell to 1."""
+    """The end of the search: unknowns and values of the conditions (2,), their payload, the tangent (2, 2), and the
+    largest value over its tolerance at every step, and whether it fell to 1."""
 
     unknowns: np.ndarray
     values: np.ndarray
@@ -49,10 +49,8 @@ def together(
 ) -> Together:
     """Unknowns at which both values of ``f(unknowns, last)`` -> (values, payload) are within ``tolerances``.
 
-    ``last``: the payload before, ``first`` to begin with.
-
-    The second unknown is at least ``lowest``, and where it is that, its condition may be positive. Ends after `MOST`
-    evaluations.
+    ``last``: the payload before, ``first`` to begin with. The second unknown is at least ``lowest``; at that bound its
+    condition may be positive. Ends after `MOST` evaluations.
     """
     J = TANGENT if tangent is None else tangent
     x = np.array([start[0], max(start[1], lowest)])

@@ -1,4 +1,4 @@
-"""What is tried on the way to an operating point: a load of the contact, a film in its lifted gap, what they carry."""
+"""One trial on the way to an operating point: a load of the contact, a film in its lifted gap, and what both carry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NEAR = 0.01  # of the conditions, from which on a film is settled
 
 @dataclass(frozen=True)
 class Trial:
-    """A gap, what the contact carries in it, and its film."""
+    """A gap, the load of the contact in it, and its film."""
 
     contact_load: float
     contact: ContactResult | None
@@ -33,13 +33,13 @@ class Trial:
 
     @property
     def kept(self) -> Kept:
-        """What its film leaves a neighbour."""
+        """What its film leaves for the next."""
         return self.film.kept
 
 
 @dataclass(frozen=True)
 class Before:
-    """What a first trial takes from a neighbour."""
+    """What the first trial takes over from a neighbour."""
 
     kept: Kept
     spot_film: float
@@ -47,7 +47,8 @@ class Before:
 
 
 def both_conditions(problem: Problem, unknowns, last: Trial | Before):
-    """Both conditions at the share ``unknowns[0]`` of the film and ln(film on the spots) ``unknowns[1]``."""
+    """The values of both conditions at the film's share of the load ``unknowns[0]`` and ln(film on the spots)
+    ``unknowns[1]``."""
     split, height = float(unknowns[0]), math.exp(float(unknowns[1]))
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
@@ -61,8 +62,8 @@ def both_conditions(problem: Problem, unknowns, last: Trial | Before):
 
 
 def _nearer(problem: Problem, gap, kept: Kept, with_film):
-    """What ``with_film`` makes of the film of ``gap``: values of conditions, and a trial. The film is settled where
-    they are near 0."""
+    """The result of ``with_film`` for the film of ``gap``: values of the conditions, and a trial. Near the solution the
+    film is solved more exactly."""
     values, trial = with_film(gap_film(problem, gap, kept, RIGHT))
     if np.abs(values).max() > NEAR:
         return values, trial
@@ -70,7 +71,8 @@ def _nearer(problem: Problem, gap, kept: Kept, with_film):
 
 
 def too_much_film(problem: Problem, split: float, last: Trial | Before):
-    """ln of what the film should carry beside the contact, over what it does; it increases with the film's share."""
+    """ln of the load that the film should carry beside the contact, over the load that it carries; increases with the
+    film's share."""
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
     raised = lifted(problem, gap, spots, last.spot_film or None, last.kept)
@@ -79,7 +81,7 @@ def too_much_film(problem: Problem, split: float, last: Trial | Before):
 
 
 def _dry(problem: Problem, split: float, last: Trial | Before) -> tuple[float, ContactResult, np.ndarray]:
-    """Load of the contact [N/m] beside a film of the share ``split``, the contact, and its gap [m]."""
+    """Load of the contact [N/m] beside a film whose share is ``split``, the contact, and its gap [m]."""
     contact_load = problem.load / (1 + math.exp(split))
     lighter = replace(problem, contact=replace(problem.contact, load_per_width=contact_load))
     dry = dry_contact(lighter, start=last.contact)
@@ -87,8 +89,8 @@ def _dry(problem: Problem, split: float, last: Trial | Before) -> tuple[float, C
 
 
 def too_thick(problem: Problem, log_lift: float, last: Trial | Before) -> tuple[float, Trial]:
-    """ln of the load over what the film carries under bodies that are apart, at the ln of their lift; it increases with
-    the lift."""
+    """ln of the load over the load that the film carries between bodies that are apart, against the ln of their lift;
+    increases with the lift."""
     scale = max(float(problem.heights.std()), problem.contact.moes_film)
     gap = _apart(problem, scale * math.exp(log_lift))
 
@@ -100,18 +102,18 @@ def too_thick(problem: Problem, log_lift: float, last: Trial | Before) -> tuple[
 
 
 def _apart(problem: Problem, lift: float) -> np.ndarray:
-    """Gap [m] of undeformed bodies, the highest summit at ``lift``."""
+    """Gap [m] of undeformed bodies whose highest summit is at ``lift``."""
     return np.maximum(problem.rigid_gap - problem.rigid_gap.min() + lift, problem.floor)
 
 
 def touching_film(problem: Problem) -> Trial:
-    """With the film that the first summit is taken to keep."""
+    """The just touching bodies, lifted by the film that the first summit is taken to keep."""
     gap = _apart(problem, max(GUESS * problem.contact.moes_film, problem.floor))
     return _filled(problem, Lifted(gap, gap_film(problem, gap), 0.0), np.zeros(gap.shape, bool), 0.0, None)
 
 
 def presses(problem: Problem, trial: Trial) -> bool:
-    """Whether the highest summit of bodies that are apart should carry: its film is too thin for its flow."""
+    """Whether the highest summit of bodies that are apart should carry load: its film is too thin for its flow."""
     height = float(trial.gap.min())
     return surplus(problem, spots_of(trial.gap == height), height, trial.film) < 0
 

@@ -31,8 +31,8 @@ LIGHTLY = 0.3  # volume residual of a film with the whole load, up to which the 
 
 @dataclass(frozen=True)
 class Solved:
-    """A balance, how far it was modelled, and the contact it was found on: the model's own, a coarser one, or a part
-    of one."""
+    """A balance, how far it was modelled, and the contact on which it was found: the scene's own contact, one on
+    coarser cells, or a part of one."""
 
     balance: Balance
     decision: Decision
@@ -42,9 +42,9 @@ class Solved:
 def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False) -> Solved:
     """Solve ``prepared`` at ``speed`` [m/s] with no more film, contact and cells than f needs.
 
-    The film of the whole load comes first. Where it clears the summits, no contact is solved. Otherwise film and
-    contact are solved on the coarsest grid, then on finer ones until what is left is within its share. ``given_grid``:
-    on the scene's own grid.
+    The film of the whole load is solved first. If it clears the summits, no contact is solved. Otherwise film and
+    contact are solved on the coarsest grid, and then on finer ones until the estimated error is within its share.
+    ``given_grid``: solve on the scene's own grid only.
     """
     numerics = prepared.scene.numerics
     if speed == 0 or numerics.film_level == "none":
@@ -87,21 +87,21 @@ def _dry(prepared: Prepared) -> Solved:
 
 
 def _certainly_touching(prepared: Prepared, speed: float) -> bool:
-    """Whether the summits touch for sure: twice Moes' film over an undeformed cylinder, which is thicker than any
-    film everywhere, would not clear them."""
+    """Whether the summits touch for sure: they would even reach through twice Moes' film over an undeformed cylinder,
+    which is thicker than any film."""
     x, radius = prepared.contact.x, prepared.scene.bodies.radius
     film = SAFE_FILM * prepared.scene.line_contact(speed).moes_film
     return prepared.contact.close(film + x**2 / (2 * radius), 0.0).volume_residual > 0
 
 
 def _first_touch(alone: Balance) -> Balance | None:
-    """A start from ``alone``, the film of the whole load, where it nearly clears the summits. The film of nearly the
-    whole load needs the same settings."""
+    """A start for the contact from ``alone``, the film of the whole load, if it nearly clears the summits: then the
+    film in contact carries nearly the same load and needs the same settings."""
     return alone if alone.contact.volume_residual < LIGHTLY else None
 
 
 def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solved:
-    """The film with the whole load, at the level and on the cells that f asks for."""
+    """The film under the whole load, at the level and on the cells that the tolerance on f needs."""
     numerics, load = prepared.scene.numerics, prepared.scene.bodies.load
     settings = Settings(prepared.film_levels[0], film_alone_tolerance(numerics), numerics.tolerances.balance)
     point = OperatingPoint(prepared, speed, prepared.contact, settings)
@@ -120,8 +120,8 @@ def _film_alone(prepared: Prepared, speed: float, start: Balance | None) -> Solv
 def _in_contact(
     prepared: Prepared, speed: float, start: Balance | None, given_grid: bool, alone: Film | None
 ) -> Solved:
-    """Film and contact. The first solve has the level and tolerances of a neighbour, or else the simplest ones.
-    These cost next to nothing, and tell what is needed. ``alone``: the film of the whole load, where it is known."""
+    """Film and contact. The first solve has the level and tolerances of a neighbour or, without one, the simplest ones,
+    which cost next to nothing and tell what is needed. ``alone``: the film of the whole load, where it is known."""
     numerics = prepared.scene.numerics
     level = given_level(prepared.film_levels, numerics) or prepared.film_levels[0]
     settings = Settings(level, first_film_tolerance(numerics), numerics.tolerances.balance)

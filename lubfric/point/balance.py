@@ -1,4 +1,4 @@
-"""Load sharing: F_T = F_C + F_H and the lubricant volume of Eq. (8), closed by one bracketed root."""
+"""Load sharing: one bracketed root closes F_T = F_C + F_H and the balance of lubricant volume, Eq. (8)."""
 
 from __future__ import annotations
 
@@ -27,10 +27,11 @@ FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a nei
 class Balance:
     """One operating point in balance, loads in N. ``film`` and its ``level`` are None without entrainment.
 
-    - ``slope``: of the residual over ``split``, from the last two points of the root, or foretold (None: not known).
+    - ``slope``: d residual/d ``split``, from the last two points of the root, or predicted (None: not known).
     - ``states``: the contact on each grid on the way here, the coarsest first. A neighbour starts from them.
-    - ``coarse``: volume residual on the first of these grids less that on the last, under one film.
-    - ``drift``: by how much ``split`` was foretold too low from the speed before, over the ln of the ratio of the two.
+    - ``coarse``: volume residual on the first of these grids less that on the last, under the same film.
+    - ``drift``: by how much the prediction of ``split`` from the speed before was too low, over the ln of the ratio of
+      the two speeds.
     """
 
     film_load: float
@@ -59,22 +60,23 @@ class Balance:
 
     @property
     def gap_sensitivity(self) -> float:
-        """That of the forces. A slope that was only foretold says nothing of a light contact, whose residual may hang
-        on the film alone there: then an error of the gap is felt as one of the film."""
+        """`Forces.gap_sensitivity`. If the slope was only predicted, an error of the gap counts like one of the film: a
+        predicted slope says nothing about a light contact, whose residual may depend on the film alone."""
         return self.forces.gap_sensitivity if self.report.evaluations > 1 else self.forces.sensitivity
 
     @property
     def lubricated(self) -> Lubricated | None:
-        """This balance, where it has a film; None where it has not."""
+        """This balance if it has a film, else None."""
         return None
 
     @property
     def closed(self) -> Self:
-        """With the loads at which its volume residual, by the slope, would be zero."""
+        """The balance with the loads at which its volume residual would be zero, by the slope."""
         return self.moved(-self.contact.volume_residual / self.slope) if self.slope and self.contact_load > 0 else self
 
     def moved(self, step: float) -> Self:
-        """The loads divided as if ``split`` were larger by ``step``; film and contact as they were."""
+        """The balance with its loads divided as if ``split`` were larger by ``step``; film and contact stay as they
+        are."""
         film_load, contact_load = divided(self.film_load + self.contact_load, self.split + step)
         return replace(self, film_load=film_load, contact_load=contact_load)
 
@@ -93,7 +95,7 @@ class Lubricated(Balance):
 
     @property
     def trial(self) -> Trial:
-        """Film and contact, as a point of the root."""
+        """Film and contact as a point of the root."""
         touched = None if self.contact.pressure is None else self.contact
         return Trial(
             film=self.film,
@@ -106,16 +108,16 @@ class Lubricated(Balance):
 
 
 def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial | None = None) -> Lubricated:
-    """The division of the load at which film and contact agree, by the closure that ``numerics.closure`` names.
+    """Find the division of the load at which film and contact agree, by the closure ``numerics.closure``.
 
     - "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share. So there is one root
       in ln(F_H/F_C). The load balance holds by construction.
     - "separation", the paper's way: the film of a film load is imposed on the contact, which gives the contact load.
       ln((F_C + F_H)/F_T) increases with F_H and is brought to zero. The volume balance holds by construction.
 
-    Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour; `lubfric.point.split` says
-    where this balance should be from there. ``known``: film and contact of this point at the split of ``start``, for
-    the closure by load. That the summits touch is known before, or is shown by the root.
+    Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour, from which
+    `lubfric.point.split` predicts this balance. ``known``: film and contact of this point at the split of ``start``,
+    for the closure by load. That the summits touch is either known before, or shown by the root.
     """
     by_load = point.scene.numerics.closure == "load"
     first = Start() if start is None else Start(start.film, start.contact)
@@ -141,15 +143,15 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
 
 
 def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
-    """The balance with all the load on the film. It holds, with no contact, where the volume residual of its contact
-    is <= 0."""
+    """The balance with all the load on the film, if the surfaces are separated: the volume residual of the unloaded
+    contact is <= 0."""
     found = point.trial(point.scene.bodies.load, 0.0, Start(start))
     notes = ("separated: the film clears the summits",)
     return _balance(point, found, {"volume": 0.0, "load": 0.0}, (0.0,), CONVERGED, notes)
 
 
 def volume_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
-    """That of the contact solved at its share of the load under the film solved at its own, less the one aimed at."""
+    """Volume residual of a trial (film and contact each at its own share of the load), less the residual aimed at."""
     film_load, contact_load = divided(point.scene.bodies.load, split)
     if point.scene.numerics.film_deflection == "total":
         found = total_pressure.film_and_contact(point, film_load, contact_load, last)
@@ -159,15 +161,15 @@ def volume_residual(point: OperatingPoint, split: float, last: Start) -> tuple[f
 
 
 def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
-    """ln((F_C + F_H)/F_T) of the film solved at its share of the load and imposed on the contact."""
+    """ln((F_C + F_H)/F_T) of the film at its share of the load, and of the contact on which it is imposed."""
     load = point.scene.bodies.load
     found = point.trial_with_imposed_film(divided(load, split)[0], last)
     return math.log((found.contact_load + found.film_load) / load), found
 
 
 def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
-    """The root of `load_residual`. Where what the contact gains the film loses, the load hardly tells the division: the
-    search goes on until the residual over its slope is within `SPLIT` of the balance's tolerance too, or has failed."""
+    """The root of `load_residual`. Where the contact gains what the film loses, the sum of the loads hardly tells the
+    division. So the search also goes on until residual/slope is within `SPLIT` of the tolerance, or until it fails."""
     tolerance, value, x, last = point.settings.balance_tolerance, None, begin, first
     before: tuple[float, ...] = ()
     for _ in range(ROOTS):
@@ -183,7 +185,7 @@ def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
 
 
 def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
-    """Split at which the balance should be, from that of ``start``, and the slope of the residual there."""
+    """The split at which this balance is expected, from that of ``start``, and the slope of the residual there."""
     if start.film is None or start.film.entrainment_speed == 0:
         return start.split, start.slope
     split, slope = foretold_split(point, start.film.entrainment_speed, start.split, start.slope)
@@ -192,8 +194,8 @@ def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
 
 
 def drift(point: OperatingPoint, start: Balance, found: Balance) -> float:
-    """`Balance.drift` of what was ``found`` from ``start``. What is foretold leaves out much the same from speed to
-    speed: next to a full film, or under loads that bend the film."""
+    """`Balance.drift` of what was ``found`` from ``start``. The error of the prediction is much the same from one speed
+    to the next near full film, and under loads that deflect the film."""
     if start.film is None or start.contact_load == 0 or found.contact_load == 0:
         return 0.0
     before = start.film.entrainment_speed

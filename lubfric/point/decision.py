@@ -1,4 +1,4 @@
-"""What was left out of a result, and by which numbers that was judged."""
+"""What a result left out, and the numbers by which that was judged."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from .split import steepness
 
 @dataclass(frozen=True)
 class Decision:
-    """Levels of film and contact and the grid of one operating point.
+    """Levels of film and contact, and the grid, of one operating point.
 
     - ``film``, ``contact``: names of the levels; ``film_words``: the film in words.
-    - ``left_out``: what the film level leaves out, of film and film friction. The share ``sensitivity`` of it reaches
-      f.
+    - ``left_out``: relative errors of film and film friction by what the film level neglects. f changes by
+      ``sensitivity`` times as much.
     - ``film_tolerance``: of a numerical film (0: closed form).
     - ``clearance`` [sigma]: between the film and the highest summits (negative: contact).
     - ``steepness``: d ln(F_H/F_C)/d ln U (None: not known).
-    - ``shape``: of the contact grid; ``coarsening``: its cells in cells of the scene's map, each way.
+    - ``shape``: of the contact grid; ``coarsening``: length of its cells in cells of the scene's map, along each axis.
     - ``grid_error``: estimated relative error of f by the grid (None: it is the map's own grid); ``own_error``: on the
-      map's own grid, that of the last step to it (infinite: nothing to compare it with).
-    - ``tolerance``: asked, on f.
+      map's own grid, the change by the last step to it (infinite: nothing to compare it with).
+    - ``tolerance``: the one asked for, on f.
     - ``deflected_by``: the pressure that deflects the film, as in ``numerics.film_deflection`` ("": no film);
       ``deflection``: why, in words.
-    - ``heat``: what of the heat was modelled, in words ("": not chosen, not known).
-    - ``forced``: what was given instead of chosen.
+    - ``heat``: which heat was modelled, in words ("": not chosen, not known).
+    - ``forced``: what the scene fixed instead of leaving it to be chosen.
     """
 
     film: str
@@ -60,7 +60,7 @@ class Decision:
 
     @property
     def film_text(self) -> str:
-        """The film's part of ``text``."""
+        """The part of ``text`` about the film."""
         text = f"film: {self.film_words}"
         if self.film == "none":
             return f"{text}, no entrainment"
@@ -121,8 +121,8 @@ def alone(stage: Stage) -> Decision:
 
 
 def in_contact(stage: Stage, error: float, *, finest: bool) -> Decision:
-    """The decision for film and contact, on a grid with the estimated ``error`` of f. ``finest``: True on the map's
-    own grid."""
+    """The decision for film and contact on a grid with the estimated ``error`` of f. ``finest``: it is the map's own
+    grid."""
     prepared, grid, own = stage.point.prepared, stage.point.contact.grid, stage.point.prepared.contact.grid
     balance = stage.balance
     steep = steepness(stage.point, balance.split, balance.slope) if balance.slope and balance.film_load > 0 else None

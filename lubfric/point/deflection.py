@@ -1,11 +1,10 @@
-"""Which pressure deflects the film, as a level. It is the film's own where that is within the tolerance, else the whole
-load's.
+"""Which pressure deflects the film: its own where that is within the tolerance, else that of the whole load.
 
-A film deflected by its own pressure alone is too thick. It is so by about what the undeformed cylinder rises over the
-Hertz strip, b²/(6R) on average, times its share of the load. Johnson's modulus has the right limit f -> f_b. Against it
-f changes by at most about ``rise/gap min(2.2 s, 1.2)``, with s the sensitivity of f to the film. This was seen on 1,233
-random scenes of 60 MPa to 1.2 GPa, Sq 10 nm to 1 µm. The change was at most 0.97 times the estimate where that is 0.2
-to 5 %, and 0.44 % where it is below 0.5 %.
+A film that only its own pressure deflects is too thick. The excess is about the mean rise of the undeformed cylinder
+over the Hertz strip, b²/(6R), times the film's share of the load. Johnson's modulus has the right limit f -> f_b. It
+changes f by at most about ``rise/gap min(2.2 s, 1.2)``, with s the sensitivity of f to the film. On 1,233 random scenes
+of 60 MPa to 1.2 GPa, Sq 10 nm to 1 µm, the change was at most 0.97 times this estimate where the estimate is 0.2 to 5
+%, and at most 0.44 % where it is below 0.5 %.
 """
 
 from __future__ import annotations
@@ -26,8 +25,8 @@ SENSIBLE = 0.3  # above it the estimate is no number to quote
 
 
 def own_pressure_error(scene, balance: Balance) -> float:
-    """Upper estimate of how much f changes, relative, when the whole load deflects the film instead of its own
-    pressure."""
+    """Upper estimate of the relative change of f when the whole load deflects the film, and not its own pressure
+    alone."""
     if balance.contact_load == 0:
         return 0.0
     rise = scene.bodies.strip_rise / max(balance.contact.mean_gap, 1e-300)
@@ -37,11 +36,11 @@ def own_pressure_error(scene, balance: Balance) -> float:
 def solved_as_deflected(
     prepared: Prepared, speed: float, start: Balance | None = None, *, given_grid: bool = False
 ) -> tuple[Prepared, Solved]:
-    """``prepared`` with the deflection of its film as the scene gives it or, where that is "auto", as the tolerance
-    needs it, and its solution (`solved`).
+    """``prepared`` with the deflection of its film, and its solution (`solved`). The deflection is the scene's or,
+    where that is "auto", the one that the tolerance needs.
 
-    Where a neighbour, ``start``, or else a loose solve is far beyond the share of a film's own pressure, the whole load
-    is tried first, and stays if its own solution says so too. The choice does not depend on ``start``.
+    The neighbour ``start``, or else a loose solve, may be far beyond the share of a film's own pressure. Then the whole
+    load is tried first, and kept if its own solution confirms that. The choice does not depend on ``start``.
     """
 
     def by(option: str, start: Balance | None) -> tuple[Prepared, Solved]:
@@ -67,15 +66,15 @@ def solved_as_deflected(
 
 
 def _told(found: Solved, error: float, limit: float, option: str) -> Solved:
-    """``found``, with the choice in its decision where film and contact share the load."""
+    """``found``, with the choice noted in its decision where film and contact share the load."""
     shared = found.balance.film is not None and found.balance.contact_load > 0
     told = in_words(error, limit, option) if shared else ""
     return replace(found, decision=replace(found.decision, deflection=told))
 
 
 def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> tuple[float, Balance | None]:
-    """`own_pressure_error` of a neighbour or, without one, of a loose solve, and its balance; infinite and None where
-    that fails, which says nothing of the point itself."""
+    """`own_pressure_error` of a neighbour or, without one, of a loose solve, and its balance. Where the loose solve
+    fails, infinite and None: that says nothing about the point itself."""
     if speed == 0:
         return 0.0, start
     if start is not None and start.film is not None:
@@ -88,7 +87,8 @@ def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> 
 
 
 def _loose(prepared: Prepared) -> Prepared:
-    """``prepared`` by its film's own pressure, to a tolerance that costs little and tells whether it will do."""
+    """Solve ``prepared``, deflected by the film's own pressure, to a loose tolerance: cheap, and enough for the
+    choice."""
     return replace(prepared, scene=prepared.scene.with_(numerics=LOOSE))
 
 
@@ -98,7 +98,7 @@ def deflected_by(prepared: Prepared, option: str) -> Prepared:
 
 
 def in_words(error: float, limit: float, option: str) -> str:
-    """For `Decision.text`."""
+    """The choice for `Decision.text`."""
     if option == "hydrodynamic":
         return f"deflection: by the film's own pressure, at most {100 * error:.2g} % of f < {100 * limit:.2g} % budget"
     if error == math.inf:

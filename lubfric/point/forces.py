@@ -1,4 +1,4 @@
-"""What resists the sliding at a balance, and how much of an error of the film reaches it."""
+"""The friction of a balance, and how strongly it depends on an error of the film."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ from .operating_point import Trial
 
 @dataclass(frozen=True)
 class Forces:
-    """What resists the sliding: f = (boundary + shear.total)/F_T.
+    """The forces that resist sliding: f = (boundary + shear.total)/F_T.
 
-    sensitivity: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T), where the rolling
-    part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). a is what a change of
-    the film at a given gap does to its load, 1 for a rigid film and up to ten times that for an elastic one, from
-    the slope that the balance was found with. quadrature: estimated error of the sum that F_sh is, relative to f F_T
-    (`lubfric.film.shear.ShearForce`). A pressure spike that the grid does not hold shows here and not in the film.
-    by_load: relative error of f per relative error of the mean gap in the contact, which moves the load alone:
-    a' (f_b F_H + k |F_sh|)/(f F_T), a' not held above 1, and k = 1 + ln(eta_max/eta_0)/2 what the film's friction at
-    most changes with its load.
-    heat: of inlet, film and surfaces, and what it changes.
+    - ``sensitivity``: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). The rolling
+      part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). The factor a is the change of a film's load by
+      a change of the film at a given gap, from the slope with which the balance was found. It is 1 for a rigid film,
+      and up to ten times that for an elastic one.
+    - ``quadrature``: estimated error of F_sh by its sum over nodes, relative to f F_T. A pressure spike that the grid
+      does not resolve shows here, and not in the film.
+    - ``by_load``: relative error of f per relative error of the contact's mean gap, which changes only the division of
+      the load: a' (f_b F_H + k |F_sh|)/(f F_T). Here a' is a without its lower bound of 1, and k = 1 +
+      ln(eta_max/eta_0)/2 bounds how the film's friction changes with its load.
+    - ``heat``: of inlet, film and surfaces, and what it changes.
     """
 
     coefficient: float
@@ -41,14 +42,14 @@ class Forces:
 
     @property
     def gap_sensitivity(self) -> float:
-        """Relative error of f per relative error of the mean gap in the contact: no more than of the film, and little
-        where the contact carries little."""
+        """Relative error of f per relative error of the contact's mean gap: at most ``sensitivity``, and small where
+        the contact carries little."""
         return min(self.sensitivity, self.by_load)
 
 
 def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None) -> Forces:
-    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load,
-    ``slope`` that of the balance."""
+    """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load.
+    ``slope``: that of the balance."""
     shear = _shear(scene, level, found)
     heat, warm = point_heat(scene, found, abs(_boundary(scene, found.contact_load) + shear.total), shear)
     if warm is not None:

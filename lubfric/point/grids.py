@@ -1,4 +1,4 @@
-"""The contact on finer and finer grids, and the error of f by its grid."""
+"""The contact on finer and finer grids, and the resulting error of f."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ LARGEST_MOVE = 1.0  # of ln(F_H/F_C), foretold from grid to grid
 
 @dataclass(frozen=True)
 class Refined:
-    """The grid reached (its index), what the volume residual changed by from grid to grid on the way there, and the
-    point on it. Either film and contact there, at the split of ``balance``, are a ``known`` point of its root, or
-    ``balance`` is moved from a coarser grid to where this one should have its own."""
+    """The grid reached (its index), the changes of the volume residual from grid to grid on the way there, and the
+    point on it. The point is either ``known`` (film and contact at the split of ``balance``), or ``balance`` moved from
+    a coarser grid to where the balance on this one is expected."""
 
     index: int
     changes: tuple[float, ...]
@@ -37,8 +37,8 @@ class Refined:
 
 
 def coarser_grids(contact: RoughContact, sq: float) -> list[RoughContact]:
-    """``contact`` on several grids, from the coarsest that still holds its roughness ``sq`` [m] to its own. There
-    are at least two if it can be halved."""
+    """``contact`` on several grids, from the coarsest that still resolves its roughness ``sq`` [m] to its own: at least
+    two grids if it can be halved."""
     contacts = [contact]
     while (coarse := contacts[0].coarsened()) is not None:
         if len(contacts) > 1 and coarse.sq < LEAST_ROUGHNESS * sq:
@@ -53,8 +53,8 @@ def on_enough_cells(
     """The balance on the first of ``grids`` whose estimated error of f is within its share; the index of that grid; and
     the error (infinite: unknown).
 
-    With several grids the volume is closed only loosely on the coarsest, and short by what finer grids took away at
-    ``start``. The balance goes on from there by the residual left, by what the grid changes it by, and by its slope.
+    With several grids, the volume on the coarsest is closed only loosely, and short by the change that finer grids made
+    at ``start``. The balance then continues from the residual left, from its change by the grid, and from its slope.
     """
     numerics = point.scene.numerics
     limit, movable = budget.CONTACT_GRID * numerics.tolerance, numerics.closure == "load"
@@ -95,14 +95,10 @@ def refined(
     at: tuple[int, tuple[float, ...], float],
     known: Sequence[ContactState] = (),
 ) -> Refined:
-    """Contact on grids finer than that of ``stage`` under its film and load, until the rest is within the limit.
-
-    ``at``: index of the grid, changes of the residual so far, and limit. ``known``: states of a neighbour, to start
-    from.
-
-    What the volume residual changes by from grid to grid, over the slope of the balance, is what the split of the
-    load would: no film is solved.
-    """
+    """Solve the contact on grids finer than that of ``stage``, under its film and load, until the remaining error is
+    within the limit. The change of the volume residual from grid to grid, over the slope of the balance, is the change
+    of the split; no film is solved. ``at``: index of the grid, changes of the residual so far, and limit. ``known``:
+    states of a neighbour, to start from."""
     index, changes, limit = at
     balance, contact, state = stage.balance, stage.point.contact, stage.balance.contact
     states = list(balance.states)
@@ -125,8 +121,8 @@ def refined(
 
 
 def _is_trial(stage: Stage) -> bool:
-    """A contact under the film of ``stage`` is what a trial of its root on that grid would find, and the way on from
-    there is known."""
+    """Whether a contact under the film of ``stage`` is what a trial of the root on that grid would find, so that the
+    root can continue from it."""
     numerics, settings = stage.point.scene.numerics, stage.point.settings
     by_load = numerics.closure == "load" and numerics.film_deflection != "total"
     return by_load and settings.contact_tolerance is None and bool(stage.balance.slope)
@@ -135,9 +131,9 @@ def _is_trial(stage: Stage) -> bool:
 def under_the_film(
     stage: Stage, whole: RoughContact, coarser: tuple[RoughContact, ContactState], near: ContactState | None
 ) -> tuple[RoughContact, ContactState]:
-    """The contact on ``whole``, or the part of it that is enough, under the film and load of ``stage``, and its state;
-    from that found on a ``coarser`` one, or ``near``, that of a neighbour on such a grid. It is solved to its own
-    tolerance: between grids no more is asked."""
+    """The contact on ``whole``, or on the part of it that is enough, under the film and load of ``stage``, and its
+    state. It starts from the contact on a ``coarser`` grid, or from ``near``, that of a neighbour on such a grid. It is
+    solved to its own tolerance: the comparison of grids needs no more."""
     contact, state = coarser
     film, load, part = stage.balance.film, stage.balance.contact_load, whole.cut(state, contact)
     thickness, shape = stage.point.film_on(part, film)
@@ -151,14 +147,15 @@ def under_the_film(
 
 
 def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: float = 0.0) -> float:
-    """Estimated relative error of f by the contact grid. Infinite where nothing can be said.
+    """Estimated relative error of f by the contact grid; infinite where nothing can be said.
 
-    It follows from the last two changes d2, d1 of the volume residual between grids. With r = d1/d2, kept between 1/4
-    (second order) and 3/4 (hardly converging), or 1/2 where there is no d2, the rest of the geometric series is d1 r/(1
-    - r). It is no less than d2/12, in case d1 is small by chance, and, where few cells touch, than a part of what its
-    summits have ``lost`` [m] to the averages over its cells. Times 2 ``gap_sensitivity`` it is the effect on f to
-    first order; the load of a light contact follows a gap exponentially, s = ln(F_H/F_C) in proportion to it.
-    Whatever the grid does to the film's share of the load, f changes by no more than ``sensitivity`` of that.
+    It follows from the last two changes d2, d1 of the volume residual between grids. The changes still to come are a
+    geometric series d1 r/(1 - r) with r = d1/d2, kept between 1/4 (second order) and 3/4 (hardly converging), or 1/2
+    where there is no d2. It has two lower bounds: d2/12, in case d1 is small by chance, and, where few cells touch, a
+    part of what its summits have ``lost`` [m] to the averages over its cells. To first order f changes by 2
+    ``gap_sensitivity`` times the sum; but the load of a light contact depends exponentially on the gap, with s =
+    ln(F_H/F_C) in proportion to it. However the grid changes the film's share of the load, f changes by at most
+    ``sensitivity`` times that change.
     """
     if balance.contact_load == 0:
         return math.inf
@@ -174,6 +171,7 @@ def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: f
 
 
 def _by_chance(contact: ContactState, lost: float) -> float:
-    """Volume residual that ``lost`` [m] summits leave unseen, however alike the contact is on two grids."""
+    """Part of the volume residual by ``lost`` [m] summits that two grids may miss, however alike the contact looks on
+    them."""
     cells = FEW_CELLS if contact.pressure is None else np.count_nonzero(contact.pressure)
     return SEEN * lost / (2 * contact.mean_film) * min(1.0, FEW_CELLS / max(cells, 1))

@@ -1,4 +1,4 @@
-"""Is a solution an answer? The model's assumptions, checked on one operating point."""
+"""Whether a solution is an answer: the assumptions of the model, checked on one operating point."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .balance import Balance
 
 
 def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:
-    """Entries for everything that does not hold at ``balance``. Those of bodies and map (`Prepared.known`) come
+    """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
     first."""
     scene, film = prepared.scene, balance.film
     thickness = film.central_film if film is not None else math.nan

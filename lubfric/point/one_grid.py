@@ -1,4 +1,4 @@
-"""The balance on one contact grid, at the film level and the tolerances that its own sensitivity asks for."""
+"""The balance on one contact grid, at the film level and the tolerances that its own sensitivity needs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ROUNDS = 8  # each with a higher level or tighter tolerances
 
 @dataclass(frozen=True)
 class Stage:
-    """A point, its balance, and what its film leaves out."""
+    """An operating point, its balance, and what its film leaves out."""
 
     point: OperatingPoint
     balance: Lubricated
@@ -36,11 +36,11 @@ class Stage:
 def on_grid(
     point: OperatingPoint, whole: RoughContact, start: Balance | None, loosest: float = 0.0, known: Stage | None = None
 ) -> Stage:
-    """The balance on the point's contact, which may be a part of ``whole``. Where the part is not enough, on all of it.
+    """The balance on the point's contact. If that is a part of ``whole`` and turns out to be too small, on all of it.
 
-    It is found again, each time from the last, until its settings are those that it shows to be needed. ``loosest``: a
-    volume residual that is good enough whatever f needs, where finer grids follow. ``known``: film and contact at the
-    split of ``start``, on a part that is enough, and what that film leaves out.
+    The balance is repeated, each time from the last, until its settings are those that it shows to be needed.
+    ``loosest``: a volume residual that is good enough for any f, where finer grids follow. ``known``: film and contact
+    at the split of ``start``, on a part that is enough, and what that film leaves out.
     """
     for _ in range(ROUNDS):
         balance = balanced(point, start, None if known is None else known.balance.trial)
@@ -63,7 +63,7 @@ def _left_out(point: OperatingPoint, balance: Lubricated) -> LeftOut:
 
 
 def _as_good(stage: Stage, settings: Settings) -> bool:
-    """Film and contact of the balance are what they would be by ``settings`` too."""
+    """Whether film and contact of the balance would be the same with ``settings``."""
     old, numerics, film = stage.point.settings, stage.point.scene.numerics, stage.balance.film
     solved_so = replace(old, balance_tolerance=settings.balance_tolerance, film_tolerance=settings.film_tolerance)
     by_load = numerics.closure == "load" and numerics.film_deflection != "total"
@@ -71,9 +71,8 @@ def _as_good(stage: Stage, settings: Settings) -> bool:
 
 
 def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
-    """The settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances. None
-    where its own are enough. Beside a level that is given, only the levels that leave out no more than allowed are
-    taken."""
+    """The settings that the balance shows to be needed: a higher film level, more cells, tighter tolerances; None if
+    its own are enough. Unless a level is given by name, only levels that leave out no more than allowed are taken."""
     point, balance, settings = stage.point, stage.balance, stage.point.settings
     numerics, levels = point.scene.numerics, point.prepared.film_levels
     sensitivity = felt_share(numerics, balance)

@@ -1,5 +1,4 @@
-"""Film and rough contact at one speed, on one grid, to given tolerances: each at a load of its own, and both
-together."""
+"""Film and rough contact at one speed, on one grid, to given tolerances: each at its own load, or both together."""
 
 from __future__ import annotations
 
@@ -21,9 +20,9 @@ from ..scene import Scene
 
 @dataclass(frozen=True)
 class Settings:
-    """Film level; relative tolerances of the film and of the volume balance; the least number of cells of a
-    numerical film; tolerance of the contact (None: its own); the volume residual aimed at, which is what finer grids
-    should take away."""
+    """Film level; relative tolerances of the film and of the volume balance; the least number of cells of a numerical
+    film; tolerance of the contact (None: its own); and the volume residual to aim at, which finer grids are expected to
+    remove."""
 
     level: FilmLevel
     film_tolerance: float
@@ -35,10 +34,10 @@ class Settings:
 
 @dataclass(frozen=True)
 class Start:
-    """What a trial starts from: the film of a neighbour, and the last contact that touched (None: none).
+    """Where a trial starts: from the film of a neighbour, and from the last contact that touched (None: none).
 
     ``solved``: cells of the films of this balance so far, the latest last. From the second film on all keep to one
-    grid, because the root of the balance would have a jump otherwise.
+    grid, because otherwise the root of the balance would have a jump.
     """
 
     film: Film | None = None
@@ -53,7 +52,7 @@ class Start:
 
 @dataclass(frozen=True, kw_only=True)
 class Trial(Start):
-    """Film and contact at one division of the load [N]: the next trial starts from it."""
+    """Film and contact at one division of the load [N]. The next trial starts from it."""
 
     film: Film
     contact: ContactState
@@ -63,7 +62,7 @@ class Trial(Start):
 
 @dataclass(frozen=True)
 class OperatingPoint:
-    """A model at one speed [m/s], not 0, to ``settings``, on ``contact``: the model's own, coarser, or a part of it.
+    """A model at one speed [m/s], not 0, with ``settings``, on ``contact``: the scene's own, coarser, or a part of it.
 
     ``alone``: the film of the whole load, where it was solved. The first numerical film may start from it.
     """
@@ -80,8 +79,8 @@ class OperatingPoint:
         return self.prepared.scene
 
     def line(self, film_load: float) -> LineContact:
-        """The smooth line contact of a film that carries ``film_load`` [N]; with Johnson's modulus E' F_H/F_T where the
-        scene asks for it, so that the strip is that of the whole load."""
+        """The smooth line contact of a film that carries ``film_load`` [N]. Where the scene asks for it, it has
+        Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the whole load."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
         return LineContact(
@@ -90,7 +89,7 @@ class OperatingPoint:
 
     def trial(self, film_load: float, contact_load: float, start: Start, imposed=None) -> Trial:
         """The film that carries ``film_load`` [N], and under it the contact that carries ``contact_load`` [N].
-        ``imposed``: a pressure that deflects the film too."""
+        ``imposed``: a further pressure that deflects the film."""
         found = self.film(film_load, start, imposed)
         film, shape = self.film_on(self.contact, found)
         contact = self._contact.close(film, contact_load, start.touched, shape)
@@ -105,11 +104,10 @@ class OperatingPoint:
         return self._trial(film_load, contact_load, found, contact, start)
 
     def film_on(self, contact: RoughContact, film: Film) -> tuple[np.ndarray, np.ndarray]:
-        """Film [m] at the x of ``contact``, and what the surface is pressed under there, up to a constant: the film, or
-        less.
+        """Film [m] at the x of ``contact``, and the shape under which the surface is pressed there, up to a constant.
 
-        With Johnson's modulus, or under the total pressure, the film holds the deflection of the whole load; the
-        contact adds its own share itself.
+        The shape is the film, unless the film already contains the deflection by the whole load (Johnson's modulus, or
+        the total pressure). Then it is the film less the contact's share, because the contact adds its own deflection.
         """
         thickness, way = film.film_at(contact.x), self.scene.numerics.film_deflection
         if way == "total":
@@ -125,13 +123,13 @@ class OperatingPoint:
         return self.contact is whole or whole.holds(self.contact, self.film_on(whole, film)[1], state)
 
     def guessed_split(self) -> float:
-        """ln(F_H/F_C) where the rigid isoviscous film is two Sq thick."""
+        """ln(F_H/F_C) at which the rigid isoviscous film is two Sq thick."""
         thickness = max(2 * self.prepared.surface.sq, 1e-12)
         share = min(self.line(self.scene.bodies.load).rigid_film / thickness, 0.9)
         return math.log(share / (1 - share))
 
     def film(self, film_load: float, start: Start, imposed=None) -> Film:
-        """The film that carries ``film_load`` [N], deflected by the line pressure ``imposed`` too."""
+        """The film that carries ``film_load`` [N], also deflected by the line pressure ``imposed``."""
         near = start.film if start.film is not None and start.film.cells else self.alone
         found = self.settings.level.solve(
             self.line(film_load),
@@ -161,7 +159,7 @@ class OperatingPoint:
 
     @cached_property
     def _film_lubricant(self) -> Lubricant:
-        """The lubricant, as viscous as it is in the inlet."""
+        """The lubricant with the viscosity that it has in the inlet."""
         return film_lubricant(self.scene, self.speed)
 
     @property

@@ -1,4 +1,4 @@
-"""What will be modelled, foretold from closed forms: `lubfric info` solves nothing."""
+"""A forecast from closed forms of what will be modelled, for `lubfric info`, which solves nothing."""
 
 from __future__ import annotations
 

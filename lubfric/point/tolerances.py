@@ -1,5 +1,4 @@
-"""What is asked of film, volume balance and contact, given how much of their errors reaches f. It stays within
-`lubfric.budget`."""
+"""Tolerances of film, volume balance and contact, from how strongly f depends on their errors (`lubfric.budget`)."""
 
 from __future__ import annotations
 
@@ -14,18 +13,17 @@ from .operating_point import OperatingPoint, Settings
 
 
 def felt_share(numerics: Numerics, balance: Balance) -> float:
-    """Share of a film's error that reaches f. It is all of it where nothing is to be left out, or where contact just
-    begins."""
+    """Share of a film's error that f feels. It is 1 where nothing is to be left out, or where contact just begins."""
     if balance.contact_load == 0:
         return 1.0
     return max(balance.forces.sensitivity, 1.0 if numerics.model == "full" else 1e-12)
 
 
 def felt_gap(numerics: Numerics, balance: Balance) -> float:
-    """Share of an error of the contact's mean gap that reaches f; as `felt_share`.
+    """Share of an error of the contact's mean gap that f feels, as in `felt_share`.
 
-    A light contact feels its gap exponentially. What is felt is the error that moves f by its share of the tolerance:
-    of ``sensitivity`` times ``|slope| (exp(d) - 1)``, d what it moves ln(F_H/F_C) by.
+    The load of a light contact depends exponentially on its gap. So the share is found from the error that changes f by
+    its share of the tolerance, by ``sensitivity`` times ``|slope| (exp(d) - 1)``, where d is the change of ln(F_H/F_C).
     """
     if balance.contact_load == 0 or numerics.model == "full":
         return felt_share(numerics, balance)
@@ -37,7 +35,7 @@ def felt_gap(numerics: Numerics, balance: Balance) -> float:
 
 
 def film_tolerance(numerics: Numerics, sensitivity: float) -> float:
-    """Tolerance of a numerical film, of whose error the share ``sensitivity`` reaches f."""
+    """Tolerance of a numerical film. f feels the share ``sensitivity`` of the film's error."""
     if numerics.film_tolerance is not None:
         return numerics.tolerances.film
     share = budget.FILM_GRID * numerics.tolerance / sensitivity
@@ -52,13 +50,13 @@ def film_alone_tolerance(numerics: Numerics) -> float:
 
 
 def first_film_tolerance(numerics: Numerics) -> float:
-    """Tolerance of the first film, which tells what is needed."""
+    """Tolerance of the first film, which serves to find out what is needed."""
     return budget.LOOSEST_FILM if numerics.film_tolerance is None else numerics.film_tolerance
 
 
 def balance_tolerance(numerics: Numerics, sensitivity: float) -> float:
-    """Tolerance of the volume balance, of whose error the share ``sensitivity`` reaches f. Where the film is imposed
-    on the contact, its error is one of the load itself."""
+    """Tolerance of the volume balance. f feels the share ``sensitivity`` of its error. Where the film is imposed on the
+    contact, the error is one of the load itself."""
     if numerics.balance_tolerance is not None or numerics.closure != "load":
         return numerics.tolerances.balance
     share = budget.BALANCE * numerics.tolerance / sensitivity
@@ -71,8 +69,8 @@ def allowed_left_out(numerics: Numerics, sensitivity: float) -> float:
 
 
 def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> int:
-    """Least number of cells of the film. It is twice what the film has where the sum of its shear stress is not good
-    enough. It is not raised where that sum is of stresses that no oil carries."""
+    """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
+    enough. It stays where that sum is of stresses that no oil carries."""
     found = balance.forces
     resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if not settings.level.numerical or numerics.film_tolerance is not None or resolved:
@@ -81,8 +79,8 @@ def least_cells(numerics: Numerics, settings: Settings, balance: Lubricated) -> 
 
 
 def contact_tolerance(point: OperatingPoint, state: ContactState, volume: float) -> float | None:
-    """Tolerance of the contact, in Sq, such that the error of the mean gap stays within the ``volume`` balance.
-    Where the gap is a small part of Sq, the contact's own tolerance is too loose."""
+    """Tolerance of the contact, in Sq, such that the error of the mean gap stays within the ``volume`` balance. It is
+    tighter than the contact's own where the gap is a small part of Sq."""
     own, given, sq = (
         point.prepared.contact.adjustable_tolerance,
         point.settings.contact_tolerance,

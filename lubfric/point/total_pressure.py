@@ -1,14 +1,15 @@
-"""The film deflected by its own pressure and that of the contact: both found together at one division of the load.
+"""A film that is deflected by its own pressure and by that of the contact: both are found together at one division of
+the load.
 
-The film is that of an imposed line pressure (`lubfric.solve_ehl`); the surface is pressed under the film less the
-deflection of that pressure, since it adds its own. The imposed pressure is the Hertz semi-ellipse that has the load of
-the contact and tilts and bends the Hertz strip as its pressure, mean over y, does (`spread_of`): exact for a smooth
-cylinder, and free of what single asperities of a finite patch add to that mean, which the film of smooth surfaces
-cannot follow (`departure` says how much that is). A nominally flat contact has no distribution along x of its own:
-there it is the semi-ellipse over the strip of the total load.
+The film is solved under an imposed line pressure (`lubfric.solve_ehl`). The surface is pressed under this film less the
+deflection by the imposed pressure, because the contact adds its own deflection. The imposed pressure is a Hertz
+semi-ellipse with the load of the contact. It tilts and bends the Hertz strip as the contact's pressure, mean over y,
+does (`spread_of`). For a smooth cylinder that is exact. It leaves out the waves that single asperities of a finite
+patch add to the mean, because a film of smooth surfaces cannot follow them (`departure` measures these). A nominally
+flat contact has no distribution along x: its semi-ellipse covers the strip of the total load.
 
-Fixed point in centre and half-width: film under the contact's pressure -> contact under that film -> its pressure, with
-Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
+Centre and half-width are found as a fixed point: film under the contact's pressure -> contact under that film -> its
+pressure, with Anderson's mixing (D. G. Anderson, J. ACM 12 (1965) 547-560, doi:10.1145/321296.321305).
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class Ellipse:
 def film_and_contact(point: OperatingPoint, film_load: float, contact_load: float, last: Start) -> Trial:
     """Film and contact of ``film_load`` and ``contact_load`` [N], each found under the pressure of the other.
 
-    ``last`` starts them. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
+    Starts from ``last``. Stops when `mismatch` <= half the tighter tolerance of film and volume, or 1e-4; raises
     `ConvergenceError` with a report after 40 steps.
     """
     scene = point.scene
@@ -100,8 +101,9 @@ def notes(scene: Scene, found: Trial) -> tuple[str, ...]:
 
 
 def mismatch(scene, film, contact) -> float:
-    """Largest difference across the Hertz strip, but for a constant, between the deflections by the contact's pressure
-    and by the one that the film was solved with, relative to the mean film: by so much h misses its own equation."""
+    """Largest difference across the Hertz strip between two deflections, up to a constant, relative to the mean film:
+    that by the contact's pressure, and that by the pressure with which the film was solved. It is the error of h in its
+    equation."""
     if film is None or film.imposed is None or contact.pressure is None:
         return 0.0
     imposed = film.imposed
@@ -111,8 +113,8 @@ def mismatch(scene, film, contact) -> float:
 
 
 def departure(scene, contact, line_load: float) -> float:
-    """What the semi-ellipse leaves out: the rms difference across the strip between the deflections by the mean over y
-    of the contact's pressure and by its semi-ellipse, relative to the mean film."""
+    """What the semi-ellipse leaves out: the rms difference across the strip between the deflections by the contact's
+    pressure, mean over y, and by its semi-ellipse, relative to the mean film."""
     if contact.pressure is None:
         return 0.0
     pressure, step = contact.pressure.mean(axis=1), contact.x[1] - contact.x[0]
@@ -125,10 +127,10 @@ def spread_of(scene, contact, line_load: float) -> Ellipse:
     """The semi-ellipse of ``line_load`` whose deflection across the strip |x| <= b has the same linear and quadratic
     Chebyshev coefficients as that of a contact's pressure, both to second order in centre/b.
 
-    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), t_n = T_n for |s'| <= 1, sign(s')^n (|s'| - sqrt(s'² -
-    1))^n beyond: the coefficients are the means m_n of t_n over the load, n = 1, 2. Of a semi-ellipse inside the strip
-    m1 = c/b, m2 = 2 c²/b² + a²/(2 b²) - 1; of one that covers it, by its parabolic deflection, m1 = b c/a², m2 = -b²/(2
-    a²).
+    With s = x/b, -ln|s - s'| = ln 2 + sum 2/n T_n(s) t_n(s'), where t_n = T_n for |s'| <= 1, and sign(s')^n (|s'| -
+    sqrt(s'² - 1))^n beyond. So the coefficients are the means m_n of t_n over the load, n = 1, 2. A semi-ellipse inside
+    the strip has m1 = c/b, m2 = 2 c²/b² + a²/(2 b²) - 1. One that covers the strip has, by its parabolic deflection, m1
+    = b c/a², m2 = -b²/(2 a²).
     """
     b, step = scene.bodies.half_width, contact.x[1] - contact.x[0]
     share = contact.pressure.sum(axis=1)
@@ -144,7 +146,8 @@ def spread_of(scene, contact, line_load: float) -> Ellipse:
 
 
 def deflection(scene, x, pressure) -> np.ndarray:
-    """By a piecewise linear pressure [Pa] on the nodes ``x`` [m], across the Hertz strip, less its mean [m]."""
+    """Deflection across the Hertz strip, less its mean [m], by a piecewise linear pressure [Pa] on the nodes ``x``
+    [m]."""
     b = scene.bodies.half_width
     found = hat_kernel(np.linspace(-1.0, 1.0, STRIP), x / b) @ pressure * (b / scene.bodies.e_prime)
     return found - found.mean()
@@ -158,8 +161,8 @@ def _first(film, line_load: float, half_width: float) -> Ellipse:
 
 
 def _mixed(steps) -> Ellipse:
-    """Where the last steps, were they linear, would leave the least deflection apart; no narrower than half the
-    last."""
+    """The next semi-ellipse: the mix of the last steps that, if they were linear, would leave the smallest mismatch; no
+    narrower than half the last."""
     (last, apart), before = steps[-1], steps[:-1]
     if not before:
         return last

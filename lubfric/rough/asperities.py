@@ -1,15 +1,14 @@
-"""Independent asperities in the place of the half-space, under a cylinder: no deflection beyond each contact.
+"""Independent asperities instead of a half-space, under a cylinder: nothing deforms outside the single contacts.
 
-The film h(x) less an offset epsilon is the separation, as in the paper's Eq. (7): asperities above it are in
-contact. Nothing but the contacts themselves deforms, so the volume balance of Eq. (8) loses its deflection u
-and becomes
+The film h(x) less an offset epsilon is the separation, as in the paper's Eq. (7): asperities above it are in contact.
+Since only the contacts deform, the volume balance of Eq. (8) loses its deflection u and becomes
 
 - "volume":      mean of max(h - epsilon - z, 0) over A = mean film over A, Johnson's definition of the
   separation (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108,
   doi:10.1016/0043-1648(72)90445-0);
 - "mean-plane":  epsilon = 0: the film is the distance of the mean planes, for z about its mean over A.
 
-Under a cylinder the contact load does not flatten the surface as a whole: the film's shape is all there is.
+Under a cylinder the contact load does not flatten the surface as a whole: its shape is that of the film.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from .strip import area_weight, centred_axis, check_strip, weighted_mean
 
 @dataclass(frozen=True)
 class AsperityContact(RoughContact):
-    """A rough surface under a cylinder, free along x, periodic along y, its asperities independent.
+    """A rough surface with independent asperities under a cylinder, free along x, periodic along y.
 
     heights [m] (nx, ny) around their mean; x [m] (nx,); weight (nx,): area A; definition, reading: see the module.
     tolerance: of the mean gap, relative.
@@ -45,11 +44,10 @@ class AsperityContact(RoughContact):
     tolerance: float
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
-        """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not
-        needed.
+        """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
 
-        The load of patches jumps where they join: the offset of the jump is taken, to which the gap is
-        continuous. Raises `ConvergenceError` when the load cannot be reached.
+        The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
+        continuous. Raises `ConvergenceError` if the load cannot be reached.
         """
         from scipy.optimize import brentq
 
@@ -78,8 +76,7 @@ class AsperityContact(RoughContact):
         return self._state(film, under, touch + root, law(under[:, None] - touch - root))
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """Contact load [N] under the imposed film, found directly: the
-        offset does not depend on the load."""
+        """Contact load [N] under the imposed film, found directly, because the offset does not depend on the load."""
         from scipy.optimize import brentq
 
         under, mean_film = self._under(film, shape), weighted_mean(film, self.weight)
@@ -148,7 +145,7 @@ class AsperityContact(RoughContact):
         )
 
     def _contact_fraction(self, found: AsperityResult) -> np.ndarray:
-        """Share of the width inside the contact discs, column by column; 1 where discs overlap to more."""
+        """Share of the width inside the contact discs, column by column; 1 if overlapping discs add up to more."""
         centre = self.x[found.index[:, 0]]
         radius = np.sqrt(found.radii * found.overlap)
         edges = np.append(self.x - self.spacing[0] / 2, self.x[-1] + self.spacing[0] / 2)

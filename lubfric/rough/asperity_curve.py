@@ -14,10 +14,10 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
     ``reading``: "volume" or "mean-plane" (`lubfric.rough.asperities`) of heights [m] about their mean. The flat comes
-    down until ``heaviest`` [Pa] is carried. Where the model cannot carry it, the flat comes down to the deepest valley
-    (to the mean plane for "mean-plane"), and the curve ends at the most it carries. Patches that grow together carry
-    less than before. Such nodes are left out, so that the pressure rises along the curve. The search ends below half of
-    the most that was carried.
+    down until it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley
+    (to the mean plane for "mean-plane"), and the curve ends at the largest pressure. Patches that grow together carry
+    less than before; such nodes are left out, so that the pressure rises along the curve. The search ends below half of
+    the largest pressure.
     """
     asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top, span = float(heights.max()), float(np.ptp(heights))

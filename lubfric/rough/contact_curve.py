@@ -28,7 +28,7 @@ class ContactCurve(FieldsOnly):
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
     touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
-    1,): estimated error of the gap read between two nodes; empty where it is none.
+    1,): estimated error of the gap interpolated between two nodes; empty if there is no interpolation error.
     """
 
     mean_pressure: np.ndarray
@@ -51,9 +51,9 @@ class ContactCurve(FieldsOnly):
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
 
-        Cubic (shape-preserving) in the logarithm of the pressure between the nodes: the gap, the
-        logarithm of the area, the plastic share of the area. Below the lightest node a single Hertz
-        asperity: approach and area ~ p^(2/3).
+        Between the nodes the gap, the logarithm of the area and the plastic share of the area are shape-preserving
+        cubics in the logarithm of the pressure. Below the lightest node a single Hertz asperity carries: approach and
+        area ~ p^(2/3).
         """
         pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
         gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
@@ -67,7 +67,7 @@ class ContactCurve(FieldsOnly):
 
     @cached_property
     def _read(self):
-        """(gap, logarithm of the area, plastic share of it) at a logarithm of the pressure, between the nodes."""
+        """(gap, logarithm of the area, plastic share of it) at a logarithm of the pressure between the nodes."""
         from scipy.interpolate import PchipInterpolator
 
         area = self.contact_area_fraction
@@ -98,12 +98,12 @@ def contact_curve(
 ) -> ContactCurve:
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
-    Each node starts from its heavier neighbour. Nodes are added between the first ones until the mean gap
-    interpolated is within about ``accuracy`` (relative), and so is the load at a given gap, as far as it moves the
-    friction of a film that carries the rest of ``heaviest``; the errors at nodes left out of the interpolation are the
-    estimate (`ContactCurve.gap_error`). It needs most of them where the
-    contact is nearly full and the gap falls by orders of magnitude, and on small maps, whose summits come into
-    contact one by one. Raises what `lubfric.solve_contact` raises.
+    Each node starts from its heavier neighbour. Nodes are added between the first ones until two errors are within
+    about ``accuracy``: the relative error of the interpolated mean gap, and that of the load at a given gap, by its
+    effect on the friction of a film that carries the rest of ``heaviest``. They are estimated from the errors at nodes
+    that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are needed near full contact, where
+    the gap falls by orders of magnitude, and on small maps, whose summits touch one by one. Raises what
+    `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
@@ -142,7 +142,8 @@ def contact_curve(
 
 
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
-    """Intervals in which the interpolated gap, or the load read off it, may be off by more than ``accuracy``."""
+    """Intervals in which the interpolated gap, or the load that belongs to it, may be wrong by more than
+    ``accuracy``."""
     log_pressure, missed = np.log(pressure), _missed(pressure, gap)
     error, middle = np.maximum(missed[1:], missed[:-1]) / 4, np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)
@@ -154,15 +155,15 @@ def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
 
 
 def _missed(pressure, gap) -> np.ndarray:
-    """Gap [m] by which each node is missed when it is left out of the interpolation."""
+    """Error [m] of the interpolated gap at each node when that node is left out."""
     missed = np.zeros(pressure.size)
     missed[1:-1] = left_out(np.log(pressure[::-1]), gap[::-1])[::-1]
     return missed
 
 
 def _gap_error(pressure, gap) -> np.ndarray:
-    """Estimated error of the gap between neighbouring nodes: the most that any of the four nodes around is missed by.
-    A curve of few summits has kinks, next to which a single node may be met by chance."""
+    """Estimated error of the gap between neighbouring nodes: the largest error at the four nodes around when each is
+    left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
     missed = _missed(pressure, gap)
     near = np.maximum(missed[1:], missed[:-1])
     return np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))

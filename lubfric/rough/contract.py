@@ -1,8 +1,7 @@
-"""What every rough contact under a film must offer. This is all that an implementer needs to know.
+"""What every rough contact under a film must offer: all that you need to know to write one.
 
-`RoughContact` is the contract. `close` and `carry` have to be written. The rest has defaults that suit a contact which
-is always solved as it stands. `lubfric.prepare` takes one from outside (``contact``), and the balance asks nothing else
-of it.
+`RoughContact` is the contract. `close` and `carry` have to be written. The rest has defaults for a contact that is
+always solved as it stands. `lubfric.prepare` takes one from outside (``contact``), and the balance needs nothing else.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from ..scene import Bodies, Scene
 
 @dataclass(frozen=True)
 class ContactState:
-    """A rough contact at one division of the load: both sides of the volume balance, Eq. (8), and where it touches.
+    """A rough contact at one division of the load: where it touches, and both sides of the volume balance, Eq. (8).
 
     - ``mean_gap`` [m]: lubricant volume per area of A between the rough surfaces; ``mean_film`` [m]: the same between
       the smooth ones.
@@ -27,7 +26,7 @@ class ContactState:
       ``plastic_area_fraction``: of the area A.
     - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
       (ny,): of their cells.
-    - ``pressure`` [Pa] (nx, ny): what a neighbour may start from.
+    - ``pressure`` [Pa] (nx, ny): from which a neighbour may start.
     """
 
     mean_gap: float
@@ -52,8 +51,8 @@ class ContactState:
         return self.fields
 
     def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
-        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal stretches of the width;
-        of a contact with ``fields``, of a number of cells along y that ``stretches`` divides."""
+        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal sections of the width.
+        Needs ``fields``; ``stretches``, the number of sections, divides the number of cells along y."""
         if self.fields is None:
             raise InputError("a contact without fields has nothing along y; solve a half-space contact with fields")
         load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
@@ -61,8 +60,9 @@ class ContactState:
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
 
     def touching(self, x) -> np.ndarray:
-        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
-        way: the columns of the contact are finer than the cells of a film, and vary from one to the next."""
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], in
+        either direction. (The columns of the contact are finer than the cells of a film, and vary from one to the
+        next.)"""
         step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
         edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
         touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
@@ -79,8 +79,8 @@ class Grid(NamedTuple):
 class RoughContact:
     """A rough contact under a film, immutable. Loads are in N on the whole width of the line.
 
-    ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the film is asked for, around the line of contact;
-    ``weight`` (nx,): the part of each of them inside the area A of Eq. (8).
+    ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the contact needs the film, around the line of
+    contact; ``weight`` (nx,): the part of each cell that is inside the area A of Eq. (8).
     """
 
     x: np.ndarray
@@ -92,29 +92,31 @@ class RoughContact:
         raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
-        """The contact loaded with ``load`` [N], 0 included (first touch), under ``film`` [m] (nx,).
+        """The contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
 
-        ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, where it is not the film itself;
-        ``start``: of a neighbour, on this grid or another. Raises `ConvergenceError` where it cannot be solved."""
+        ``shape`` [m] (nx,): the shape under which the surface is pressed, up to a constant, if it is not the film
+        itself; ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be
+        solved.
+        """
         raise NotImplementedError
 
     def carry(self, film, start: ContactState | None = None, shape=None) -> tuple[float, ContactState]:
-        """Load [N] of the contact on which ``film`` is imposed, so that mean gap = mean film, and its state."""
+        """Load [N] of the contact on which ``film`` is imposed, so that mean gap = mean film, and the state."""
         raise NotImplementedError
 
     @property
     def nominally_flat(self) -> bool:
-        """Whether its load is spread evenly over the Hertz strip, with no distribution along x of its own."""
+        """Whether the load is spread evenly over the Hertz strip, without a distribution along x."""
         return False
 
     @property
     def grid(self) -> Grid | None:
-        """Its cells; None where it has no grid that f depends on."""
+        """Its cells; None if it has no grid on which f depends."""
         return None
 
     @property
     def adjustable_tolerance(self) -> float | None:
-        """Of the mean gap, relative to Sq, where `tightened` changes it."""
+        """The tolerance of the mean gap, relative to Sq, that `tightened` changes (None: it changes nothing)."""
         return None
 
     def tightened(self, tolerance: float) -> RoughContact:
@@ -122,11 +124,12 @@ class RoughContact:
         return self
 
     def coarsened(self) -> RoughContact | None:
-        """The same on cells twice as long and wide, heights averaged; None where that cannot be."""
+        """The same on cells twice as long and wide, with averaged heights; None if that is not possible."""
         return None
 
     def thinned(self, every: int) -> RoughContact | None:
-        """Every ``every``-th of its cells each way, with the heights they have; None where that cannot be."""
+        """The same on every ``every``-th cell along each axis, with the heights of these cells; None if that is not
+        possible."""
         return None
 
     lost = 0.0  # height [m] by which its highest summits fall short of those of the grid it was coarsened from
@@ -137,23 +140,23 @@ class RoughContact:
         return 0.0
 
     def cut(self, state: ContactState, found_on: RoughContact) -> RoughContact:
-        """Its part that is enough for a contact such as ``state``, which was found on the same or a coarser grid."""
+        """The part that is enough for a contact such as ``state``, which was found on the same or a coarser grid."""
         return self
 
     def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
-        """Whether nothing outside of ``part``, which was cut from this contact, touches. ``shape`` (nx,) [m] is
-        given on the x of this contact."""
+        """Whether nothing outside of ``part``, which was cut from this contact, touches. ``shape`` (nx,) [m] is on the
+        x of this contact."""
         return True
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` where ``state`` is cut short by the ends of the patch. The state is of this contact, of
-        a part of it, or of coarser cells."""
+        """Raise `InputError` if the ends of the patch cut off the contact of ``state``, which is on this contact, on a
+        part of it, or on coarser cells."""
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """Raise `InputError`, before any film is solved, where it is clear that `check` will. ``film`` [m]: about
-        the smooth film of the whole load."""
+        """Raise `InputError`, before any film is solved, if it is clear that `check` will. ``film`` [m]: roughly the
+        smooth film of the whole load."""
 
     def again(self, scene: Scene, old: Scene) -> RoughContact:
-        """The same map for ``scene``, of another load, motion or tolerance than ``old``, for which it was made; raises
-        `InputError` where it cannot serve."""
+        """The same map for ``scene``, which differs in load, motion or tolerance from ``old``, for which the contact
+        was made. Raises `InputError` if that is not possible."""
         return self

@@ -1,9 +1,9 @@
 """Will the contact reach the ends of its patch?
 
-A closed form says where it cannot: there nothing is solved. Elsewhere one dry contact of the whole load, loosely
-solved, tells what is on the edge columns. Under a film there is less: the thicker it is, the more has to be seen before
-a patch is refused. Of 983 random patches with their ends near the contact, elastic and with a hardness, the balance
-refuses 190: 165 of them are foretold, and none of the other 793.
+Where a closed form rules it out, nothing is solved. Elsewhere one dry contact of the whole load, loosely solved, shows
+how much lies on the edge columns. Under a film that is less, so a patch is refused only if more is seen, the thicker
+the film. On 983 random patches with their ends near the contact, elastic and with a hardness, the balance refuses 190.
+Of these 165 are foretold, and none of the other 793.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ TOLERANCE = 1e-2  # of the dry contact
 
 
 def within_reach(x, sq: float, line_load: float, radius: float, e_prime: float) -> bool:
-    """Whether the ends of a patch of columns ``x`` [m] (nx,) may be touched by a surface of ``sq`` [m] that carries
-    ``line_load`` w [N/m]: a pressure that falls with Hertz's gap leaves more than `POSSIBLE` on them."""
+    """Whether a surface of ``sq`` [m] that carries ``line_load`` w [N/m] may touch the ends of a patch of columns ``x``
+    [m] (nx,): a pressure that falls with Hertz's gap leaves more than `POSSIBLE` there."""
     if x.size < 3:
         return False
     falls = np.exp(-hertz.line_gap(x, line_load, radius, e_prime) / max(TAIL * sq, 1e-300))
@@ -29,5 +29,5 @@ def within_reach(x, sq: float, line_load: float, radius: float, e_prime: float) 
 
 
 def clear(share: float, film_to_roughness: float) -> bool:
-    """Whether a dry contact with ``share`` of its load on the edge columns leaves too much there under a film too."""
+    """Whether a dry contact with ``share`` of its load on the edge columns leaves too much there even under a film."""
     return share > ALLOWED * (1 + film_to_roughness)

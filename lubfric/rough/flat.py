@@ -52,8 +52,8 @@ class FlatContact(RoughContact):
         )
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """A film thinner than the gap at the heaviest load of the curve gives that load. It is a lower bound, and
-        the volume residual of the state shows that."""
+        """For a film thinner than the gap at the heaviest load of the curve, this is the load at the end of the curve:
+        a lower bound, as the volume residual of the state shows."""
         load = self.curve.pressure_at(float(np.mean(film))) * self.area
         return load, self.close(film, load)
 
@@ -66,7 +66,8 @@ class FlatContact(RoughContact):
         return True
 
     def again(self, scene: Scene, old: Scene) -> FlatContact:
-        """The curve under the strip of another load: no heavier one, and no tighter tolerance."""
+        """The curve under the Hertz strip of another load, which may not be heavier; nor may the tolerance be
+        tighter."""
         pressure, heaviest = scene.bodies.mean_hertz_pressure, float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + ROUNDING):
             raise InputError(
@@ -82,7 +83,8 @@ class FlatContact(RoughContact):
 
 
 def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
-    """The contact of ``scene``, its curve made of ``heights`` [m] (nx, ny) about their mean, periodic both ways."""
+    """The contact of ``scene``, with a curve for ``heights`` [m] (nx, ny) about their mean, periodic along both
+    axes."""
     bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
     heaviest = bodies.load / (2 * bodies.half_width * bodies.width)
     heaviest *= BEYOND if numerics.closure == "separation" else 1.0

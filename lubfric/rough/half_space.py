@@ -1,5 +1,5 @@
-"""Every point of the rough surface on half-spaces, under a cylinder: the semi-periodic contact of the paper, Sec.
-3.2."""
+"""The rough surface on half-spaces, where every point may carry load, under a cylinder: the semi-periodic contact of
+the paper, Sec. 3.2."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LONGER = (
 
 @dataclass(frozen=True)
 class HalfSpaceContact(HalfSpaceGrid):
-    """The same, pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of
+    """A `HalfSpaceGrid` that is pressed: width [m] of the line; hardness [Pa] (None: elastic); tolerance: of
     `lubfric.solve_contact`."""
 
     width: float
@@ -34,7 +34,7 @@ class HalfSpaceContact(HalfSpaceGrid):
     tolerance: float
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
-        """The surface loaded under the film's shape: `lubfric.solve_contact`."""
+        """The surface, loaded under the film's shape, by `lubfric.solve_contact`."""
         under, length = film if shape is None else shape, self.x.size * self.spacing[0]
         if load == 0:
             return self._first_touch(film, under)
@@ -53,7 +53,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return self._state(film, found.gap, found)
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """Load under the imposed film by the single loop (paper, Appendix 2)."""
+        """Load under the imposed film, by the single loop (paper, Appendix 2)."""
         under = film if shape is None else shape + weighted_mean(film - shape, self.weight)
         found = single_loop(
             self.heights,
@@ -82,7 +82,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         return replace(self, tolerance=tolerance)
 
     def check(self, state: ContactState) -> None:
-        """Raise `InputError` when the contact reaches the ends of the patch; ``state`` may be of a part of it, or of
+        """Raise `InputError` if the contact reaches the ends of the patch; ``state`` may be on a part of it, or on
         coarser cells."""
         share = self._on_the_ends(state)
         if share > edges.ALLOWED:
@@ -92,7 +92,7 @@ class HalfSpaceContact(HalfSpaceGrid):
             )
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """By a dry contact, where a closed form does not rule it out (`lubfric.rough.edges`)."""
+        """By a dry contact, unless a closed form rules it out (`lubfric.rough.edges`)."""
         line_load = bodies.load / bodies.width
         if film > edges.FILM * self.sq or self._given_way(bodies):
             return
@@ -107,13 +107,13 @@ class HalfSpaceContact(HalfSpaceGrid):
             )
 
     def _given_way(self, bodies: Bodies) -> bool:
-        """Whether the patch, with all of it at its hardness, carries less than the whole load. Then there is no dry
-        contact to look at."""
+        """Whether the whole patch at its hardness carries less than the load. Then there is no dry contact to look
+        at."""
         length = self.x.size * self.spacing[0]
         return self.hardness is not None and self.hardness * length * self.width <= bodies.load
 
     def _on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns. A coarser cell counts by the part of it that is one of these
+        """Share of the load on the edge columns. A coarser cell counts by the part of it that belongs to these
         columns."""
         if state.pressure is None or self.x.size <= 2:
             return 0.0

@@ -52,8 +52,8 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         return self.heights.mean(axis=1), self.heights.max(axis=1)
 
     def coarsened(self) -> Self | None:
-        """On cells twice as long and wide (an axis of too few or odd cells is kept), the heights averaged; the area A
-        stays wider than a cell. None where neither axis can be halved. Made once."""
+        """On cells twice as long and wide, with averaged heights. An axis with too few cells, or an odd number, is
+        kept, and the area A stays wider than a cell. None if neither axis can be halved. Made once."""
         return self._coarser
 
     @cached_property
@@ -76,7 +76,7 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight, lost=lost)
 
     def thinned(self, every: int) -> Self | None:
-        """Every ``every``-th cell; None where their number or the area A does not allow it."""
+        """Every ``every``-th cell; None if their number or the area A does not allow it."""
         operator, half_width = self.operator, self.half_width
         wide = half_width is not None and every * self.spacing[0] > half_width
         if wide or any(kept % every or padded % (2 * every) for kept, padded in zip(operator.shape, operator.padded)):
@@ -87,8 +87,8 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         return replace(self, heights=heights, spacing=coarse.spacing, x=x, operator=coarse, weight=weight)
 
     def cut(self, state: ContactState, found_on: RoughContact) -> Self:
-        """The columns where contact may be: those touched and those of the area A, and a margin; all of them where the
-        mean over the whole patch counts."""
+        """The columns where contact is possible: those that touch, those of the area A, and a margin. All columns if
+        the mean over the whole patch counts."""
         if self.half_width is None or state.pressure is None:
             return self
         used = np.flatnonzero(state.pressure.any(axis=1) | (found_on.weight > 0))
@@ -97,7 +97,7 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         return self.between(float(low - margin), float(high + margin))
 
     def between(self, low: float, high: float) -> Self:
-        """The columns from ``low`` to ``high`` [m], a whole number of fours; itself where nearly all are needed."""
+        """The columns from ``low`` to ``high`` [m], a multiple of four; the whole grid if nearly all are needed."""
         first, last = np.searchsorted(self.x, (low, high))
         count = min(4 * -(-max(int(last - first), COARSEST) // 4), self.x.size)
         if count > LEAST_CUT * self.x.size:
@@ -113,7 +113,7 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         )
 
     def holds(self, part: RoughContact, shape: np.ndarray, state: ContactState) -> bool:
-        """No cell outside the part is touched: one convolution of the contact found on it."""
+        """Whether no cell outside the part touches, by one convolution of the contact found on it."""
         if state.fields is None or part is self:
             return True
         first = int(np.searchsorted(self.x, part.x[0] - 0.5 * _step(part)))
@@ -124,7 +124,7 @@ class HalfSpaceGrid(FieldsOnly, RoughContact):
         return bool(gap.min() >= -TOUCH * self.sq)
 
     def pressure_of(self, state: ContactState | None) -> np.ndarray | None:
-        """The pressure of ``state``, if any, on these cells: the nearest ones of its own."""
+        """The pressure of ``state``, if any, on these cells, taken from the nearest of its own."""
         if state is None or state.pressure is None:
             return None
         pressure, shape = state.pressure, self.heights.shape
@@ -144,8 +144,8 @@ def _step(contact: RoughContact) -> float:
 
 
 def _lost(heights, highest) -> float:
-    """Mean height [m] by which the highest local maxima of ``heights``, averages over cells, are below the ``highest``
-    in their cells."""
+    """Mean height [m] that the highest local maxima of ``heights``, averages over cells, have lost against the
+    ``highest`` height in their cells."""
     from scipy.ndimage import maximum_filter
 
     summits = np.flatnonzero(heights == maximum_filter(heights, size=3, mode="wrap"))

@@ -1,4 +1,4 @@
-"""The height map that a scene asks for, on its contact grid, periodic where the contact is."""
+"""The height map of a scene on its contact grid, periodic along the axes on which the contact is."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the sa
 
 
 def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
-    """Generate, or read, turn, scale, cut and close the heights of ``scene``, those of both bodies as one map; or take
-    those of ``surface`` as they are.
+    """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
+    become one map. A given ``surface`` is taken as it is.
 
-    A measured map is mirrored along every axis on which the contact is periodic; under a cylinder
-    it is cut to the length of ``contact.shape`` (default: 6 Hertz half-widths each side), centred.
-    Everything done is in the notes of the surface.
+    A measured map is mirrored along every axis on which the contact is periodic. Under a cylinder it is cut, about its
+    middle, to the length of ``contact.shape`` (default: 6 Hertz half-widths on each side). The notes of the surface
+    tell everything that was done.
     """
     if surface is None:
         surface = _of_the_scene(scene)
@@ -49,19 +49,19 @@ def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
 
 
 def measured(scene: Scene) -> bool:
-    """Any of its maps comes from a file."""
+    """Whether any of its maps comes from a file."""
     return any(rough.file is not None for rough, _ in rough_bodies(scene))
 
 
 def extended(scene: Scene) -> bool:
-    """A map that is too short is continued by its mirror image."""
+    """The map continued by its mirror image, if it is too short."""
     return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
 
 
 def whole_map(scene: Scene) -> Surface:
     """The heights of both bodies as one map: measured ones whole and on their own grid, generated ones on the contact
-    grid. A generated one that faces a measured one is as large as that: repeated along it, a few of its summits would
-    stand for all."""
+    grid. A generated one that faces a measured one is made as large as that. If it were repeated instead, a few of its
+    summits would stand for all."""
     bodies, domain, found = rough_bodies(scene), scene.contact, {}
     for rough, name in bodies:
         if rough.file is not None:
@@ -77,15 +77,16 @@ def whole_map(scene: Scene) -> Surface:
 
 
 def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
-    """``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, without one, of the surface."""
+    """``domain`` with a grid that covers ``surface``, with the spacing of ``domain`` or, if it has none, of the
+    surface."""
     spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
     nx, ny = (next_fast_len(math.ceil(a / d * (1 - 1e-9))) for a, d in zip(surface.size, spacing))
     return replace(domain, shape=(nx, ny), spacing=spacing)
 
 
 def check_grid(scene: Scene, surface: Surface) -> None:
-    """Raise `InputError` for slopes that no surface has, for cells that do not resolve the strip, and for a patch
-    that does not hold it."""
+    """Raise `InputError` for slopes that no surface has, for cells too coarse for the Hertz strip, and for a patch too
+    small for it."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
         raise InputError(
@@ -98,7 +99,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
-    """A generated map on the grid of ``domain``; that of the counterface draws other numbers from the same seed."""
+    """A generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
     if domain.shape is None or domain.spacing is None:
         raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}")
     surface = generate_surface(
@@ -117,13 +118,13 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
 
 
 def other_seed(seed: int) -> int:
-    """A seed whose numbers are independent of those of ``seed``, and of those of the seeds beside it."""
+    """A seed whose random numbers are independent of those of ``seed``, and of those of its neighbours."""
     return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
 
 
 def measured_map(rough: Roughness, name: str = "surface") -> Surface:
-    """A map from a file, prepared as ``rough`` says: form taken off, outliers dealt with, filtered, filled, turned
-    and scaled."""
+    """A map from a file, prepared as ``rough`` says: form removed, outliers treated, filtered, filled, turned and
+    scaled."""
     surface = read_surface(
         rough.file,
         spacing=rough.spacing,
@@ -144,8 +145,8 @@ def measured_map(rough: Roughness, name: str = "surface") -> Surface:
 
 
 def refuse_outliers(surface: Surface, name: str) -> None:
-    """Raise `InputError` for points that stand alone above their neighbours. They would carry the load, and they are
-    no roughness."""
+    """Raise `InputError` for points that stand alone above their neighbours: they are no roughness, and would carry the
+    load."""
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:
@@ -158,7 +159,7 @@ def refuse_outliers(surface: Surface, name: str) -> None:
 
 
 def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
-    """The middle of an open map, on the contact grid, closed where the contact is periodic."""
+    """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
     domain, reach = scene.contact, 2 * REACH * scene.bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)

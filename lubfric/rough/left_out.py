@@ -1,4 +1,4 @@
-"""How well a shape-preserving cubic meets each of its nodes when it is made without it.
+"""How well a shape-preserving cubic interpolation meets each node when that node is left out.
 
 The cubic is that of F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304, doi:10.1137/0905021, as
 in `scipy.interpolate.PchipInterpolator`. A slope depends on the neighbours alone. So leaving out one node changes one
@@ -11,7 +11,8 @@ import numpy as np
 
 
 def left_out(x, y) -> np.ndarray:
-    """|y - y of the cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), ascending, and ``y`` (n,)."""
+    """Error |y - y of the cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), ascending, and ``y``
+    (n,)."""
     if x.size < 3:
         return np.zeros(0)
     step, rate = np.diff(x), np.diff(y) / np.diff(x)
@@ -36,7 +37,7 @@ def _slope(step, rate, next_step, next_rate) -> np.ndarray:
 
 
 def _end_slope(step: float, rate: float, next_step: float, next_rate: float) -> float:
-    """Slope at the end of a piece that has one neighbour: from three points, as far as the shape allows."""
+    """Slope at an end, where a piece has one neighbour: from three points, as far as the shape allows."""
     slope = ((2 * step + next_step) * rate - step * next_rate) / (step + next_step)
     if np.sign(slope) != np.sign(rate):
         return 0.0

@@ -1,4 +1,4 @@
-"""The Hertz strip on a contact grid: cell centres, and the part of each that counts."""
+"""The Hertz strip on a contact grid: cell centres, and the part of each cell that counts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def centred_axis(count: int, step: float) -> np.ndarray:
 
 
 def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
-    """Part of each cell that lies within |x| <= half_width, cut cells counted by their share."""
+    """Part of each cell within |x| <= half_width; cells that its edge cuts count by their share."""
     inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
     weight = np.clip(inside / step, 0.0, 1.0)
     if not weight.any():
@@ -32,8 +32,8 @@ def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
 
 
 def check_strip(scene: Scene, step: float, length: float) -> None:
-    """Raise `InputError` for a strip that cells of ``step`` [m] do not resolve, or a patch of ``length`` [m] does not
-    hold."""
+    """Raise `InputError` if cells of ``step`` [m] do not resolve the strip, or a patch of ``length`` [m] does not
+    contain it."""
     half_width = scene.bodies.half_width
     if step > half_width:
         raise InputError(
@@ -57,7 +57,7 @@ def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
 
 
 def area_half_width(scene: Scene) -> float | None:
-    """Half-width [m] of the area A; None: all of the patch."""
+    """Half-width [m] of the area A; None: the whole patch."""
     return None if scene.contact.region == "box" else scene.bodies.half_width
 
 

@@ -1,4 +1,4 @@
-"""Film and friction of a balance at another division of the load. Its contact stays as it is."""
+"""Film and friction of a balance at another division of the load, with the contact as it is."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ ANY = 0.1  # tolerance of a film whose grid is given
 
 
 def at(prepared: Prepared, speed: float, contact: RoughContact, balance: Lubricated) -> OperatingPoint:
-    """The operating point of ``balance`` on ``contact``. Its film is to be solved again, on the grid that it has."""
+    """The operating point of ``balance`` on ``contact``, whose film is to be solved again on its present grid."""
     return OperatingPoint(prepared, speed, contact, Settings(balance.level, ANY, 0.0, film_cells=balance.film.cells))
 
 
 def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -> Lubricated:
-    """``balance`` with ``contact_load`` [N] and the film that carries the rest."""
+    """``balance`` with ``contact_load`` [N], and with the film that carries the rest."""
     film_load = balance.contact_load + balance.film_load - contact_load
     imposed = balance.film.imposed
     given = None if imposed is None else (imposed.x, imposed.pressure)
@@ -31,7 +31,7 @@ def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -
 
 
 def quantities(point: OperatingPoint, balance: Lubricated) -> dict[str, float]:
-    """What is reported of a balance, by the names of `FrictionResult`. ``mean_gap`` is the mean film over A, since
+    """The reported numbers of a balance, by the names of `FrictionResult`. ``mean_gap`` is the mean film over A, since
     the film fills the gap."""
     film, found = balance.film, balance.forces
     return {

@@ -1,4 +1,4 @@
-"""From the errors of a gap to the errors of everything reported: `Uncertainty`, and the errors by field."""
+"""From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ ORDER = 30  # degrees of freedom given to an error that is not counted from bloc
 
 @dataclass(frozen=True)
 class Numerical:
-    """What solvers and grids leave open.
+    """The errors of solvers and grids.
 
     - ``film``: of the film, relative.
-    - ``gap``: of the mean gap at given load [m]; it stands for the closing of the volume and the grid of the contact.
+    - ``gap``: of the mean gap at given load [m], by the closing of the volume and by the grid of the contact.
     - ``shear``: of the sum of the film's shear stress, relative to f.
-    - ``area``: of the contact area, relative (NaN: cannot be told).
+    - ``area``: of the contact area, relative (NaN: not known).
     """
 
     film: float
@@ -40,7 +40,7 @@ class Numerical:
 def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, area: float) -> Numerical:
     """The `Numerical` errors of a balance that is closed to ``volume_residual``.
 
-    ``grid_gap`` [m]: what the contact grid may still change of the mean gap; ``area``: relative error of the contact
+    ``grid_gap`` [m]: how much the contact grid may still change the mean gap; ``area``: relative error of the contact
     area.
     """
     balance = point.balance
@@ -49,7 +49,7 @@ def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, are
 
 
 def film_error(point: Solved) -> float:
-    """Estimated relative error of the film: what its level leaves out, and its grid."""
+    """Estimated relative error of the film: by what its level leaves out, and by its grid."""
     film = point.balance.film
     if film is None:
         return 0.0
@@ -58,17 +58,17 @@ def film_error(point: Solved) -> float:
 
 
 def coefficient_error(numerical: Numerical, found: Forces, response: Response | None) -> float:
-    """Estimated relative error of f from solvers and grids. The parts are added, as if all had the same sign."""
+    """Estimated relative error of f by solvers and grids: the sum of its parts, as if all had the same sign."""
     gap = response.relative("coefficient", numerical.gap) if response is not None else 0.0
     return found.sensitivity * numerical.film + gap + numerical.shear
 
 
 def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, together: Pooled, response):
-    """Relative errors where there is contact, by the names of `FrictionResult`: root of the sum of squares of the
-    standard error from the surface and the estimated error from solvers and grids.
+    """Relative errors where there is contact, by the names of `FrictionResult`: the root of the sum of squares of the
+    standard error by the surface and the estimated error by solvers and grids.
 
-    An error of the gap moves the division of the load, and everything with it (`Response.rates`). Films have the error
-    of the film solve besides. The area has the scatter of its blocks at given load, and what its grid may change.
+    An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
+    error of the film solve. The area also has the scatter of its blocks at given load, and what its grid may change.
     """
     gap = math.hypot(gap_error.error, numerical.gap + numerical.film * balance.contact.mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
@@ -96,19 +96,19 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
 
 
 def dry_errors(together: Pooled) -> dict[str, float]:
-    """Errors without entrainment. The contact carries everything, so only the areas scatter."""
+    """Errors without entrainment: the contact carries the whole load, so only the areas scatter."""
     pairs = ((together.area_fraction, together.area.error), (together.touched_length, together.touched.error))
     areas = {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, pairs)}
     return areas | dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
 
 
 def film_alone_errors(film: float, found: Forces) -> dict[str, float]:
-    """Errors without contact. Everything depends on the film, whose relative error is ``film``."""
+    """Errors without contact: everything depends on the film, whose relative error is ``film``."""
     return dict.fromkeys((*FILMS, *HEAT), film) | shear_errors(found, film) | {"film_load": 0.0}
 
 
 def shear_errors(found: Forces, film: float) -> dict[str, float]:
-    """Relative errors of the film's friction and its parts, from a film of relative error ``film`` and from the sums
+    """Relative errors of the film's friction and its parts, by the relative error ``film`` of the film and by the sums
     over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
     shear = found.shear
     rolling = film * max(abs(shear.rolling), shear.rolling_parts)
@@ -130,8 +130,8 @@ def uncertainty_of(
     area_needed=1.0,
     notes=(),
 ) -> Uncertainty:
-    """`Uncertainty` of f from its relative errors. ``error`` gives the degrees of freedom, ``notes`` stand first in
-    its text."""
+    """`Uncertainty` of f from its relative errors. ``error`` gives the degrees of freedom; its text begins with
+    ``notes``."""
     asked, notes = scene.numerics.sampling_tolerance, [*notes]
     if sampling > asked and area_needed > 1:
         notes.append(

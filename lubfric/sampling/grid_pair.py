@@ -1,4 +1,4 @@
-"""What the coarse cells of a line change. The same piece of surface is solved on its own cells and on every second,
+"""The effect of the coarse cells of a line: one piece of surface is solved on its own cells and on every second,
 fourth, ... of them."""
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ BY_LOAD = 2.0  # what the change of the gap itself changes by with ln of the con
 
 @dataclass(frozen=True)
 class GridStep:
-    """What changes when the cells of a line become finer, at the line's film and ``contact_load`` [N].
+    """The change when the cells of a line become finer, at the line's film and ``contact_load`` [N].
 
     - ``gap`` [m]: change of the mean gap; ``error``: its standard error; ``rest`` [m]: estimated change still to come
       on the scene's own cells (0: they were reached).
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
     - ``plastic``: to be added to the plastic area fraction.
-    - ``moved``: absolute ln of the ratio of the load where it is used to ``contact_load``.
+    - ``moved``: |ln| of the load at which the change is used, over ``contact_load``.
     - ``beyond`` [m]: estimated change on cells half as long as the scene's own (`lubfric.sampling.other_cells`; NaN:
       own cells not reached).
     """
@@ -46,18 +46,18 @@ class GridStep:
 
     @property
     def area_left(self) -> float:
-        """``area_error``, and what the other load may change of ``area``: seen to be less than its distance to 1, times
-        ``moved``."""
+        """Relative error of ``area``: ``area_error``, and a change by the other load. That change was seen to be less
+        than ``moved`` times the distance of ``area`` from 1."""
         return self.area_error + abs(1 - self.area) * self.moved
 
     def at_load(self, contact_load: float) -> GridStep:
-        """The same, taken at another load [N]."""
+        """The same step, used at another load [N]."""
         return replace(self, moved=abs(math.log(contact_load / self.contact_load)))
 
 
 @dataclass(frozen=True)
 class _Rows:
-    """Values at every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact,
+    """Values at every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact, and
     plastic share of A."""
 
     gap: np.ndarray
@@ -66,7 +66,7 @@ class _Rows:
 
 
 def _ladder(factors) -> list[tuple[int, int]]:
-    """Factors of the cells, from those of the line down to the scene's own, each half of the last."""
+    """Factors of the cells, from those of the line down to the scene's own, each half the one before."""
     steps = [factors]
     while steps[-1] != (1, 1):
         steps.append(tuple(max(1, f // 2) for f in steps[-1]))
@@ -120,8 +120,8 @@ def grid_step(
 
 
 def lost_summits(lines, surface, point: OperatingPoint, film: Film) -> float:
-    """By how much [m] the highest summit of ``surface``, which has the scene's own cells, stands nearer to a ``film``
-    above it than on the cells of the ``lines``."""
+    """Height [m] that the cells of the ``lines`` take from the highest summit of ``surface``, which has the scene's own
+    cells, measured by its distance to a ``film`` above it."""
     gaps = []
     for factors in ((1, 1), lines.cells.factors):
         contact = thinned(lines.scene, surface, lines.cells, factors)
@@ -139,10 +139,10 @@ def _ratio(fine, coarse, step, correlation) -> tuple[float, float]:
 
 
 def mean_error(steps) -> BlockError:
-    """Error of the mean change of the gap over several pieces [m]. It is zero where there are none to compare.
+    """Error [m] of the mean change of the gap over several pieces; zero if there are none to compare.
 
-    Pieces too short for blocks tell it by what they differ by. Fewer than three of these tell no scatter: it is taken
-    to be as large as the changes themselves.
+    If the pieces are too short for blocks, it follows from the differences between them. Fewer than three of these have
+    no scatter: it is taken to be as large as the changes themselves.
     """
     if not steps:
         return BlockError(0.0, 1)
@@ -156,9 +156,9 @@ def mean_error(steps) -> BlockError:
 
 
 def gap_left(steps) -> float:
-    """What the gap may still change by [m], on average over several pieces: on finer cells, and because they were taken
-    at another load. The latter was seen to be less than 1.5 times the change and its standard error, times ``moved``,
-    on Gaussian and measured surfaces."""
+    """Change of the gap [m] that may still come, averaged over several pieces: by finer cells, and because the pieces
+    were solved at another load. The latter was seen to be less than 1.5 ``moved`` times the change and its standard
+    error, on Gaussian and measured surfaces."""
     if not steps:
         return 0.0
     moved = BY_LOAD * steps[0].moved
@@ -167,13 +167,13 @@ def gap_left(steps) -> float:
 
 
 def mean_of(steps, name: str, without: float) -> float:
-    """Mean of a field of `GridStep` over pieces, or ``without`` where there are none."""
+    """Mean of a field of `GridStep` over pieces; ``without`` if there are none."""
     return sum(getattr(g, name) for g in steps) / len(steps) if steps else without
 
 
 def remaining(changes) -> float:
-    """What further halving of the cells would change. It is the rest of a geometric series, from the ratio of the
-    last two changes (1/4 to 3/4; 1/2 where there is one change)."""
+    """The change by further halvings of the cells: the rest of a geometric series, from the ratio of the last two
+    changes (1/4 to 3/4; 1/2 if there is only one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
     ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5

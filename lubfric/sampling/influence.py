@@ -1,10 +1,10 @@
 """The scatter of a long contact from place to place, read off one solution of it.
 
-At a given film and approach each place y along the line has its own mean gap G(y) of the strip, and its own line load
-P(y). A place that carries more than its share leaves less load for the others, which then stand further apart. So a
-place changes the mean gap at the *given mean load* by its influence ``I(y) = G(y) - beta (P(y) - mean P)``, with ``beta
-= dG/dP`` at a given film. Means of I over blocks longer than its correlation are nearly independent. Their scatter
-gives the standard error of the mean gap.
+At a given film and approach, each place y along the line has its own mean gap G(y) of the strip, and its own line load
+P(y). A place that carries more than its share leaves less load for the others, and their gap grows. So a place changes
+the mean gap at the *given mean load* by its influence ``I(y) = G(y) - beta (P(y) - mean P)``, with ``beta = dG/dP`` at
+a given film. Means of I over blocks longer than its correlation are nearly independent. Their scatter gives the
+standard error of the mean gap.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class BlockError:
 
 
 def strip_gap(contact, state) -> np.ndarray:
-    """G(y) [m] (ny,): the gap at every place along the line, mean over the strip A. ``state``: a `ContactState` with
-    fields."""
+    """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
+    with fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
 
 
@@ -47,16 +47,16 @@ def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
 def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
     """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
-    It is s/sqrt(n (1 - 0.56/b)) of n = 8 to 32 blocks, each b = 9 correlation lengths [m] long or longer. Where the
-    line is too short for eight of these, 5 to 8 blocks of five lengths are taken. A rest shorter than a block is left
-    out. Where the line is shorter still, the error is infinite, with no degree of freedom.
+    It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
+    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is left
+    out. If the line is shorter still, the error is infinite, with no degree of freedom.
 
-    Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values of the
-    correlation exp(-(y/l)²) the variance of a mean over b l is less than that of an endless line by the part
+    Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values with the
+    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an endless line by the fraction
     int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
 
-    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. What the blocks scatter by
-    together with it is no error. So s is then that of the residuals of a straight line through the blocks.
+    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
+    with it is no error: s is then that of the residuals of a straight line through the blocks.
     """
     count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
     count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
@@ -86,7 +86,7 @@ def spot_loads(line_load, step: float, correlation_length: float) -> np.ndarray:
 
 
 def participation(loads) -> float:
-    """(sum P)²/sum P²: the number of equally loaded blocks that would carry the load as unevenly."""
+    """(sum P)²/sum P²: the number of equally loaded blocks that would carry the load as unevenly as these."""
     square = float(np.sum(np.square(loads)))
     return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
 

@@ -1,4 +1,4 @@
-"""Friction of an endless rough line, as surely as asked. First a pilot line, then its length, then its grid."""
+"""Friction of an endless rough line to a given standard error: first a pilot line, then more lines, then the cells."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ LIGHT = 0.1  # of the load on the contact: it touches for sure
 
 @dataclass(frozen=True)
 class Used:
-    """A line beyond the pilot: the ``length`` [m] asked of it, its contact (None: to be made again), and the state
-    that it was left in."""
+    """A line beyond the pilot: the ``length`` [m] asked for, its contact (None: to be made again), and its last
+    state."""
 
     length: float
     contact: HalfSpaceContact | None
@@ -39,8 +39,8 @@ class Used:
 
 @dataclass(frozen=True)
 class LineStart:
-    """What a neighbouring speed starts from: the balance of the pilot, the ``cells`` of its lines, the further lines,
-    and what the grid changed."""
+    """Where a neighbouring speed starts from: the balance of the pilot, the ``cells`` of its lines, the further lines,
+    and the change by the grid."""
 
     first: Balance
     cells: Cells
@@ -48,20 +48,19 @@ class LineStart:
     grid: tuple[GridStep, ...] = ()
 
     def bare(self) -> LineStart:
-        """Without what can be made again, to the same bits."""
+        """Without the parts that can be made again to the same bits."""
         return replace(self, used=tuple(replace(line, contact=None) for line in self.used))
 
 
 @dataclass(frozen=True)
 class LineFound:
-    """The balance that follows from all lines together and the grid, and what is known of its error.
+    """The balance that follows from all lines and the correction for their grid, and what is known of its error.
 
-    - ``first``: the balance of the pilot line as it is; ``cells``: those of the lines; ``used``: the further lines.
+    - ``first``: the balance of the pilot line, uncorrected; ``cells``: those of the lines; ``used``: the further lines.
     - ``too_coarse``: finer cells are needed.
-    - ``response``: None where there is no contact; ``gap_error``: standard error of the mean gap [m] at given load.
-    - ``missed``: contact that the lines may have missed by chance where none was found, as what it would add to f,
-      relative.
-    - ``map_ends``: the map gave no longer line.
+    - ``response``: None if there is no contact; ``gap_error``: standard error of the mean gap [m] at given load.
+    - ``missed``: contact that the lines may have missed by chance where none was found: its relative effect on f.
+    - ``map_ends``: the map has no longer line.
     """
 
     point: Solved
@@ -85,15 +84,15 @@ class LineFound:
 
     @property
     def start(self) -> LineStart:
-        """For a neighbouring speed."""
+        """The start for a neighbouring speed."""
         return LineStart(self.first, self.cells, self.used, self.grid)
 
 
 def line_friction(prepared: Prepared, speed: float, start: LineStart | None = None) -> tuple[Prepared, LineFound]:
-    """Solve ``prepared`` (of a long line) at ``speed`` [m/s], on more lines until the standard error of f is within
-    ``numerics.sampling_tolerance``, and on finer cells until what they change can be corrected.
+    """Solve ``prepared`` (with a long line) at ``speed`` [m/s]: on more lines until the standard error of f is within
+    ``numerics.sampling_tolerance``, and on finer cells until their effect can be corrected for.
 
-    Returns the model, with the deflection of its film chosen, and a `LineFound`. ``start``: what was found of the same
+    Returns the model, with the deflection of its film chosen, and a `LineFound`. ``start``: the result for the same
     model at a neighbouring speed.
     """
     chosen, found = _on_cells(prepared, speed, start)
@@ -104,7 +103,7 @@ def line_friction(prepared: Prepared, speed: float, start: LineStart | None = No
 
 
 def _on_cells(prepared: Prepared, speed: float, start: LineStart | None) -> tuple[Prepared, LineFound]:
-    """`line_friction` on the cells that the lines have. Of a neighbour on other cells only the balance serves."""
+    """`line_friction` on the cells that the lines have. From a neighbour on other cells only the balance is used."""
     cells = lines_of_model(prepared).cells
     if start is not None and start.cells != cells:
         start = LineStart(start.first, cells)
@@ -126,8 +125,8 @@ def _on_cells(prepared: Prepared, speed: float, start: LineStart | None) -> tupl
 
 
 def _next_line(sample: Sample, length: float, used: tuple[Used, ...], start: LineStart | None):
-    """The next line: the length [m] asked of it after those ``used``, the line itself, and a state to start from. It
-    is the line of the neighbouring speed, if that is long enough, or a new one of ``length``."""
+    """The next line after those ``used``: the length [m] asked for, the line, and a state to start from. It is the line
+    of the neighbouring speed if that is long enough, else a new one of ``length``."""
     index, before = len(used), start.used if start is not None else ()
     known = [line.contact for line in (*used, *before) if line.contact is not None]
     if start is not None and index < len(start.used) and start.used[index].length >= length / SHORTER:
@@ -142,11 +141,11 @@ def _line(prepared: Prepared, index: int, length: float, known: list[HalfSpaceCo
 
 
 def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
-    """Balance on one more line. It starts from where the balance of the lines so far is, and takes level and grid of
-    the film from the anchor.
+    """Balance on one more line. It starts from the balance of the lines so far, with level and grid of the anchor's
+    film.
 
-    The volume is closed as loosely as `LINE_BALANCE` allows. What is left moves the load, to first order, by the slope
-    that the last two evaluations of the root give, or the response of the anchor where there was one.
+    The volume is closed only as tightly as `LINE_BALANCE` demands. The residual is turned into a change of the load, to
+    first order: by the slope that the last two evaluations of the root give, or else by the response of the anchor.
     """
     anchor, scene = sample.known, sample.prepared.scene
     there = _lubricated(anchor)
@@ -165,7 +164,7 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
 
 
 def _looseness(sample: Sample) -> float:
-    """Volume residual (G - h)/(G + h) of a further line whose correction moves f by `LINE_BALANCE` of the sampling
+    """Volume residual (G - h)/(G + h) of a further line whose correction changes f by `LINE_BALANCE` of the sampling
     tolerance."""
     anchor = sample.known
     moved = anchor.response.per_gap("coefficient") * 2 * anchor.point.balance.contact.mean_film  # f, per residual
@@ -200,7 +199,7 @@ def _lubricated(anchor: Anchor) -> Lubricated:
 
 
 def _divided(sample: Sample, together: Pooled) -> Solved:
-    """The point of the anchor, with the load divided as all lines and the grid ask."""
+    """The point of the anchor, with the load divided as all lines and the grid demand."""
     anchor, scene = sample.known, sample.prepared.scene
     balance = _lubricated(anchor)
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)

@@ -1,4 +1,4 @@
-"""What one line gave, and what several lines give together."""
+"""The results of one line, and of several lines together."""
 
 from __future__ import annotations
 
@@ -64,12 +64,12 @@ def record(
 ) -> LineRecord:
     """The `LineRecord` of ``contact`` at ``load`` [N].
 
-    ``correlation_length`` [m]: along y; ``windows``: how many windows of a measured map follow each other along y;
-    ``rows``: those along y that count, where others only mirror them; ``exact_sq``: the line was made with the Sq of
-    the surface, so what its places scatter by together with their own Sq is no error.
+    ``correlation_length`` [m]: along y; ``windows``: number of windows of a measured map along y; ``rows``: those along
+    y that count, if the others only mirror them; ``exact_sq``: the line was made with the Sq of the surface, so scatter
+    that its places share with their own Sq is no error.
 
-    The standard error is that from blocks along y. Where there are three windows or more, it is the larger of that and
-    the one from windows, which shows where a surface differs from place to place.
+    The standard error comes from blocks along y. If there are three windows or more, it is the larger of that and the
+    one from windows, which shows whether a surface differs from place to place.
     """
     by_place, step = line_load(contact, state)[rows], contact.spacing[1]
     pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
@@ -106,7 +106,7 @@ def _larger(values, step, correlation_length, windows, exact) -> BlockError:
 
 @dataclass(frozen=True)
 class Pooled:
-    """Lines together, each weighted by its length [m]; names as in `LineRecord`."""
+    """Several lines together, each weighted by its length [m]; names as in `LineRecord`."""
 
     length: float
     contact_load: float
@@ -120,11 +120,11 @@ class Pooled:
 
 
 def pooled(records) -> Pooled:
-    """The mean over ``records``. Their errors add as independent ones do. A line without contact counts as uncertain as
+    """The mean over ``records``. Their errors add as independent ones. A line without contact counts as uncertain as
     one with contact, for its length.
 
-    The loads are averaged by length, as the parts of one line share theirs. Lines that were joined and balanced as one
-    carried that load within half the square of their scatter.
+    The loads are averaged by length, as the parts of one line share theirs. When lines were joined and balanced as one,
+    that one carried this load within half the square of their scatter.
     """
     length = sum(r.length for r in records)
 

@@ -1,4 +1,4 @@
-"""Contact that a line of finite length misses by chance, where its film just clears its summits."""
+"""Contact that a finite line misses by chance, where its film just clears its summits."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EULER = 0.5772156649
 
 
 def missed_share(prepared, film, found, correlation_length: float) -> float:
-    """What `missed_load` would add to f, relative to it; NaN where the contact has no cells or too few along y."""
+    """Relative effect of `missed_load` on f; NaN if the contact has no cells, or too few along y."""
     if prepared.contact.grid is None or prepared.contact.nominally_flat or not found.coefficient:
         return math.nan
     bodies = prepared.scene.bodies
@@ -32,8 +32,8 @@ def missed_share(prepared, film, found, correlation_length: float) -> float:
 
 
 def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
-    """Expected contact load [N] of the whole width on summits higher than the highest one of the line. It is an order
-    of magnitude, and no more.
+    """Expected contact load [N] of the whole width on summits higher than the highest one of the line, to an order of
+    magnitude.
 
     The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, which is fitted by its
     first two moments. It tells how many blocks lie below zero, exp(-...), and the scale a of their heights. Each
@@ -56,15 +56,15 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
 
 
 def hidden_share(prepared, found, surface, depth: float) -> float:
-    """What the highest summit of a piece of ``surface``, pressed ``depth`` [m] into a body, would add to f, relative to
-    it, where every such piece has one."""
+    """Relative effect on f of the highest summit of a piece of ``surface`` that is pressed ``depth`` [m] into a body,
+    if every such piece has one."""
     bodies = prepared.scene.bodies
     load = _spot(surface.heights, surface.spacing, bodies.e_prime, depth) / surface.size[1] * bodies.width
     return _share(bodies, load, found)
 
 
 def _share(bodies, load: float, found) -> float:
-    """What a contact ``load`` [N] would add to f, relative to it."""
+    """Relative effect of a contact ``load`` [N] on f."""
     friction = bodies.load * abs(found.coefficient)
     return bodies.boundary_friction_coefficient * load / friction if friction else math.inf
 

@@ -1,4 +1,4 @@
-"""The standard error of f at one moment of a transient, because the line under its film is finite."""
+"""The standard error of f at one moment of a transient, because its line is finite."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from .influence import block_error, gap_influence, line_load, strip_gap
 
 
 def moment_error(contact, state, loads, softness: float, width: float, correlation_length: float, parts) -> float:
-    """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``. It is 0 without
-    contact, and NaN where the line is too short.
+    """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``: 0 without contact,
+    NaN if the line is too short.
 
     ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
-    [N]. It is taken as if film and contact had time to divide the load anew. The film follows its load as a rigid one
+    [N]. Film and contact are assumed to have time to divide the load anew. The film follows its load as a rigid one
     does, h ~ 1/F_H (`lubfric.sampling.response.respond`). A film that is squeezed follows more slowly, and the error is
     smaller then.
     """

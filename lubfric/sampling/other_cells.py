@@ -1,5 +1,5 @@
-"""What cells of another length would change on a patch. Its contact is solved again on longer cells, under the same
-film and load."""
+"""The effect of another cell length on a patch: its contact is solved again on longer cells, under the same film and
+load."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ CHECKED = 0.1  # of the tolerance: an estimate from averaged cells below it need
 def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
     """Estimated relative change of f on cells half as long as the map's own.
 
-    The contact on every second and on every fourth cell, under the same film and load, changes the volume residual by
-    d1 and d2. `half_again` gives the next change. f follows by twice its sensitivity. NaN where nothing can be told:
-    the point was solved on other cells, or on its own ones by name; averaged cells showed no change worth it; or there
-    is nothing to compare.
+    The contact on every second and every fourth cell, under the same film and load, changes the volume residual by d1
+    and d2. `half_again` gives the next change, and f changes by twice its sensitivity times that. NaN if nothing can be
+    told: the point was solved on other cells, or on its own ones by name; averaged cells showed no relevant change; or
+    there is nothing to compare with.
     """
     balance, decision = point.balance, point.decision
     known = decision.grid_error is None and decision.own_error > CHECKED * decision.tolerance
@@ -40,10 +40,10 @@ def by_half_cells(prepared: Prepared, speed: float, point: Solved) -> float:
 
 
 def half_again(changes) -> float:
-    """What the next halving changes, from the ``changes`` d1 (and d2) of the last halvings, the last first.
+    """The change by the next halving, from the ``changes`` d1 (and d2) by the last halvings, the last first.
 
     It is d1 r with r = d1/d2, kept between 1/8 (smooth, second order and better) and 1/2 (detail at every scale; also
-    where there is no d2). It is no less than d2/32, in case d1 is small by chance.
+    if there is no d2). It is at least d2/32, in case d1 is small by chance.
     """
     d1, d2 = abs(changes[0]), abs(changes[1]) if len(changes) > 1 else 0.0
     ratio = min(max(d1 / d2, FASTEST), SLOWEST) if d2 > 0 else SLOWEST

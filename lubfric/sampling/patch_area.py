@@ -14,13 +14,13 @@ FIELDS = ("real_contact_area_fraction", "real_contact_area", "plastic_area_fract
 
 
 def areas_on_own_cells(prepared: Prepared, speed: float, point: Solved) -> dict[str, tuple[float, float]]:
-    """(value, relative error) of the areas, by the names of `FrictionResult`. Empty where ``point`` is on its own
-    cells, or where coarser ones cannot be had.
+    """(value, relative error) of the areas, by the names of `FrictionResult`. Empty if ``point`` is on its own cells,
+    or if there are no coarser ones.
 
-    Averages over longer cells touch over more area, in proportion to their length. Let the contact on cells s times as
-    long, under the same film and load, change an area by d. On cells c times as long as the map's own, the area is then
-    too large by d (c - 1)/(c (s - 1)), which is taken off. One and a half times that is stated as the error, together
-    with that of counting the n cells in contact, 1/sqrt(n).
+    Averages over longer cells touch over more area, in proportion to their length. Say the contact on cells s times as
+    long, under the same film and load, changes an area by d. Then the area on cells c times as long as the map's own is
+    too large by d (c - 1)/(c (s - 1)), which is subtracted. The stated error is one and a half times that, together
+    with the error of counting the n cells in contact, 1/sqrt(n).
     """
     balance, decision = point.balance, point.decision
     coarse, grid = point.contact.coarsened() if decision.grid_error is not None else None, point.contact.grid

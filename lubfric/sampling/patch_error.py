@@ -1,4 +1,4 @@
-"""The error where one patch stands for the surface: because a scene asks for it, or because a map was given."""
+"""The error where one patch stands for the surface: because the scene asks for it, or because a map was given."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ def of_patch(
 ) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a point on one patch. ``areas``: from `lubfric.sampling.patch_area`.
 
-    The standard error is that of blocks along y, as for a line, where the patch is long enough for eight of them. Half
-    of a mirrored map counts. There is no more of the surface to make.
+    If the patch is long enough for eight blocks along y, the standard error comes from these, as for a line. Of a
+    mirrored map only half counts. There is no more of the surface to make.
     """
     balance = point.balance
     length = prepared.surface.size[1] / (2 if mirrored(prepared) else 1)
@@ -104,7 +104,7 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
 
 
 def _numerical(point: Solved, response: Response | None) -> Numerical:
-    """Errors of f by the grid, turned into errors of the gap. The same response carries them back."""
+    """Errors of f by the grid, turned into errors of the gap. The same response turns them back."""
     balance, decision = point.balance, point.decision
     if response is None:
         return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
@@ -118,8 +118,8 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
 
 
 def _from_slope(point: Solved) -> Response:
-    """The `Response` from the slope of the balance alone; nothing is solved. Films are taken to follow the load as
-    rigid ones do, which is more than elastic ones do. f follows by its sensitivity to the gap (`Forces`)."""
+    """The `Response` from the slope of the balance alone, without a solve. Films are taken to follow the load as rigid
+    ones do, which is more than elastic ones do. f follows by its sensitivity to the gap (`Forces`)."""
     balance = point.balance
     film, total = balance.contact.mean_film, balance.contact_load + balance.film_load
     slope = balance.slope or 0.5 * balance.contact_load * balance.film_load / total**2

@@ -1,4 +1,4 @@
-"""How a balance answers to an error of its gap: the division of the load, and everything that depends on it."""
+"""How a balance reacts to an error of its gap: the division of the load, and everything that depends on it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
 
 @dataclass(frozen=True)
 class Slopes:
-    """How a rough contact at a given film follows its load per width P [N/m].
+    """Derivatives of a rough contact by its load per width P [N/m], at a given film.
 
     ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``touched`` [m²/N]: the contact
     area per length.
@@ -28,9 +28,9 @@ class Slopes:
 
 @dataclass(frozen=True)
 class Response:
-    """Answers of a balance.
+    """Reaction of a balance to an error of its gap.
 
-    ``slopes``: those of its contact; ``split``: ds/dG [1/m], by which s = ln(F_H/F_C) follows a change of the gap at
+    ``slopes``: those of its contact; ``split``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change of the gap at
     given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C.
     Without a film the split does not change.
     """
@@ -41,14 +41,14 @@ class Response:
     odds: float = 0.0
 
     def per_gap(self, name: str) -> float:
-        """Relative change of quantity ``name`` over that of the gap [1/m], where it is small; 0 without a film."""
+        """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
         return abs(self.rates[name] * self.split) if self.rates else 0.0
 
     def relative(self, name: str, gap_error: float) -> float:
         """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
 
-        The load of a light contact follows the gap exponentially. Where s falls by m, it grows by
-        (1 + F_H/F_C)/(1 + exp(-m) F_H/F_C) - 1, which is more than to first order.
+        The load of a light contact depends exponentially on the gap. Where s falls by m, it grows by (1 + F_H/F_C)/(1 +
+        exp(-m) F_H/F_C) - 1, which is more than to first order.
         """
         rate = self.per_gap(name)
         if not rate:  # a quantity that does not move is known, however far the gap is off
@@ -57,8 +57,8 @@ class Response:
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
-    """The `Slopes` as secants from ``load`` [N], at which the contact is ``state``, to 1.05 times it, which
-    ``close`` solves for."""
+    """The `Slopes` as secants, from ``load`` [N], at which the contact is ``state``, to 1.05 times it, which ``close``
+    solves for."""
     more, step = close(load * (1 + LOAD_STEP)), LOAD_STEP * load / width
     return Slopes(
         (more.mean_gap - state.mean_gap) / step,
@@ -70,9 +70,9 @@ def slopes_of(state: ContactState, load: float, width: float, close: Callable[[f
 def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[float], dict[str, float]]) -> Response:
     """The `Response` of a balance in contact with a film.
 
-    ``at_split(s)`` gives the quantities by name at another division of the load, "mean_gap" (there the mean film) among
-    them. No contact is solved for it. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with dP/ds =
-    -P F_H/F_T.
+    ``at_split(s)`` gives the quantities by name at another division of the load, among them "mean_gap", which is there
+    the mean film. No contact is solved for it. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with
+    dP/ds = -P F_H/F_T.
     """
     low, high = at_split(balance.split - STEP), at_split(balance.split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)

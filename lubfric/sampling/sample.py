@@ -32,7 +32,7 @@ CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells of a l
 
 @dataclass(frozen=True)
 class Anchor:
-    """The first line in contact. What is known of it is taken for all lines. ``grid``: what its cells change."""
+    """The first line in contact. Its response is used for all lines. ``grid``: the effect of its cells."""
 
     contact: HalfSpaceContact
     point: Solved
@@ -42,7 +42,8 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Sample:
-    """Lines of ``prepared`` solved at one speed. ``first``: that of the pilot; ``anchor``: the first in contact."""
+    """Lines of ``prepared`` that were solved at one speed. ``first``: that of the pilot; ``anchor``: the first in
+    contact."""
 
     prepared: Prepared
     speed: float
@@ -57,14 +58,14 @@ class Sample:
 
     @property
     def known(self) -> Anchor:
-        """The anchor, where a line touches."""
+        """The anchor, if a line touches."""
         if self.anchor is None:
             raise ValueError("no line touches yet")
         return self.anchor
 
     @property
     def together(self) -> Pooled:
-        """All lines."""
+        """All lines, pooled."""
         return pooled(self.records)
 
     @property
@@ -78,16 +79,16 @@ class Sample:
 
     @property
     def gap_error(self) -> BlockError:
-        """Standard error of the mean gap [m] at given load: of all lines, and of what their cells change."""
+        """Standard error of the mean gap [m] at given load, by all lines and by the effect of their cells."""
         return add_errors(self.together.gap, mean_error(self.known.grid))
 
     @property
     def doubted(self) -> float:
-        """`reached`, with a doubt of it on the first line.
+        """`reached`, made larger if there is only the first line.
 
-        A standard error from few blocks is itself known to 1/sqrt(2 nu) only, nu its degrees of freedom. A line that is
-        taken for long enough because its blocks happen to scatter little would state too small an error. So the first
-        line counts as long enough where even 1 + 1/sqrt(nu) times its error is within what is asked.
+        A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a line
+        counted as long enough whenever its blocks happen to scatter little, the stated error would be too small. So the
+        first line counts as long enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
         """
         if self.anchor is None or len(self.records) > 1:
             return self.reached
@@ -95,8 +96,8 @@ class Sample:
 
     @property
     def missed(self) -> float:
-        """Contact that lines without any may have missed by chance, as what it would add to f, relative. By the
-        summits of the pilot and the length of all lines."""
+        """Contact that lines without any may have missed by chance: its relative effect on f, from the summits of the
+        pilot and the length of all lines."""
         prepared, first = self.prepared, self.first
         found = missed_share(prepared, first.balance.film, first.balance.forces, self.lines.lengths[1])
         found = found if math.isfinite(found) else math.inf  # too short to tell
@@ -104,14 +105,14 @@ class Sample:
 
     @property
     def few(self) -> bool:
-        """Whether too few spots carry the load for an honest interval, where that matters."""
+        """Whether so few spots carry the load that the interval would be too narrow, if that matters."""
         asked = self.prepared.scene.numerics.sampling_tolerance
         return self.anchor is not None and too_few(self.together.participation, self.reached, asked)
 
     @property
     def too_coarse(self) -> bool:
-        """Whether the cells of the lines change the division of the load by more than can be corrected: that of the
-        anchor or, where the film clears the summits, of those that the cells cut off."""
+        """Whether the cells of the lines change the division of the load by more than can be corrected. That is judged
+        by the anchor or, where the film clears the summits, by the summits that the cells cut off."""
         if self.lines.cells.factors == (1, 1) or self.first.balance.film is None:
             return False
         if self.anchor is None:
@@ -120,8 +121,8 @@ class Sample:
 
     @cached_property
     def _summits_lost(self) -> bool:
-        """Whether cells of the scene's own would touch under the film of the pilot by more than f allows: a piece of
-        the surface stands out further on them than on those of the lines, by more than its clearance."""
+        """Whether the surface on the scene's own cells would touch under the film of the pilot by more than f allows: a
+        piece of it has a summit that is higher than on the cells of the lines by more than its clearance."""
         prepared, balance = self.prepared, self.first.balance.lubricated
         if balance is None:
             return False
@@ -135,7 +136,7 @@ class Sample:
         return depth > 0 and hidden_share(prepared, balance.forces, piece, depth) > allowed
 
     def wanted(self) -> float:
-        """Length [m] of the next line. 0 where no more is needed, or no more can be had."""
+        """Length [m] of the next line; 0 if no more is needed, or there is no more."""
         lines, asked, so_far = self.lines, self.prepared.scene.numerics.sampling_tolerance, self.together.length
         room = min(lines.available, MOST * lines.lengths[1]) - so_far
         reached = self.doubted
@@ -147,8 +148,8 @@ class Sample:
         return so_far + more if lines.nested else more
 
     def with_line(self, contact, point: Solved, before: tuple[GridStep, ...] = ()) -> Sample:
-        """The sample with one more line. A longer line of a measured map takes the place of the shorter one.
-        ``before``: what was found of the grid at a neighbouring speed."""
+        """The sample with one more line. A longer line of a measured map replaces the shorter one. ``before``: the
+        effect of the grid at a neighbouring speed."""
         lines, balance, length = self.lines, point.balance, length_of(contact)
         kept = () if lines.nested else self.records
         if balance.contact_load == 0:
@@ -167,7 +168,7 @@ class Sample:
 
 
 def lines_of_model(prepared: Prepared) -> Lines:
-    """More of the line that ``prepared`` is of."""
+    """The source of the line of ``prepared``, for more lines."""
     if prepared.lines is None:
         raise ValueError("a model of one patch has no further lines")
     return prepared.lines
@@ -202,7 +203,7 @@ def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
 
 def _grid(prepared, speed: float, found: Solved, response: Response, before) -> tuple[GridStep, ...]:
     """Compare pieces on finer cells, until their scatter is a small part of the sampling tolerance. Those of a
-    neighbouring speed serve where they are enough at this load too."""
+    neighbouring speed are used if they are enough at this load too."""
     lines, numerics, balance = lines_of_model(prepared), prepared.scene.numerics, found.balance.lubricated
     if lines.cells.factors == (1, 1) or balance is None:
         return ()
@@ -223,7 +224,7 @@ def _grid(prepared, speed: float, found: Solved, response: Response, before) -> 
 
 
 def _settled(steps, most: float, scatter: float) -> bool:
-    """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more, or they
-    are three too short for blocks."""
+    """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more pieces, or
+    there are three that are too short for blocks."""
     short = len(steps) >= FEWEST and not math.isfinite(steps[0].error.error)
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)

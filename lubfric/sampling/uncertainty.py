@@ -1,4 +1,4 @@
-"""What is known about the error of a friction coefficient: `Uncertainty`."""
+"""`Uncertainty`: what is known about the error of a friction coefficient."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ MATTERS = 0.25  # of the sampling tolerance: an error below it needs no particip
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not in it.
+    """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not included.
 
     Attributes
     ----------
     numerical : estimated relative error from film, grids and solvers
-    sampling : relative standard error because a finite length of rough surface stands for all of it. NaN: it cannot be
-        told, and ``text`` says why
-    interval : f at 95 %, (low, high), from both, by Student's t of ``freedom`` degrees
+    sampling : relative standard error because a finite length of rough surface stands for all of it. NaN: not known,
+        and ``text`` says why
+    interval : 95 % interval of f, (low, high), from both, by Student's t with ``freedom`` degrees of freedom
     line_scatter : relative standard deviation of f between lines as wide as that of the scene, each at another place on
         the surface
-    participation : number of equally loaded spots that would carry as unevenly
+    participation : number of equally loaded spots that would carry the load as unevenly
     length : of the line used [m]
     area_needed : how many times more of a measured map would be needed (1: enough; NaN: ``sampling`` is not known)
     model_form : estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the interval;
-        NaN where it is not known
+        NaN if it is not known
     """
 
     numerical: float = math.nan
@@ -58,7 +58,7 @@ class Uncertainty:
         return "; ".join((f"{first}, {surface}", *self.notes))
 
     def short(self, coefficient: float) -> str:
-        """f = value ± standard error, and where it comes from."""
+        """f = value ± standard error, and the parts of the error."""
         if not math.isfinite(self.sampling):
             return f"f = {coefficient:.4g} (numerical {percent(self.numerical)}, surface not known)"
         both = math.hypot(self.numerical, self.sampling) * abs(coefficient)
@@ -70,8 +70,8 @@ class Uncertainty:
 
 
 def too_few(participation: float, reached: float, asked: float) -> bool:
-    """Whether so few spots carry the load, 0 where nothing touches, that an interval is too narrow more often than it
-    says, where the standard error ``reached`` matters beside the one ``asked``."""
+    """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
+    error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
     return 0 < participation < FEW and reached > MATTERS * asked
 
 
@@ -102,8 +102,8 @@ def curve_of(points) -> UncertaintyCurve:
 
 @dataclass(frozen=True)
 class FieldErrors:
-    """Estimated relative error of every reported quantity. It is one standard error where the surface is part of it.
-    NaN where it cannot be told; ``reasons`` then has the name and why."""
+    """Estimated relative error of every reported quantity: one standard error, where the surface is part of it. NaN
+    where it is not known; ``reasons`` then has the name and why."""
 
     coefficient: float = math.nan
     contact_load: float = math.nan
@@ -135,8 +135,8 @@ def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
 
 
 def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:
-    """The `Uncertainty` where nothing is known of the surface beyond the ``length`` [m] that was solved, and
-    ``why``."""
+    """The `Uncertainty` where nothing is known of the surface beyond the ``length`` [m] that was solved; ``why`` says
+    why."""
     error = math.nan if numerical is None else numerical
     asked = scene.numerics.sampling_tolerance
     return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))

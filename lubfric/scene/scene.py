@@ -51,9 +51,9 @@ class Scene(SceneShown):
             )
 
     def with_(self, **sections) -> Scene:
-        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``.
+        """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 
-        The short forms of scene files serve as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
+        The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
         changed = {}
         for section, values in sections.items():
@@ -66,12 +66,16 @@ class Scene(SceneShown):
         return replace(self, **changed)
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
-        """A copy with the ``values`` by "section.key", or by "section" for a whole one."""
-        sections: dict[str, Any] = {}
+        """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
+        once, in any order: a Hertz pressure is that with the radius given beside it."""
+        whole = {key: value for key, value in values.items() if "." not in key}
+        sections = {key: dict(value) for key, value in whole.items() if isinstance(value, dict)}
         for key, value in values.items():
-            section, _, field = key.partition(".")
-            sections[section] = sections.get(section, {}) | {field: value} if field else value
-        return self.with_(**sections)
+            section, dot, field = key.partition(".")
+            if dot:
+                sections.setdefault(section, {})[field] = value
+        ready = {key: value for key, value in whole.items() if not isinstance(value, dict)}
+        return (self.with_(**ready) if ready else self).with_(**sections)
 
     def line_contact(self, speed: float) -> LineContact:
         """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""
@@ -86,7 +90,7 @@ class Scene(SceneShown):
 
 
 def _dotted(key: str, value) -> str:
-    """How to write what a key with its section in front, such as ``numerics.tolerance``, was meant to say."""
+    """How to write what a dotted key, such as ``numerics.tolerance``, was meant to say."""
     section, _, name = key.partition(".")
     return f"; write with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 

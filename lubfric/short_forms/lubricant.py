@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..oil import Oil, from_grade, from_table, from_viscosities, named_oil, viscosity_at_100
+from ..oil import Oil, from_grade, from_index, from_table, from_viscosities, named_oil
 from ..oil.temperature import CELSIUS, checked_temperature
 from .pairs import only_one, pair, together
 
@@ -17,8 +17,8 @@ def resolve(given: dict, old) -> dict:
     """Plain fields of [lubricant] from an oil at ``temperature`` [K] or ``temperature_celsius``: viscosity,
     pressure-viscosity coefficient and temperature coefficient (both as given, else of the oil).
 
-    The oil is given by ``grade`` with ``viscosity_index``, by ``nu40`` and ``nu100`` [m²/s], by ``viscosity_table``
-    (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
+    The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
+    ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
     """
     only_one("lubricant", given, "temperature", "temperature_celsius")
     if "temperature_celsius" in given:
@@ -63,7 +63,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
 
 
 def _own_coefficient(old) -> dict:
-    """The temperature coefficient of the lubricant before, where it was given and is not that of its oil."""
+    """The temperature coefficient of the lubricant before, if it was given and is not that of its oil."""
     if getattr(old, "oil", None) is None:
         return {}
     of_oil = old.oil.temperature_coefficient(old.temperature)
@@ -81,28 +81,29 @@ def _kelvin(celsius) -> float:
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:
-    """The oil that ``source`` names. It keeps the properties of the one ``before``, and what ``source`` does not say
-    is as it was."""
+    """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
+    only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
     kept = _kept(before)
     if "oil" in source:
         return source["oil"] if isinstance(source["oil"], Oil) else named_oil(source["oil"])
     if "viscosity_table" in source:
         rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in source["viscosity_table"]]
         return from_table(*zip(*rows), **kept)
-    if together("lubricant", source, "nu40", "nu100"):
-        return from_viscosities(source["nu40"], source["nu100"], **kept)
+    index = source.get("viscosity_index")
     if "grade" in source:
-        index = source.get("viscosity_index", before.index if before else None)
+        index = index if index is not None or before is None else before.index
         if index is None:
             raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
         return from_grade(source["grade"], index, **kept)
+    if index is None and together("lubricant", source, "nu40", "nu100"):
+        return from_viscosities(source["nu40"], source["nu100"], **kept)
+    nu40 = source.get("nu40", before and before.kinematic_viscosity(AT_40))
+    if index is not None and nu40 is not None:
+        return from_index(nu40, index, **kept)
     if before is None:
         key = next(iter(source), "base, density or another property")
         raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
-    if "viscosity_index" in source:
-        nu40 = before.kinematic_viscosity(AT_40)
-        return from_viscosities(nu40, viscosity_at_100(nu40, source["viscosity_index"]), **kept, by_index=True)
     return before
 
 

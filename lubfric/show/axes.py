@@ -1,4 +1,4 @@
-"""Results drawn on axes: one's own, or new ones of pyplot."""
+"""Results drawn on given axes, or on new ones of pyplot."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def axes_or_new(ax):
 
 
 def curve_axes(curve, ax=None, **style):
-    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; where it chose
-    its speeds, as interpolated."""
+    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
+    it chose its speeds."""
     axes = axes_or_new(ax)
     good = np.isfinite(curve.coefficient) & (curve.speed != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]
@@ -71,7 +71,8 @@ def history_axes(history, ax=None):
 
 def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
     """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`."""
-    sense = np.where(c["sliding_speed"] < 0, -1.0, 1.0)
+    sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
+    sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film

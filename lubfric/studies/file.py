@@ -61,18 +61,20 @@ def _flat(table, where: str, folder: Path) -> dict[str, list]:
     for key, values in found.items():
         if not isinstance(values, list):
             raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
-    if "surface.file" in found:
-        found["surface.file"] = [_beside(folder, name) for name in found["surface.file"]]
-    for part in found.get("surface", []):
-        if isinstance(part, dict) and "file" in part:
-            part["file"] = _beside(folder, part["file"])
+    for section in ("surface", "counterface"):
+        key = f"{section}.file"
+        if key in found:
+            found[key] = [_beside(folder, key, name) for name in found[key]]
+        for part in found.get(section, []):
+            if isinstance(part, dict) and "file" in part:
+                part["file"] = _beside(folder, key, part["file"])
     return found
 
 
-def _beside(folder: Path, name) -> str:
+def _beside(folder: Path, key: str, name) -> str:
     path = (folder / str(name)).resolve()
     if not path.is_file():
-        raise InputError(f"surface.file = {name!r}: no such file in {folder}")
+        raise InputError(f"{key} = {name!r}: no such file in {folder}")
     return str(path)
 
 

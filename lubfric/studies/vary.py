@@ -1,9 +1,10 @@
-"""What a study varies: lists of values, lists that go together, ranges that are sampled."""
+"""What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +13,13 @@ from ..errors import InputError
 from ..roughness import Roughness
 from ..scene import Scene
 from ..short_forms import short_keys
+from ..short_forms.lubricant import SOURCES
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
 MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
+SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
+VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -49,13 +53,13 @@ class Axis:
     keys: tuple[str, ...]
     values: tuple[tuple, ...]
 
-    def apply(self, scene: Scene, index: int) -> Scene:
-        """``scene`` with the values of position ``index``."""
-        return scene.with_keys(dict(zip(self.keys, self.values[index])))
+    def at(self, index: int) -> dict[str, Any]:
+        """The values of position ``index`` by their keys."""
+        return dict(zip(self.keys, self.values[index]))
 
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
-    """The dimensions of ``vary`` (see `lubfric.study`), each value put into the scene once to see that it fits."""
+    """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
     if not isinstance(vary, dict):
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
@@ -74,8 +78,9 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
         axis = _listed(name, keys, values)
         for index in range(len(axis.values)):
-            axis.apply(scene, index)
+            scene.with_keys(axis.at(index))
         axes.append(axis)
+    _check_temperature(scene, seen)
     return tuple(axes)
 
 
@@ -130,11 +135,23 @@ def _check_key(scene: Scene, key, seen: set) -> None:
         raise InputError(
             f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
         )
-    if key in ("motion", "motion.speeds", "motion.entrainment_speed"):
-        raise InputError(f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s")
+    if key == "motion" or key in SPEEDS:
+        raise InputError(
+            f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s, and vary motion.slide_roll_ratio"
+        )
     if key in seen:
         raise InputError(f"vary: {key!r} is given twice; give it once")
     seen.add(key)
+
+
+def _check_temperature(scene: Scene, keys: set[str]) -> None:
+    """Raise `InputError` for temperatures that leave the viscosity as it is."""
+    given = keys.intersection(("lubricant.temperature", "lubricant.temperature_celsius"))
+    if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
+        raise InputError(
+            f"vary: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 and "
+            "nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
+        )
 
 
 def _listed(name: str, keys: tuple[str, ...], values) -> Axis:

@@ -21,8 +21,8 @@ from .points import CurveResult, Swept, columns_of, report_of
 class StribeckResult(CurveResult):
     """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
-    Every number of `FrictionResult` is an array attribute of the same name and unit. One line of the surface serves all
-    speeds, so their errors go up and down together.
+    Every number of `FrictionResult` is an array attribute of the same name and unit. All speeds use the same line of
+    the surface, so their errors go up and down together.
 
     Attributes
     ----------
@@ -69,7 +69,8 @@ class StribeckResult(CurveResult):
         return _over(self.speed)
 
     def at(self, speed) -> np.ndarray:
-        """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`)."""
+        """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.curve.interpolate`). They
+        have the direction of the curve: a finite piece of a surface slides differently back and forth."""
         contact, film = self.parts_at(speed)
         return contact + film
 
@@ -77,22 +78,23 @@ class StribeckResult(CurveResult):
         """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
         curve = self._interpolant
         known = curve.samples.speed
-        at = np.abs(validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1))
+        sense = 1.0 if (self.speed > 0).any() else -1.0
+        at = sense * validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
         if at.min() < known[0] * (1 - 1e-9) or at.max() > known[-1] * (1 + 1e-9):
-            raise InputError(
-                f"speed = {speed!r} m/s; allowed: {known[0]:g} to {known[-1]:g} m/s, where the curve is known"
-            )
+            low, high = sorted((sense * known[0], sense * known[-1]))
+            raise InputError(f"speed = {speed!r} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
         return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach
-        it."""
+        """The speed [m/s] at which the film lifts the surfaces off each other; None if the curve does not reach it."""
         return self._interpolant.lift_off
 
     @cached_property
     def _interpolant(self) -> Interpolant:
         points = [p for p in self.points if p is not None and p.speed != 0]
+        if (self.speed > 0).any() and (self.speed < 0).any():
+            raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")
         if len(points) < FEWEST or len({abs(p.speed) for p in points}) < len(points):
             raise InputError(f"{len(points)} speeds are solved; a curve between them needs {FEWEST} different ones")
         samples = samples_of(points)

@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import validate
 from ..curve.span import film_ratio
+from ..errors import InputError
 from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
 from ..scene import Scene
@@ -61,7 +62,7 @@ def stribeck(
         return judged(found, raise_on_failure)
     speeds = _given(speeds, scene_of(scene).motion)
     prepared = at_tolerance(scene, tolerance, model)
-    kept = speeds if fields is True else np.atleast_1d(np.asarray(fields or [], float))
+    kept = _kept(fields, speeds)
     points: list[FrictionResult | None] = [None] * speeds.size
     errors: dict[int, Exception] = {}
 
@@ -82,12 +83,24 @@ def stribeck(
 
 
 def _given(speeds, motion) -> np.ndarray:
-    """Speeds [m/s] asked, one or many, or those of the scene."""
+    """The speeds [m/s] that were asked for, one or many, or those of the scene."""
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
     if isinstance(speeds, (Real, np.number)):
         speeds = [speeds]
     return validate.array("speeds", speeds, "m/s", ndim=1).copy()
+
+
+def _kept(fields, speeds: np.ndarray) -> np.ndarray:
+    """Those of the ``speeds`` whose film and contact are kept."""
+    if fields is True or fields is False or fields is None:
+        return speeds if fields else speeds[:0]
+    kept = np.atleast_1d(np.asarray(fields, float))
+    if not np.isin(kept, speeds).all():
+        raise InputError(
+            f"fields = {fields!r} m/s are not all among the speeds of the curve; give some of them, or fields = True"
+        )
+    return kept
 
 
 def _walks(prepared: Prepared, speeds, kept) -> list[tuple[Walk, np.ndarray]]:
@@ -110,11 +123,11 @@ def _walks(prepared: Prepared, speeds, kept) -> list[tuple[Walk, np.ndarray]]:
 
 
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
-    """Number of the speed that comes first, counted from the fastest down.
+    """Number of the speed that is solved first, counted from the fastest down.
 
-    It is where the film that Moes' formula gives the whole load is about 1.3 Sq. There the contact carries half of
-    the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
-    the fastest speed comes first: it is the easy one to begin with.
+    It is where Moes' film under the whole load is about 1.3 Sq. There the contact carries half of the load, and the
+    points on both sides cost the same. For a smooth surface, and for the models that resolve the gap, the fastest speed
+    comes first, because it is the easiest.
     """
     numerics, moving = scene.numerics, np.flatnonzero(speeds)
     if sq <= 0 or numerics.model == "deterministic" or numerics.closure == "one-way" or not moving.size:

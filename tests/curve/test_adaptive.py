@@ -189,6 +189,23 @@ def test_the_range_where_a_scene_has_no_speeds():
         span(scene, 0.0)
 
 
+def test_a_curve_is_that_of_its_own_direction(auto):
+    """The patch slides otherwise back than forth."""
+    there, back = (lubfric.friction(SCENE, sense * 0.035).coefficient for sense in (1, -1))
+    assert abs(back / there - 1) > 0.005
+    with pytest.raises(lubfric.InputError, match="allowed: 0.0001 to 1 m/s"):
+        auto.at(-0.035)
+    reverse = lubfric.stribeck(SCENE, [-0.03, -0.035, -0.04])
+    assert reverse.at(-0.035) == pytest.approx(back, rel=0.003)
+    with pytest.raises(lubfric.InputError, match="allowed: -0.04 to -0.03 m/s"):
+        reverse.at(0.035)
+    with pytest.raises(lubfric.InputError, match="both ways"):
+        lubfric.stribeck(SCENE, [-0.03, 0.035, 0.04]).at(0.035)
+    study = lubfric.study(SCENE, {"bodies.load": [5.5]}, [-0.03, -0.035, -0.04])
+    assert np.isnan(study.at(0.035)[0]) and study.at(-0.035)[0] == pytest.approx(back, rel=0.003)
+    assert np.isnan(lubfric.study(SCENE, {"bodies.load": [5.5]}, [-0.03, 0.035, 0.04]).at(0.035)[0])
+
+
 def test_what_an_interpolation_refuses(auto):
     for speed in (1e-5, 2.0, [0.1, 3.0]):
         with pytest.raises(lubfric.InputError, match="where the curve is known"):

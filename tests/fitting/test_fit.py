@@ -281,6 +281,22 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, BOUNDS)
 
 
+def test_a_measured_ratio_is_not_fitted():
+    measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]), over="slide_roll_ratio")
+    for key in ("motion.slide_roll_ratio", "motion.slip_percent"):
+        with pytest.raises(lubfric.InputError, match="measured, not fitted"):
+            lubfric.fit(SCENE, measured, {key: (1.0, 2.0)})
+
+
+def test_a_short_form_is_fitted():
+    """A film that clears all summits, so that f tells the slip alone: made with 50 %, found again."""
+    smooth = SCENE.with_(surface={"sq": 1e-9})
+    speeds = np.array([0.3, 0.5, 0.8])
+    made = [lubfric.friction(smooth.with_(motion={"slip_percent": 50}), u).coefficient for u in speeds]
+    found = lubfric.fit(smooth, lubfric.Measured(speeds, np.array(made)), {"motion.slip_percent": (10, 300)})
+    assert found.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
+
+
 def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
     measured = made_up(3)
     lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 import lubfric
@@ -35,3 +36,12 @@ def test_an_average_over_time_is_as_unsure_as_its_line(held):
     far = dataclasses.replace(held, renewal=1e-8).average()
     assert far.sampling == mean.sampling
     assert far.moving_scatter == pytest.approx(mean.fixed_scatter / math.sqrt(0.03 * 2e-4 / 1e-8), rel=0.2)
+
+
+def test_an_average_is_the_integral_over_time(held):
+    """f rises, stays and falls along straight lines: 0.75 of its height, whatever the outputs."""
+    columns = held.columns | {"time": np.array([0.0, 1.0, 3.0, 4.0]), "coefficient": np.array([0.0, 0.1, 0.1, 0.0])}
+    columns |= {"sampling_error": np.full(4, 0.02), "entrainment_speed": np.full(4, 0.03)}
+    mean = dataclasses.replace(held, columns=columns, renewal=1e-3).average()
+    assert mean.coefficient == pytest.approx(0.075) and mean.sampling == pytest.approx(0.02)
+    assert mean.moving_scatter == pytest.approx(mean.fixed_scatter / math.sqrt(0.03 * 4.0 / 1e-3))

@@ -149,3 +149,19 @@ def test_a_missing_key_names_its_short_form(tmp_path, missing, words):
         scene(tmp_path, **{missing: None})
     with pytest.raises(lubfric.InputError, match="grade and viscosity_index"):
         scene(tmp_path, lubricant="eyring_stress = 5e6")
+
+
+@pytest.mark.parametrize("other", [{"nu40": 68e-6, "nu100": 8.7e-6}, {"oil": "mineral-100"}])
+def test_a_viscosity_index_beside_what_gives_it_is_refused(other):
+    """It would do nothing."""
+    with pytest.raises(lubfric.InputError, match="viscosity_index and .*say the same thing"):
+        lubfric.load_scene("paper").with_(lubricant={"viscosity_index": 95, "temperature": 340.0} | other)
+
+
+def test_an_index_beside_the_viscosity_at_40_degrees_is_that_of_the_oil():
+    by_index = lubfric.oil.from_index(73.3e-6, lubfric.oil.viscosity_index(73.3e-6, 8.86e-6))
+    assert by_index.kinematic_viscosity(373.15) == pytest.approx(8.86e-6, rel=1e-9)
+    scene = lubfric.load_scene("paper").with_(
+        lubricant={"nu40": 73.3e-6, "viscosity_index": 92.43, "temperature": 373.15}
+    )
+    assert scene.lubricant.viscosity == pytest.approx(8.86e-6 * scene.lubricant.oil.density_at(373.15), rel=1e-4)

@@ -91,7 +91,7 @@ def test_what_a_point_has_not_is_refused():
 def test_a_run_in_time_has_neither(tmp_path, capsys):
     (tmp_path / "s.toml").write_text(SCENE + "[transient]\nduration = 0.01\n")
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--report"]) == 2
-    assert "where the scene has [transient]" in capsys.readouterr().err and not (tmp_path / "o").exists()
+    assert "this is a scene with [transient]" in capsys.readouterr().err and not (tmp_path / "o").exists()
 
 
 def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkeypatch):

@@ -9,7 +9,9 @@ from matplotlib.figure import Figure
 
 import lubfric
 from lubfric.history import Harmonic, Ramp, Table
+from lubfric.plot import new_figure
 from lubfric.scene_file import builtin_scenes
+from lubfric.show.axes import friction_over_time
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
@@ -118,6 +120,16 @@ def test_a_loop_leaves_out_a_standstill_and_a_history_names_no_band_it_has_not(h
     assert not any("95 %" in text for sampling in (np.nan, 0.0) for text in legend(sampling))
 
 
+def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
+    count = {"load": 2.0, "boundary_force": 0.0, "couette_force": 0.0, "rolling_force": -0.2, "coefficient": 0.1}
+    columns = {name: np.full(2, value) for name, value in count.items()}
+    columns |= {"time": np.array([0.0, 1.0]), "sliding_speed": np.zeros(2), "entrainment_speed": np.full(2, -0.3)}
+    axes = new_figure().subplots()
+    friction_over_time(axes, columns)  # pure rolling, backwards
+    whole, contact, film = (line.get_ydata() for line in axes.get_lines())
+    np.testing.assert_allclose(contact + film, whole)
+
+
 def test_maps_are_drawn_the_right_way_round(point):
     ax = point.plot_contact(axes())
     image = ax.images[0]
@@ -168,10 +180,28 @@ def test_histories_come_back_from_their_text():
     assert lubfric.load_scene(tomllib.loads(scene.to_toml())) == scene
 
 
-def test_an_oil_keeps_its_numbers():
-    scene = SCENE.with_(lubricant={"grade": 100, "viscosity_index": 95, "temperature_celsius": 60.0})
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"grade": 100, "viscosity_index": 95},
+        {"nu40": 68e-6, "viscosity_index": 140, "base": "pao", "density": 850.0, "density_slope": 0.6},
+        {"nu40": 68e-6, "nu100": 8.7e-6, "pressure_viscosity_coefficient": 21e-9, "conductivity": 0.14},
+        {"oil": "pao-220", "temperature_coefficient": 0.04, "eyring_stress": 5e6},
+        {"viscosity_table": [[300.0, 1e-4], [340.0, 3e-5], [380.0, 9e-6]], "alpha_estimate": "gold"},
+        {"oil": lubfric.oil.Oil(lubfric.oil.Walther(9.2479, 3.5849))},
+    ],
+)
+def test_an_oil_is_written_as_it_was_given(keys):
+    scene = SCENE.with_(lubricant=keys | {"temperature_celsius": 60.0})
     again = lubfric.load_scene(tomllib.loads(scene.to_toml()))
-    assert again.lubricant == replace(scene.lubricant, oil=None) and again.bodies == scene.bodies
+    if "oil" in keys and not isinstance(keys["oil"], str):  # its two constants go through viscosities and back
+        assert again.lubricant.viscosity == pytest.approx(scene.lubricant.viscosity, rel=1e-12)
+    else:
+        assert again == scene
+    warm, same = (s.with_(lubricant={"temperature": 350.0}).lubricant.viscosity for s in (scene, again))
+    assert warm == pytest.approx(same, rel=1e-12) and warm < 0.9 * scene.lubricant.viscosity
+    thicker, same = (s.with_(lubricant={"viscosity_index": 120}).lubricant.viscosity for s in (scene, again))
+    assert thicker == pytest.approx(same, rel=1e-12)
 
 
 def test_a_dict_is_a_scene():

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +45,58 @@ def test_every_point_is_what_friction_gives(serial):
             scene = SCENE.with_(bodies={"load": load}, surface={"seed": seed})
             alone = [lubfric.friction(scene, speed).coefficient for speed in SPEEDS]
             np.testing.assert_allclose(serial["coefficient"][i, j], alone, rtol=SCENE.numerics.tolerance)
+
+
+@pytest.mark.parametrize("first", ["bodies.hertz_pressure", "bodies.radius"])
+def test_keys_of_several_dimensions_act_together(first):
+    """A Hertz pressure is that with the radius of the same point, w = 2 pi R p²/E', whichever key comes first."""
+    vary = {"bodies.hertz_pressure": [1e8, 2e8], "bodies.radius": [2e-3, 4e-3]}
+    plan = lubfric.plan_study(SCENE, {first: vary[first], **vary}, SPEEDS)
+    for walk in plan.walks:
+        at = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, walk.index)}
+        bodies = walk.scene.bodies
+        assert bodies.radius == at["bodies.radius"]
+        load = 2 * np.pi * bodies.radius * at["bodies.hertz_pressure"] ** 2 / bodies.e_prime * bodies.width
+        assert bodies.load == pytest.approx(load, rel=1e-12)
+    whole = SCENE.with_keys({"bodies.radius": 4e-3, "bodies": {"hertz_pressure": 1e8}})
+    assert whole == SCENE.with_(bodies={"radius": 4e-3, "hertz_pressure": 1e8})
+
+
+@pytest.mark.parametrize(
+    "vary, words",
+    [
+        ({"bodies.load": [3.0, 5.5], "bodies.hertz_pressure": [1e8]}, "say the same thing"),
+        ({"motion.slip_percent": [10.0], "motion.slide_roll_ratio": [0.1, 2.0]}, "say the same thing"),
+        ({"motion.surface_speeds": [(0.0, 0.1), (0.0, 0.2)]}, "give speeds"),
+        ({"motion.speed_range": [(0.1, 1.0, 3)]}, "give speeds"),
+        ({"lubricant.temperature_celsius": [40.0, 80.0]}, "moves no viscosity"),
+    ],
+)
+def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.plan_study(SCENE, vary, [0.1])
+
+
+def test_temperatures_are_varied_with_a_viscosity():
+    keys = ("lubricant.temperature", "lubricant.viscosity")
+    numbers = lubfric.plan_study(SCENE, {keys: [(313.15, 0.2), (353.15, 0.05)]}, [0.1])
+    assert [walk.scene.lubricant.viscosity for walk in numbers.walks] == [0.2, 0.05]
+    oil = {"lubricant.nu40": 68e-6, "lubricant.nu100": 8.6e-6, "lubricant.temperature": 313.15}
+    oils = lubfric.plan_study(SCENE.with_keys(oil), {"lubricant.temperature_celsius": [40.0, 100.0]}, [0.1])
+    cold, hot = (walk.scene.lubricant.viscosity for walk in oils.walks)
+    assert hot < 0.2 * cold
+
+
+def test_oils_and_whole_sections_are_named_in_the_tables(tmp_path):
+    oils = [lubfric.oil.from_grade("ISO VG 68", index) for index in (60, 160)]
+    warm = SCENE.with_(lubricant={"oil": oils[0], "temperature": 330.0}, surface={"sq": 0.0})
+    rough = [warm.surface, replace(warm.surface, seed=5)]
+    result = lubfric.study(warm, {"lubricant.oil": oils, "surface": rough}, [1.0], store=tmp_path / "study")
+    result.to_csv(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text().splitlines()
+    assert len(lines) == 5 and result.failed == 0
+    assert "ISO VG 68, VI 60" in lines[1] and "ISO VG 68, VI 160" in lines[-1] and "seed=5" in lines[2]
+    same(lubfric.open_study(tmp_path / "study"), result)
 
 
 def test_the_flat_contact_shares_its_curve():

@@ -44,6 +44,17 @@ def test_maps_are_found_beside_the_file(tmp_path):
     assert files == [str(tmp_path / "one.npy"), str(tmp_path / "two.npy")] and plan.speeds == (0.01,)
 
 
+def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
+    np.save(tmp_path / "one.npy", np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
+    plan = read(tmp_path, '[vary]\ncounterface = [{ file = "one.npy", spacing = 1e-6 }]\n')
+    assert [walk.scene.counterface.file for walk in plan.walks] == [str(tmp_path / "one.npy")]
+    facing = SCENE + '[counterface]\nfile = "one.npy"\nspacing = 1e-6\n'
+    plan = read(tmp_path, '[vary]\ncounterface.file = ["one.npy"]\n', facing)
+    assert [walk.scene.counterface.file for walk in plan.walks] == [str(tmp_path / "one.npy")]
+    with pytest.raises(lubfric.InputError, match="counterface.file = 'none.npy': no such file"):
+        read(tmp_path, '[vary]\ncounterface.file = ["none.npy"]\n', facing)
+
+
 @pytest.mark.parametrize(
     "study, words",
     [

@@ -190,6 +190,11 @@ def test_a_cut_sweep_goes_on_to_the_same_bits(tmp_path, monkeypatch, cut, fields
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
 
 
+def test_fields_of_a_speed_that_is_not_solved_are_refused():
+    with pytest.raises(lubfric.InputError, match="not all among the speeds"):
+        lubfric.stribeck(SCENE, SPEEDS, fields=[SPEEDS[1], 1.1 * SPEEDS[2]])
+
+
 def test_a_curve_outlives_the_shell_that_began_it(monkeypatch, curve):
     """As behind nohup: the parent of this process changes while it solves. Only a worker ends with its parent."""
     parents = iter(range(10**6))

@@ -104,5 +104,27 @@ def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
 
 def test_a_command_says_what_it_lacks(capsys):
     assert main(["oils", "show"]) == 2 and "needs a name" in capsys.readouterr().err
-    assert main(["run", "paper", "--ratios", "0.1", "--workers", "2"]) == 2
-    assert "--workers shares the speeds" in capsys.readouterr().err
+
+
+TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(duration=1e-3))
+
+
+@pytest.mark.parametrize(
+    "kind, options, told",
+    [
+        (None, ["--ratios", "0.1", "--workers", "2"], "--workers is for a Stribeck curve"),
+        (None, ["--ratios", "0.1", "--speeds", "0.1"], "--speeds is for a Stribeck curve"),
+        (None, ["--ratios", "0.1", "--vtk"], "--vtk is for a Stribeck curve"),
+        (None, ["--animation"], "--animation is for a scene with"),
+        (TRANSIENT, ["--ratios", "0.1"], "--ratios is for a traction curve"),
+        (TRANSIENT, ["--speeds", "0.1"], "--speeds is for a Stribeck curve"),
+        (TRANSIENT, ["--report"], "--report is for a Stribeck curve"),
+    ],
+)
+def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, kind, options, told):
+    path = "paper"
+    if kind is not None:
+        path = str(tmp_path / "scene.toml")
+        (tmp_path / "scene.toml").write_text(kind.to_toml())
+    assert main(["run", path, *options, "--out", str(tmp_path / "out")]) == 2
+    assert told in capsys.readouterr().err and not (tmp_path / "out").exists()
