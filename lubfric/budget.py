@@ -1,8 +1,8 @@
-"""How the tolerance on the friction coefficient is shared out, and how far a share may loosen or tighten a solver.
+"""How the tolerance on the friction coefficient is divided, and how far a share may loosen or tighten a solver.
 
-The one place of these numbers; docs/levels.md quotes it. The shares are bounds that are hardly ever reached together.
-An error of the film reaches f by a factor, the sensitivity (`lubfric.point.forces.Forces`): what is asked of the film
-is divided by it.
+These numbers stand only here; docs/levels.md quotes them. The shares are upper bounds, hardly ever reached together. An
+error of the film reaches f by a factor, the sensitivity (`lubfric.point.forces.Forces`), by which the tolerance of the
+film is divided.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Columns of numbers in a text file that others wrote: headings with units, any usual separator and decimal mark."""
+"""Columns of numbers in a text file from elsewhere: headings with units, any usual separator and decimal mark."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
 def read_columns(
     path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
 ) -> list[list[float]]:
-    """Columns in SI units, found in the first row by the ``names``, which are headings or what these say before a unit.
+    """Columns in SI units, found in the first row by the ``names``, which are headings with or without their units.
 
-    A heading may carry its unit: ``time [ms]``, ``load (kN)``; without one it is SI, unless its unit is among those
-    that a heading ``must_say``. ``units``: the SI unit that each column must be convertible to (None: any of `UNITS`).
-    Comma, semicolon or tab separate; where it is one of the latter two, a comma is the decimal mark. UTF-8 (with or
-    without a byte-order mark), UTF-16 with one, or Windows-1252.
+    A heading may carry its unit: ``time [ms]``, ``load (kN)``. Without one it is SI, unless its unit is among those
+    that a heading ``must_say``. ``units``: the SI unit to which each column must be convertible (None: any of `UNITS`).
+    Comma, semicolon or tab separate; with one of the latter two, a comma is the decimal mark. UTF-8 (with or without a
+    byte-order mark), UTF-16 with one, or Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
@@ -62,13 +62,13 @@ def read_columns(
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
-    """The two parts of a heading; None: it names no unit."""
+    """The two parts of a heading; the unit is None if it names none."""
     found = HEADING.fullmatch(heading)
     return (heading, None) if found is None else (found["name"], found["unit"])
 
 
 def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
-    """What a value is to be multiplied by to be in SI."""
+    """The factor that turns a value into SI."""
     if given is None:
         return 1.0
     word = " ".join(given.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())

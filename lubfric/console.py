@@ -1,4 +1,4 @@
-"""What a command says, and how it ends. A broken stream or an interrupt never costs what was computed."""
+"""The messages of a command, and its end. A broken stream or an interrupt never costs what was computed."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Terminated(Interrupted):
 
 
 def say(text: str) -> None:
-    """One line on stderr; when nobody reads it any more, silence from then on."""
+    """One line on stderr; silence once nobody reads it."""
     put(sys.stderr, text + "\n")
 
 
 def put(stream, text: str) -> None:
-    """Write to ``stream``; a stream that is closed or broken is turned to nowhere."""
+    """Write to ``stream``; a stream that is closed or broken is replaced by one that goes nowhere."""
     try:
         stream.write(text)
         stream.flush()
@@ -49,13 +49,13 @@ def _silence(stream) -> None:
 
 
 class Pace:
-    """Says when progress is told again: a second after the last time, and at the end."""
+    """Says when progress is to be reported: a second after the last time, and at the end."""
 
     def __init__(self) -> None:
         self._told = time.perf_counter()
 
     def due(self, end: bool) -> bool:
-        """Whether to tell it now."""
+        """Whether to report it now."""
         now = time.perf_counter()
         if not end and now - self._told < SAY_EVERY:
             return False

@@ -1,4 +1,4 @@
-"""What a scene is, in words: regime numbers and what will be solved."""
+"""A scene in words: regime numbers, and what will be solved."""
 
 from __future__ import annotations
 
@@ -83,7 +83,8 @@ def _no_doubts(told) -> list[str]:
 
 
 def _map_lines(scene: Scene, surface) -> list[str]:
-    """Statistics of the map on its own grid, how well that grid resolves them, and what a contact solve on it holds."""
+    """Statistics of the map on its own grid, how well that grid resolves them, and the memory of a contact solve on
+    it."""
     (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
     slopes = rms_slope(surface)
     lengths = [_correlation_length(surface, axis) for axis in range(2)]

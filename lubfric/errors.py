@@ -4,15 +4,15 @@ from __future__ import annotations
 
 
 class LubfricError(Exception):
-    """Base class: catch this to catch everything lubfric raises on purpose.
+    """Base class: catch this to catch everything that lubfric raises on purpose.
 
-    ``hints`` say what else may be behind it. They are added on its way up, and end its message.
+    ``hints`` say what else may be the cause. They are added on the way up, and end the message.
     """
 
     hints: tuple[str, ...] = ()
 
     def hint(self, text: str) -> None:
-        """Add what may be behind it, once; nothing where the text is empty."""
+        """Add a possible cause, once; nothing if the text is empty."""
         if text and text not in self.hints:
             self.hints += (text,)
 
@@ -25,10 +25,11 @@ class LubfricError(Exception):
 
 
 class InputError(LubfricError, ValueError):
-    """An input is outside its allowed range, raised before any work starts.
+    """An input is outside its allowed range; raised before any work starts.
 
-    The message names the quantity, the value, the allowed range and the unit. ``quantity``, which begins it (``also``:
-    others it is about), ``allowed``, and ``way_out``, what to do where no range says it, can be read off the error.
+    The message names the quantity, the value, the allowed range and the unit. The error has these as attributes:
+    ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and ``way_out``, which
+    says what to do if there is no range.
     """
 
     def __init__(self, said: str, quantity: str = "", allowed: str = "", way_out: str = "", also: tuple[str, ...] = ()):
@@ -43,14 +44,14 @@ class InputError(LubfricError, ValueError):
 class OutputError(LubfricError, OSError):
     """A file could not be written or read: a full disk, a missing right, a folder that went away.
 
-    The message names the file and what the system said. What was complete on disk before stays.
+    The message names the file and what the operating system said. Files that were complete before stay.
     """
 
 
 class ConvergenceError(LubfricError, RuntimeError):
-    """A solver stopped before it reached the tolerance it was asked for.
+    """A solver stopped before it reached the tolerance that was asked for.
 
-    ``report`` is the solver's `lubfric.Report`. ``result`` is whatever the solver had when it stopped (or ``None``), so
+    ``report`` is the solver's `lubfric.Report`. ``result`` is what the solver had when it stopped (or ``None``), so
     that nothing computed is lost. Both survive pickling.
     """
 
@@ -62,10 +63,10 @@ class ConvergenceError(LubfricError, RuntimeError):
 
 
 class ValidityError(LubfricError, ValueError):
-    """A converged solution lies outside the range of the model, so that its coefficient is no answer.
+    """A converged solution is outside the range of the model, so that its coefficient is no answer.
 
     ``entries`` are the `lubfric.Validity` entries that refuse it. ``result`` is the whole result (or ``None``), so that
-    nothing computed is lost. ``numerics.accept = true`` returns it instead. The error survives pickling.
+    nothing computed is lost. With ``numerics.accept = true`` it is returned instead. The error survives pickling.
     """
 
     def __init__(self, message: str, entries=(), result=None):

@@ -1,4 +1,4 @@
-"""What frozen dataclasses keep when they are copied or unpickled: arrays that stay read-only, and nothing derived."""
+"""Frozen dataclasses that are copied or unpickled: their arrays stay read-only, and derived values are left out."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class FrozenArrays:
 
 
 class FieldsOnly:
-    """Base of frozen dataclasses with cached properties: what was derived is not pickled."""
+    """Base of frozen dataclasses with cached properties: derived values are not pickled."""
 
     def __getstate__(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]

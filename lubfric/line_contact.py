@@ -1,4 +1,5 @@
-"""The smooth line contact as one value: load, bodies, speed and lubricant, and what follows from them at once."""
+"""The smooth line contact as one value: load, bodies, speed and lubricant, and the numbers that follow directly from
+them."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> d
 
 
 def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
-    """What every record of a run begins with: the resolved input, the map (and how it is ``described``), versions."""
+    """The beginning of every record of a run: the resolved input, the map (and how it is ``described``), versions."""
     import scipy
 
     map_ = {"shape": surface.heights.shape, "spacing": surface.spacing, **described, "notes": list(surface.notes)}

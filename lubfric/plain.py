@@ -1,4 +1,4 @@
-"""Any result in the types that JSON has."""
+"""Any result in JSON types."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Likely slips: values far from what machines have, and the unit they may have been meant in.
+"""Likely slips: values far from what machines have, and the unit in which they may have been meant.
 
-A value outside the usual range is no error: it gets a sentence that names the unit under which it would be usual. The
-ranges are wide: what line contacts of machines and test rigs have, with a margin of a few times on both sides.
+A value outside the usual range is no error: it gets a sentence that names the unit in which it would be usual. The
+ranges are wide: those of machines and test rigs with line contacts, with a margin of a few times on both sides.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ MICRO, NANO, GIGA = 1e-6, 1e-9, 1e9
 
 @dataclass(frozen=True)
 class Usual:
-    """Range of a quantity in SI, its unit, and units that are mistaken for it with their factors, and what to give
+    """Usual range of a quantity in SI, its unit, units that are mistaken for it with their factors, and the key to give
     instead."""
 
     low: float
@@ -70,7 +70,7 @@ NOUGHT = (
 
 
 def slip(name: str, value) -> str | None:
-    """What ``value`` of the key ``name`` (section.key) may have been meant as. None: the value is usual; "": nothing
+    """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
     fits."""
     usual = USUAL.get(name)
     numbers = value if isinstance(value, (list, tuple)) else (value,)
@@ -87,8 +87,8 @@ def slip(name: str, value) -> str | None:
 
 @dataclass(frozen=True)
 class Doubt:
-    """A value [unit] of a key outside its usual range, and the bound it is beyond. ``meant``: what it may have been
-    meant as, or ""."""
+    """A value [unit] of a key outside its usual range, and the bound that it exceeds. ``meant``: what it may have been
+    meant to be, or ""."""
 
     name: str
     value: float
@@ -103,7 +103,7 @@ class Doubt:
 
 
 def doubts(scene) -> tuple[Doubt, ...]:
-    """The values of a scene outside their usual range."""
+    """The values of a scene that are outside their usual range."""
     found = []
     for name, usual in USUAL.items():
         section, key = name.split(".")
@@ -126,7 +126,7 @@ def _index(scene) -> float | None:
 
 @contextmanager
 def told_slips(section: str, values: dict):
-    """Add the likely slip, where one fits, to an `InputError` about one of ``values``."""
+    """Add the likely slip, if there is one, to an `InputError` about one of ``values``."""
     try:
         yield
     except InputError as error:

@@ -14,7 +14,7 @@ BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 
 
 def new_figure(*args, **kwargs):
-    """A figure that no window shows."""
+    """A figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -24,15 +24,15 @@ def new_figure(*args, **kwargs):
 
 
 def interval_band(ax, over: np.ndarray, columns) -> None:
-    """The intervals of f as a band ``over`` speeds or ratios, where ``columns`` have them."""
+    """The intervals of f as a band ``over`` speeds or ratios, if ``columns`` have them."""
     if np.isfinite(columns.get("interval_low", np.array([np.nan]))).any():
         band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
         ax.fill_between(over, columns["interval_low"], columns["interval_high"], **band)
 
 
 def friction_lines(axes, x, parts, **style) -> None:
-    """f, and the parts of it from the contact spots and from the film, over ``x``: ``parts``, three arrays; ``style``:
-    of the first."""
+    """f, and its parts from the contact spots and from the film, over ``x``. ``parts``: three arrays; ``style``: of the
+    first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, "from the contact spots"), (film, GREEN, "from the film")):
@@ -50,7 +50,7 @@ def load_shares(axes, x, share) -> None:
 
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
-    would write every tick as a product, one over the other. Ticks that were chosen stay."""
+    would write every tick as a product, so that they overlap. Ticks that were set by hand stay."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
     low, high = sorted(axis.get_view_interval())
@@ -61,8 +61,7 @@ def plain_ticks(axis) -> None:
 
 
 def make_ready() -> None:
-    """Import matplotlib and load its fonts. That takes half a second, which can pass while something else is
-    computed."""
+    """Import matplotlib and load its fonts, which takes half a second, while something else is computed."""
     figure = new_figure(figsize=(1, 1))
     figure.subplots()
     figure.savefig(io.BytesIO())
@@ -73,9 +72,9 @@ def plot_stribeck(
 ) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as in `lubfric.table.read_table`; speeds that failed are left out. ``entries``: row by
-    row, the assumptions that do not hold (`lubfric.validity.entry.Validity`).
-    ``measured``: a `lubfric.Measured` over speed, drawn among the curve.
+    ``columns``: arrays by name as in `lubfric.table.read_table`; speeds that failed are left out. ``entries``: for each
+    row, the assumptions that are violated (`lubfric.validity.entry.Validity`). ``measured``: a `lubfric.Measured` over
+    speed, drawn beside the curve.
     """
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
@@ -112,8 +111,8 @@ def plot_stribeck(
 
 
 def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
-    """Ring the points at which an assumption fails, and cross out those where it makes f meaningless. Say below
-    which."""
+    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below
+    says which."""
     if not any(entries):
         return
     severe = np.array([any(entry.severe for entry in told) for told in entries])
@@ -132,8 +131,8 @@ def plot_contact(path: Path, prepared, point) -> None:
     """Contact pressure map; beside it film, separation and surface on a section through the highest pressure.
 
     ``point``: a `FrictionResult` with fields. The section shows what the paper's Fig. 10 shows: the smooth film h, the
-    separation h_s = h - epsilon, and the rough surface, deformed (z - u) and not (z). epsilon and u are known up to one
-    constant. It is chosen so that u has zero mean over the section.
+    separation h_s = h - epsilon, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up
+    to one constant. It is chosen so that u has zero mean over the section.
     """
     x = prepared.contact.x
     heights = prepared.surface.heights - prepared.surface.heights.mean()

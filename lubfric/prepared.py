@@ -1,4 +1,4 @@
-"""A scene made ready: what every speed shares."""
+"""A scene made ready: all that its speeds share."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class Prepared(Shown):
 
     Attributes
     ----------
-    scene : what was asked
+    scene : the scene
     surface : its height map
     contact : the rough contact on it
     film_levels : the film levels to choose from, the simplest first
-    known : assumptions of the model that bodies and map do not meet
-    lines : makes further lines, where ``surface`` is a line of the scene's roughness; else None
+    known : assumptions of the model that bodies and map violate
+    lines : makes further lines, if ``surface`` is a line of the scene's roughness; else None
     given : True: the map was given to `prepare`, and there is no more of it
     """
 
@@ -58,16 +58,17 @@ def prepare(
     contact: RoughContact | None = None,
     film_levels: Sequence[FilmLevel] = LEVELS,
 ) -> Prepared:
-    """Make a scene ready: build its height map and its rough contact, which every speed shares.
+    """Make a scene ready: build its height map and its rough contact, which all speeds share.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`
-    surface : a height map to use as it is, grid and all, instead of the scene's own. Under a cylinder it is taken as
-        periodic along y, when flat along x and y (`Surface.periodic` makes it so). Without one, a scene with
+    surface : a height map to use as it is, with its grid, instead of the scene's own. Under a cylinder it is taken as
+        periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
         ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md)
-    like : another prepared scene, of the same map, E' and hardness. Its map, and its operator or contact curve, serve
-        again for another load, lubricant, motion or tolerance. A curve serves no heavier load and no tighter tolerance
+    like : another prepared scene with the same map, E' and hardness. Its map, and its operator or contact curve, are
+        used again for another load, lubricant, motion or tolerance. A curve suits no heavier load and no tighter
+        tolerance
     contact : a rough contact other than lubfric's own (`lubfric.rough.contract`)
     film_levels : films other than lubfric's own, the simplest first (`lubfric.film.contract`)
 
@@ -77,7 +78,7 @@ def prepare(
 
     Raises
     ------
-    InputError : the map does not fit the scene, or ``like`` cannot serve
+    InputError : the map does not fit the scene, or ``like`` does not
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if resolves_gap(scene):
@@ -99,7 +100,7 @@ def prepare(
 
 
 def _another(scene: Scene, like: Prepared) -> Prepared:
-    """Make ``scene`` ready on the map of ``like``. Its lines serve too, unless the scene asks for another sampling
+    """Make ``scene`` ready on the map of ``like``. Its lines are used too, unless the scene asks for another sampling
     or other cells."""
     lines = None
     if not like.given and (like.lines is not None or takes_line(scene)):
@@ -135,8 +136,8 @@ def scene_of(scene: Scene | Prepared) -> Scene:
 
 
 def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
-    """``scene`` made ready, with another tolerance on f and another model ("auto", "full", "deterministic") where
-    they are given."""
+    """``scene`` made ready, with another tolerance on f and another model ("auto", "full", "deterministic") if they are
+    given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene

@@ -1,4 +1,4 @@
-"""Units and long names of what is given and of what comes out: keys of a scene, numbers of a result."""
+"""Units and long names of inputs and results: keys of a scene, numbers of a result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A keyword by the name it had before."""
+"""A keyword under its former name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ BEFORE, TODAY = "density", "density_law"
 
 
 def density_before(function: Callable[P, R]) -> Callable[P, R]:
-    """``function``, which takes its keyword ``density_law`` under the name ``density`` as well."""
+    """``function``, which accepts its keyword ``density_law`` under the name ``density`` as well."""
 
     @wraps(function)
     def call(*args: P.args, **given: P.kwargs) -> R:

@@ -1,4 +1,4 @@
-"""What one operating point gives: `FrictionResult`."""
+"""The result of one operating point: `FrictionResult`."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class FrictionResult(Shown):
 
     @property
     def starts(self) -> bool:
-        """Whether a neighbouring speed can start from it: it has its fields, and a film."""
+        """Whether a neighbouring speed can start from it, which needs its fields and a film."""
         whole = self.deterministic is not None or bool(self.one_way)
         return whole or (self.balance is not None and self.balance.film is not None)
 
@@ -116,7 +116,7 @@ class FrictionResult(Shown):
 
     @property
     def shows_contact(self) -> bool:
-        """Whether `pressure` and `gap` are there."""
+        """Whether `pressure` and `gap` are available."""
         return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
 
     @property

@@ -1,4 +1,4 @@
-"""One bracketed root of an increasing function, stopped by its value and not by its step."""
+"""One bracketed root of an increasing function; it stops by the value of the function, not by the step."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ NEARER = 0.3  # of the value before: the secant leads on
 
 @dataclass(frozen=True)
 class Root:
-    """x, f(x), the payload that came with it, every |f| on the way, how it ended, and the slope of f between the last
-    two points (None where they tell nothing)."""
+    """x, f(x), its payload, |f| at every step, how it ended, and the slope of f between the last two points (None if
+    they do not determine it)."""
 
     x: float
     value: float
@@ -39,11 +39,11 @@ def increasing_root(
     """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
     ``f(x, last)`` returns (value, payload); ``last``: the payload before it. ``first``: value and payload at ``guess``
-    inside the bounds where they are at hand, which counts as an evaluation, or None and a payload to begin with. Stops
-    when |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant where a step came
-    much nearer; a function of one sign there ends with "iteration_limit". Where ``slope`` is roughly known, the first
-    step is Newton's, at most ``step``.
-    Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149, doi:10.1016/S0965-9978(96)00051-8.
+    inside the bounds, if they are known, which counts as an evaluation; or None and a payload to begin with. Stops when
+    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant if a step came much
+    nearer. A function of one sign there ends with "iteration_limit". If ``slope`` is roughly known, the first step is
+    Newton's, at most ``step``. Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149,
+    doi:10.1016/S0965-9978(96)00051-8.
     """
     search = _Search(f, tolerance, max_evaluations, first[1])
     if (value := first[0]) is not None:
@@ -55,7 +55,7 @@ def increasing_root(
 
 
 class _Search:
-    """One search: f with what it has given so far."""
+    """One search: f, and its values so far."""
 
     def __init__(self, f, tolerance: float, max_evaluations: int, first):
         self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
@@ -76,11 +76,11 @@ class _Search:
 
     @property
     def done(self) -> bool:
-        """The best is good enough, or enough has been tried."""
+        """Whether the best is good enough, or enough has been tried."""
         return abs(self.best[1]) <= self.tolerance or len(self.points) >= self.max_evaluations
 
     def root(self) -> Root:
-        """What was found."""
+        """The result."""
         status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
         x, value, payload = self.best
         return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, self._slope())
@@ -93,7 +93,7 @@ class _Search:
 
 
 def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
-    """Points (upper, lower) of both signs; None where the search ended before they were found."""
+    """Points (upper, lower) of both signs; None if the search ended before they were found."""
     lower = upper = None
     point = search.points[0] if search.points else search.at(x)
     while not search.done:
@@ -115,7 +115,7 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
 
 
 def _close_in(search: _Search, a, b) -> None:
-    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or the bracket is down to
+    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or until the bracket is down to
     rounding and f still jumps in it."""
     fraction, c = _secant(a, b), None
     while True:

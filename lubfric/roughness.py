@@ -109,7 +109,7 @@ class Roughness(Brief):
 
 
 def not_for_this(name: str, value: Any, generated: bool) -> InputError:
-    """The error for a key that has no meaning for the kind of map there is."""
+    """The error for a key that has no meaning for this kind of map."""
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     told = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
     return InputError(told, f"surface.{name}", way_out="leave it out")
@@ -125,7 +125,7 @@ def check_keys(given: dict[str, Any]) -> None:
 
 @contextmanager
 def named(section: str) -> Iterator[None]:
-    """Make an `InputError` about a `Roughness` name the ``section`` that it stands in."""
+    """Make an `InputError` about a `Roughness` name the ``section`` in which it stands."""
     try:
         yield
     except InputError as error:
@@ -149,8 +149,8 @@ def counterface(values: dict[str, Any]) -> Roughness:
 
 
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
-    """The fields that ``values`` change in ``old``. Where a file takes the place of a generated map, the keys of
-    that map go."""
+    """The fields that ``values`` change in ``old``. If a file replaces a generated map, the keys of the generated map
+    go."""
     if old is not None and old.file is None and values.get("file") is not None:
         return {"sq": None, **GENERATED, **values}
     return values

@@ -1,5 +1,5 @@
-"""The folder of ``lubfric run``: one writer at a time, whole files only, result.json last. What an unfinished run
-kept stands apart."""
+"""The folder of ``lubfric run``: one writer at a time, only complete files, result.json last. What an unfinished run
+has saved is kept apart."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class RunFolder:
                 path.unlink(missing_ok=True)
 
     def write(self, name: str, content: bytes) -> None:
-        """Write a file of the run, whole or not at all."""
+        """Write a file of the run, completely or not at all."""
         write_whole(self.path / name, content)
         self.written.append(name)
 
@@ -62,14 +62,14 @@ class RunFolder:
         self.write(name, drawn(plot, *arguments))
 
     def make(self, name: str, save: Callable, *arguments) -> None:
-        """Write a file by ``save(path, *arguments)``, for what can only be written by name."""
+        """Write a file by ``save(path, *arguments)``, if it can only be written by name."""
         with whole_file(self.path / name) as part:
             save(part, *arguments)
         self.written.append(name)
 
     def finish(self, record: dict) -> None:
-        """Write result.json, which names the files that belong to it. The run is complete then, and what was kept
-        for a resume is removed."""
+        """Write result.json, which names the files that belong to it. Then the run is complete, and what was saved for
+        a resume is removed."""
         files = sorted([*self.written, RESULT])
         self.write(RESULT, json.dumps({"files": files} | record, indent=1, allow_nan=False).encode())
         shutil.rmtree(self.unfinished, ignore_errors=True)
@@ -82,8 +82,8 @@ class RunFolder:
 def run_folder(path, fingerprint: str):
     """Open ``path`` for the run with that ``fingerprint``, as a `RunFolder`.
 
-    ``.unfinished`` holds what an interrupted run of the same fingerprint kept. What other runs kept is left alone.
-    Raises `InputError` where ``path`` is a file, or a folder that another process writes to, and `OutputError` where it
+    ``.unfinished`` has what an interrupted run of the same fingerprint saved. What other runs saved is left alone.
+    Raises `InputError` if ``path`` is a file, or a folder to which another process writes, and `OutputError` if it
     cannot be used.
     """
     path = Path(path)

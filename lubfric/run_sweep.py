@@ -37,8 +37,8 @@ WORTH = 8  # speeds from which a second process gains more than it costs
 
 @dataclass(frozen=True)
 class Extras:
-    """What else is written, report.html, and contact_0.vtk ... for ParaView; ``workers``: processes that share the
-    speeds (None: two where that pays)."""
+    """Further outputs: report.html, and contact_0.vtk ... for ParaView. ``workers``: processes that share the speeds
+    (None: two if that pays)."""
 
     report: bool = False
     vtk: bool = False
@@ -49,7 +49,7 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to ``out``.
 
     The scene is checked and made ready before ``out`` is touched. The results of an earlier run stay until those of
-    this one are there. Every point is on disk when it ends, so an interrupted run goes on from there. A failed run
+    this one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run
     writes what it has, then raises `ConvergenceError`.
     """
     asked, chosen = _asked(scene, speeds, fields)
@@ -58,15 +58,16 @@ def run_sweep(scene: Scene, out: Path, speeds: str | None, fields: str | None, m
 
 
 def _workers(scene: Scene, asked, given: int | None) -> int:
-    """Processes that share the speeds ``asked``: as ``given``, else two where there are as many processors, the speeds
-    are enough, and each is solved on a long line. The numbers do not depend on it."""
+    """Processes that share the speeds ``asked``: as ``given``, else two if there are as many processors, enough speeds,
+    and each is solved on a long line. The numbers do not depend on it."""
     if given is not None:
         return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
     return 2 if asked != AUTO and len(asked) >= WORTH and takes_line(scene) and processors() > 1 else 1
 
 
 def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
-    """See `run_sweep`; ``speeds``: asked for, and those whose fields are kept; ``executor``: solves them, or None."""
+    """See `run_sweep`. ``speeds``: those asked for, and those whose fields are kept; ``executor``: solves them, or
+    None."""
     asked, chosen = speeds
     begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")
@@ -113,8 +114,8 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
 
 
 def _doubts(curve) -> tuple[str, ...]:
-    """What the errors of f say in words: at how many speeds, and in full for the least sure of them; and at how many
-    too few spots carry the load."""
+    """The errors of f in words: at how many speeds, and in full for the least sure of them; and at how many speeds too
+    few spots carry the load."""
     told = [p for p in curve.points if p is not None and p.uncertainty.notes]
     if not told:
         return ()
@@ -132,7 +133,7 @@ def _doubts(curve) -> tuple[str, ...]:
 
 
 def _beside(curve) -> tuple[str, ...]:
-    """What the intervals leave out: the estimated error of load sharing itself, where it is more than they say."""
+    """What the intervals leave out: the estimated error of load sharing itself, if it is larger than they are."""
     told = [p for p in curve.points if p is not None and p.uncertainty.model_form > _stated(p.uncertainty)]
     if not told:
         return ()
@@ -171,7 +172,7 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
 
 
 def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Future[bytes]]) -> None:
-    """Write everything but result.json. ``pictures``: of contacts, by speed; they may still be being drawn."""
+    """Write everything but result.json. ``pictures``: of contacts, by speed; they may still be in the making."""
     folder.clear()
     folder.write("stribeck.csv", csv_bytes(curve))
     if len(curve.errors) < curve.speed.size:
@@ -191,7 +192,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
 
 
 def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:
-    """Write the page and the files for ParaView, where they are asked for."""
+    """Write the page and the files for ParaView, if they are asked for."""
     if more.vtk:
         touching = [p for p in curve.points if p is not None and p.shows_contact]
         for i, point in enumerate(touching):
@@ -232,7 +233,7 @@ def parse_speeds(option: str, text: str | None) -> list[float]:
 
 
 def _with_chosen(speeds, chosen):
-    """``speeds`` with the chosen ones put in, in order where they stand in order, and the chosen ones as they stand
+    """``speeds`` together with the chosen ones, in order if they are in order, and the positions of the chosen ones
     among them."""
     own, rising = [], list(speeds) == sorted(speeds)
     for speed in chosen:

@@ -1,4 +1,4 @@
-"""What a scene file lacks, all of it at once."""
+"""Everything that a scene file lacks, at once."""
 
 from __future__ import annotations
 

@@ -17,10 +17,10 @@ ROUGH = ("surface", "counterface")  # of which keys that do not apply are refuse
 
 
 def scene_as_toml(scene) -> str:
-    """The whole ``scene``, with its defaults, except those of a roughness. What is None is left out.
+    """The whole ``scene``, with its defaults except those of a roughness. What is None is left out.
 
-    A ``surface.file`` is written with its whole path. An oil is written as it was given, in place of its numbers at the
-    temperature. Raises `InputError` for a history that is none of the kinds of scene files.
+    A ``surface.file`` is written with its whole path. An oil is written as it was given, instead of its numbers at the
+    temperature. Raises `InputError` for a history that scene files do not have.
     """
     lines = [f"name = {json.dumps(scene.name)}"]
     for section in SECTIONS:

@@ -31,16 +31,16 @@ def friction(
     """Friction coefficient of a scene at one entrainment speed.
 
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
-    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries everything. When
-    the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means over
-    A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f.
+    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
+    When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
+    over A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     start : a result at a neighbouring speed of the same map
-    tolerance : relative, on f; None: ``numerics.tolerance``. No more is modelled than it needs (docs/levels.md)
+    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
     fields : True: ``result.balance`` has film and contact on the scene's own contact grid (on a long line: its cells)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises

@@ -24,14 +24,15 @@ def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
 
 
 class Columns(dict):
-    """Columns of a table by name; one that is not there is an `InputError`."""
+    """Columns of a table by name; a missing one is an `InputError`."""
 
     def __missing__(self, name: str):
         raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
 def read_table(path: Path) -> Columns:
-    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a table that is torn or another one."""
+    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a table that is damaged or a different
+    one."""
     try:
         with Path(path).open(encoding="utf-8", newline="") as file:
             heading, *rows = list(csv.reader(file))

@@ -50,7 +50,7 @@ tolerance = 0.01                        # on the friction coefficient, relative;
 
 
 def write_template(path: Path) -> None:
-    """Write the commented scene to ``path``; raises `InputError` where something is there already."""
+    """Write the commented scene to ``path``; raises `InputError` if something is there already."""
     if path.exists():
         raise InputError(f"{path} exists; give another name, so that no scene is lost")
     if not path.parent.is_dir():

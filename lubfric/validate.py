@@ -43,8 +43,8 @@ def shown(value: Any) -> str:
 
 
 def _real(value: Any) -> float:
-    """``value`` as a float. Raises TypeError where it is not one real number, OverflowError where it is too large
-    for a float."""
+    """``value`` as a float. Raises TypeError if it is not one real number, OverflowError if it is too large for a
+    float."""
     if type(value) in (float, int):
         return float(value)
     if isinstance(value, (np.ma.MaskedArray, str, bytes)):
@@ -115,13 +115,13 @@ def boolean(name: str, value: Any) -> bool:
 
 
 def instance(name: str, value: Any, kind: type, allowed: str) -> None:
-    """Check that ``value`` is of ``kind``. ``allowed`` says in words where such a value comes from."""
+    """Check that ``value`` is of ``kind``. ``allowed`` says in words how to get such a value."""
     if not isinstance(value, kind):
         raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
 
 
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
-    """A non-empty array of finite floats with ``ndim`` axes: ``value`` itself where it is one.
+    """A non-empty array of finite floats with ``ndim`` axes; ``value`` itself if it is one.
 
     Refused with `InputError`: truth values, complex numbers, words, dates and None, which NumPy would turn into
     numbers, and a masked array with masked values, whose mask it would drop.
@@ -164,7 +164,8 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
 
 
 def _odd_entry(value: Any, depth: int) -> str:
-    """The first entry of a list that is no number but that NumPy would turn into one: True, False or a masked value."""
+    """The first entry of a list that is no number, but that NumPy would turn into one: True, False or a masked
+    value."""
     if isinstance(value, (list, tuple)) and depth > 0:
         return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
     if isinstance(value, (bool, np.bool_)):

@@ -1,3 +1,3 @@
-"""The version, by itself: what it is asked for must not wait for the rest."""
+"""The version, in a module of its own so that it loads without the rest."""
 
 __version__ = "0.2.0"

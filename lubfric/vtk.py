@@ -13,8 +13,8 @@ FIELDS = ("height", "contact_pressure", "gap", "film_thickness", "film_pressure"
 def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
     """Height [m], contact pressure [Pa], gap [m]; constant along the line: film thickness [m], film pressure [Pa].
 
-    At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface).
-    ``point`` needs fields (``fields=True``) and contact, or the deterministic model. What a point has not is left out.
+    At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface). ``point`` needs fields
+    (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
     """
     x, y = point.x, point.y
     shape = (x.size, y.size)

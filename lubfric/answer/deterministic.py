@@ -1,4 +1,5 @@
-"""One gap with one pressure as a `FrictionResult`: its numbers, and what a reader has to know about them."""
+"""The deterministic model, one gap with one pressure, as a `FrictionResult`: its numbers, and what a reader has to
+know."""
 
 from __future__ import annotations
 
@@ -22,8 +23,8 @@ DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian fil
 def deterministic_answer(
     prepared: Prepared, speed: float, start: FrictionResult | None, begun: float
 ) -> FrictionResult:
-    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed;
-    ``begun``: when, by `time.perf_counter`."""
+    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed; ``begun``:
+    the starting time, by `time.perf_counter`."""
     scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
     known = {} if found.error is None else {"coefficient": found.error}
@@ -75,7 +76,7 @@ def _words(found: Refined) -> str:
 
 
 def _notes(found: Refined) -> tuple[str, ...]:
-    """How the load divides by each rule, and how the finest grid was solved, in words."""
+    """The division of the load by each rule, and how the finest grid was solved, in words."""
     result = found.result
     split, load = result.split, result.load
     return (
@@ -86,7 +87,7 @@ def _notes(found: Refined) -> tuple[str, ...]:
 
 
 def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Validity]:
-    """Entries for all that does not hold; those of bodies and map first."""
+    """Entries for all assumptions that are violated; those about bodies and map first."""
     scene, result = prepared.scene, found.result
     yield from prepared.known
     yield from of_motion(scene, speed, result.central_gap)

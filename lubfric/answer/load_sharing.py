@@ -1,4 +1,4 @@
-"""The numbers of one operating point and what is known of their error, on a long line or on one patch."""
+"""The numbers of one operating point and their errors, on a long line or on one patch."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from ..validity.model_form import load_sharing_error
 def load_sharing_answer(
     prepared: Prepared, speed: float, start: FrictionResult | None, fields: bool, begun: float
 ) -> FrictionResult:
-    """Solve ``prepared`` at ``speed`` [m/s], on a long line where it has one, else on its patch.
+    """Solve ``prepared`` at ``speed`` [m/s], on its long line if it has one, else on its patch.
 
-    ``start``: the result of a neighbouring speed; ``fields``: True: solve on the patch's own grid; ``begun``: when, by
-    `time.perf_counter`.
+    ``start``: the result of a neighbouring speed; ``fields``: True: solve on the patch's own grid; ``begun``: the
+    starting time, by `time.perf_counter`.
     """
     if speed != 0 and (start is None or start.contact_load == 0):  # without film it is the dry contact that is solved
         foretell_ends(prepared, speed)
@@ -51,20 +51,20 @@ def load_sharing_answer(
 
 
 def foretell_ends(prepared: Prepared, speed: float) -> None:
-    """Raise `InputError` where the contact is sure to reach the ends of its patch at ``speed`` [m/s], not 0."""
+    """Raise `InputError` if the contact is sure to reach the ends of its patch at ``speed`` [m/s], not 0."""
     prepared.contact.foretell(prepared.scene.bodies, prepared.scene.line_contact(speed).moes_film)
 
 
 def _model_form(scene: Scene, result: FrictionResult) -> float:
-    """The error of the model. It is known for a cylinder with a half-space contact, which were studied; NaN
-    elsewhere."""
+    """The error of the model; NaN except for a cylinder with a half-space contact, which is the case that was
+    studied."""
     if scene.contact.geometry != "cylinder" or scene.contact.model != "half-space":
         return math.nan
     return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)
 
 
 def _numbers(prepared: Prepared, speed: float, point: Solved, begun: float) -> FrictionResult:
-    """The numbers of ``point``, without what is known of their error."""
+    """The numbers of ``point``, without their errors."""
     scene, balance = prepared.scene, point.balance
     contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan

@@ -1,4 +1,4 @@
-"""Which methods a result rests on, as far as a paper stands behind them (`lubfric.show.cite.PAPERS`)."""
+"""The methods behind a result that have a paper behind them (`lubfric.show.cite.PAPERS`)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OWN = {  # names of lubfric's own rough contacts; another may have been given
 
 
 def with_methods(prepared: Prepared, result: FrictionResult) -> FrictionResult:
-    """``result`` with the names of the methods that it rests on (`lubfric.FrictionResult.methods`)."""
+    """``result`` with the names of the methods that it uses (`lubfric.FrictionResult.methods`)."""
     used = _model(prepared, result) | _surface(prepared)
     if result.film_load > 0:
         used |= _film(prepared, result) | _lubricant(prepared, result) | _heat(prepared, result)
@@ -40,7 +40,7 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
-    """How the map was made. Nothing is known of a map that was handed over."""
+    """How the map was made; nothing is known of a map that was handed over."""
     scene = prepared.scene
     maps = [] if prepared.given else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
     return {

@@ -23,8 +23,8 @@ NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
 
 
 def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | None, begun: float) -> FrictionResult:
-    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed;
-    ``begun``: when, by `time.perf_counter`."""
+    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed; ``begun``:
+    the starting time, by `time.perf_counter`."""
     scene = prepared.scene
     found = one_way_point(scene, prepared.surface, speed, () if start is None else start.one_way)
     one, error = found[-1], estimate([one.coefficient for one in found])

@@ -1,4 +1,5 @@
-"""A film in a resolved gap as a `FrictionResult`: what one pressure and the one-way closure have in common."""
+"""A film in a resolved gap as a `FrictionResult`: what the deterministic model and the one-way closure have in
+common."""
 
 from __future__ import annotations
 
@@ -28,9 +29,9 @@ def resolved_result(
 ) -> FrictionResult:
     """The result of a film in a resolved gap, which is isothermal.
 
-    ``begun``: when the solve began, by `time.perf_counter`; ``report``: of the solve; ``entries``: assumptions that do
-    not hold. By their names in `FrictionResult`: ``per_width``, the forces over the width [N/m]; ``numbers``, those
-    that do not scale with it.
+    ``begun``: the starting time, by `time.perf_counter`; ``report``: of the solve; ``entries``: assumptions that are
+    violated. By their names in `FrictionResult`: ``per_width``, the forces over the width [N/m]; ``numbers``, those
+    that are not proportional to it.
     """
     scene, width, sq = prepared.scene, prepared.scene.bodies.width, prepared.surface.sq
     central = numbers["central_film"]
@@ -55,10 +56,10 @@ def resolved_result(
 
 
 def _heat_left_out(scene: Scene, speed: float, couette: float, film: float) -> tuple[Validity, ...]:
-    """A caution where the heat that these models leave out would matter.
+    """A caution if the heat that these models leave out would matter.
 
-    It would matter by the heat of the inlet, or by the viscosity that the film loses. For that the mean rise of the
-    film [m] over its walls is ``tau du h/(12 k)``. ``couette``: its force [N/m].
+    It matters by the heat of the inlet, or by the viscosity that the film loses. For the latter, the mean rise of the
+    film over its walls is ``tau du h/(12 k)``. ``couette``: its force [N/m].
     """
     inlet, _ = inlet_at(scene, speed)
     if inlet is None:

@@ -53,7 +53,7 @@ class AsperityResult:
 
 @dataclass(frozen=True)
 class Asperities:
-    """Those of a height map (nx, ny) [m], which ``find(flat)`` looks up: (index, overlap, radius) of what touches a
+    """The asperities of a height map (nx, ny) [m]. ``find(flat)`` gives (index, overlap, radius) of those that touch a
     flat (nx, ny) [m]."""
 
     definition: str

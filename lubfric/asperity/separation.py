@@ -32,10 +32,11 @@ def separation_for_load(
 ) -> AsperityResult:
     """The separation at which independent asperities carry a given load.
 
-    The flat comes down. Each approach to the highest point is 25 % longer than the last, and none goes below the
-    deepest valley. When the load is reached, that step is searched (Chandrupatla), until ``|load - target|/target <=
-    tolerance``. The load of summits is continuous and falls with the separation. That of patches jumps where cells join
-    (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value, because patches grow together.
+    The flat comes down in steps. Each approach to the highest point is 25 % longer than the last, and none goes below
+    the deepest valley. When the load is reached, the last step is searched (Chandrupatla), until
+    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the separation. That of
+    patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value,
+    because patches grow together.
 
     Parameters
     ----------
@@ -80,7 +81,7 @@ def separation_for_load(
 
 
 def _too_much(best: AsperityResult, target: float, count: int, tolerance, raise_on_failure) -> AsperityResult:
-    """What to say where the asperities carry ``best`` at most."""
+    """The message if the asperities carry ``best`` at most."""
     most = f"{best.mean_pressure:.4g} Pa"
     short = 1 - best.mean_pressure / target
     notes = (f"{best.definition} carry {most} at most",)

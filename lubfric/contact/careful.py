@@ -1,7 +1,7 @@
-"""The search with exact steps: two or three convolutions an iteration.
+"""The careful search, with exact steps: two or three convolutions an iteration.
 
-It is sure where the pressure is far from small changes of the set: for nearly rigid bodies, and after rounds that
-gained nothing.
+It converges surely where a small change of the contact set changes the pressure a lot: for nearly rigid bodies, and
+after rounds that gained nothing.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ CAPACITY = 0.999  # of the hardness times the free cells, beyond which they have
 
 
 class CarefulDescent(Descent):
-    """A `Descent` whose steps are exact for the cells that are free. What the limits cut off is convolved at once."""
+    """A `Descent` whose steps are exact for the cells that are free. The part that the limits cut off is convolved at
+    once."""
 
     def _precondition(self, operator, by_transform: bool) -> None:
         super()._precondition(operator, True)
@@ -25,7 +26,7 @@ class CarefulDescent(Descent):
         return False
 
     def _mark(self) -> tuple[int, float]:
-        """As before, or everything that has not yielded for good when the free cells could not carry their share."""
+        """As before; but if the free cells could not carry their share, everything that has not yielded for good."""
         count, height = super()._mark()
         f = self.fields
         if f.upper is None or not self.given:
@@ -36,12 +37,13 @@ class CarefulDescent(Descent):
         return count, height
 
     def _share(self, free) -> float:
-        """What the free cells have to carry."""
+        """The load that the free cells have to carry."""
         f = self.fields
         return float((f.change - f.lower).sum(where=free)) + self.target - float(f.change.sum())
 
     def _step(self) -> None:
-        """The step that is exact along the direction, then within the limits, with the load, on the free cells."""
+        """The step that is exact along the direction, then brought within the limits and to the load, on the free
+        cells."""
         f = self.fields
         free = f.weight > 0
         curvature = dot(f.direction, self._answer(f.direction)) * self.compliance

@@ -1,4 +1,4 @@
-"""The cells of a patch that a search may load, gathered from its fields and scattered back."""
+"""The cells of a patch that a search may load, taken from its fields and put back."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Cells:
 
     @staticmethod
     def flagged(operator, flags) -> Cells:
-        """Cells whose ``flags`` are set, or all where that is most; of a free axis x beside a periodic y only the rows
-        that hold some."""
+        """Cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a periodic y, only
+        the rows that contain some."""
         whole, rows = flags.shape, slice(None)
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))
@@ -34,7 +34,7 @@ class Cells:
         return Cells(operator, None if many else np.flatnonzero(flags), rows, whole)
 
     def narrowed(self, kept) -> Cells:
-        """Only those of these cells with positions ``kept``."""
+        """Those of these cells whose positions are ``kept``."""
         index = kept if self.index is None else self.index.take(kept)
         return Cells(self.operator, index, self.rows, self.whole)
 
@@ -51,7 +51,7 @@ class Cells:
         return self._field
 
     def take(self, field, dtype=float, factor: float = 1.0) -> np.ndarray:
-        """Copy of the values of a field of the whole patch, times ``factor``, in ``dtype``."""
+        """Copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
         flat = field[self.rows].ravel()
         values = flat.copy() if self.index is None else flat.take(self.index)
         values *= factor

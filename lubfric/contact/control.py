@@ -20,8 +20,8 @@ CERTAIN = 20.0  # a surplus so many times its uncertainty away from zero has a c
 def gap_controlled(problem, mean_gap: float, start=None):
     """Contact whose mean gap is ``mean_gap`` [m].
 
-    In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve does. Elsewhere,
-    or if that solve fails, the load is searched.
+    In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
+    Otherwise, or if that solve fails, the load is searched.
     """
     guess = pressure_guess(problem)
     if problem.roughness > 0:  # the smaller the gap, the more exactly its zeros have to be met
@@ -40,15 +40,14 @@ def gap_controlled(problem, mean_gap: float, start=None):
 
 
 def pressure_guess(problem) -> float:
-    """A first pressure [Pa]: E' times rms height over the longer side. It presses a wave of that length and height
-    flat."""
+    """A first pressure [Pa]: E' times rms height over the longer side. It flattens a wave of that length and height."""
     longest = max(n * d for n, d in zip(problem.operator.shape, problem.operator.spacing))
     return min(problem.operator.e_prime * problem.roughness / longest, 0.5 * problem.hardness)
 
 
 def flattening_pressure(problem) -> float:
-    """A pressure [Pa] that no roughness exceeds: it flattens the whole height as the shortest ripple that the grid
-    resolves."""
+    """A pressure [Pa] that no roughness exceeds: it flattens the whole height as if it were the shortest ripple that
+    the grid resolves."""
     height = float(np.ptp(problem.gap0))
     return FLATTENED * problem.operator.e_prime * height / min(problem.operator.spacing)
 
@@ -56,8 +55,8 @@ def flattening_pressure(problem) -> float:
 def by_load(problem, mean_gap: float, guess: float, start=None):
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
-    The mean gap falls with the load, so there is one root. Each solve begins from the last, and is only as tight as the
-    sign of its surplus needs.
+    The mean gap falls with the load, so there is one root. Each solve starts from the last, and is only as exact as the
+    sign of the remaining gap requires.
     """
     finest = 0.2 * problem.tolerance
     pressure, spent, iterations = start, 0.0, 0

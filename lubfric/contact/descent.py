@@ -1,15 +1,15 @@
 """Single-precision search for a better pressure on the cells that may touch: one convolution an iteration.
 
-The unknown is the change of the pressure since the gap was last computed in double precision. So rounding is relative
-to that change. The free cells are those whose pressure may change: they are in elastic contact (0 < p < H), overlap
+The unknown is the change of the pressure since the gap was last computed in double precision, so rounding is relative
+to that change. The free cells are those whose pressure may change: they are in elastic contact (0 < p < H), or overlap
 without pressure, or have yielded and opened. On them the gap is the gradient of the energy.
 
-An iteration goes as follows. A conjugate direction leads to a trial, by a length learnt from the steps before. (The
-preconditioner is |k|, the inverse of the half-space. The direction is kept when the set changes, where I. A. Polonsky
-and L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart.) The trial is cut to 0..H and made
-to carry the load. The way from the *known* pressure, whose gap is at hand, to the trial is convolved, and the step
-along it is exact. The new pressure may differ from the known one by cells that are cut again. That difference is
-convolved together with the next trial.
+An iteration has three parts. First, a conjugate direction leads to a trial, by a length that is learnt from the steps
+before. (The preconditioner is |k|, the inverse of the half-space. The direction is kept when the set changes, where I.
+A. Polonsky and L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart.) Second, the trial is
+cut to 0..H and made to carry the load. Third, the change from the *known* pressure, whose gap is available, to the
+trial is convolved, and the step along it is exact. The new pressure is cut again, so it may differ from the known one
+on some cells. That difference is convolved together with the next trial.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ PATIENCE = 8  # iterations without a tenth off the best residual
 class Descent:
     """The search on ``cells``, from the `State` ``state``.
 
-    ``load`` [Pa cells]: what the pressure has to carry, or None where the approach is prescribed; ``pace``: that of an
+    ``load`` [Pa cells]: what the pressure has to carry, or None if the approach is prescribed; ``pace``: that of an
     earlier descent, or `FIRST_PACE`.
     """
 
@@ -82,8 +82,7 @@ class Descent:
             self.stencil = Stencil(self.cells.shape, operator.spacing, operator.boundary, self.cells.index, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
-        """Iterate until the residual is <= tolerance as far as these cells show, until it falls no more, or
-        ``limit`` times."""
+        """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
         best, waiting = math.inf, 0
         while True:
             worst = self._look()
@@ -98,7 +97,7 @@ class Descent:
             self._step()
 
     def found(self, pressure) -> np.ndarray:
-        """``pressure`` [Pa], the field it began with, changed."""
+        """``pressure`` [Pa], the field with which the search began, with its changes."""
         values = self.cells.take(pressure)
         for b in self.blocks:
             own = values[b.part]
@@ -132,8 +131,8 @@ class Descent:
         return max(overlap, misfit / total if total > 0 else math.inf, excess)
 
     def _follow(self) -> None:
-        """The level of the gap where cells may yield: its mean in elastic contact, or between the highest yielded
-        and the lowest free cell."""
+        """The zero level of the gap where cells may yield: the mean gap in elastic contact, or a value between the
+        highest yielded and the lowest free cell."""
         f = self.fields
         yielded = f.change >= f.upper
         inside = (f.change > f.lower) & ~yielded
@@ -144,7 +143,7 @@ class Descent:
             self.level = 0.5 * (highest + float(f.gap[~yielded].min(initial=highest)))
 
     def _mark(self) -> tuple[int, float]:
-        """Weigh the free cells; their number and the sum of the gap on them."""
+        """Mark the free cells; returns their number and the sum of the gap on them."""
         count, height = 0, 0.0
         for b in self.blocks:
             _, _, free, inside = b.spare
@@ -161,7 +160,7 @@ class Descent:
         return count, height
 
     def _narrowed(self) -> bool:
-        """Leave out the cells that came nowhere near touching, where they are many."""
+        """Leave out the cells that came nowhere near contact, if they are many."""
         f, near = self.fields, self._near()
         if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return False
@@ -176,7 +175,7 @@ class Descent:
         return True
 
     def _near(self) -> np.ndarray:
-        """Flags of the cells that are in touch, were, or came near it."""
+        """Flags of the cells that are in contact, were, or came near it."""
         near = self.fields.gap < self.level + NEAR * self.overlap
         for b in self.blocks:
             number, _, flag, _ = b.spare
@@ -231,7 +230,8 @@ class Descent:
             self._move(b, answer[b.part], step)
 
     def _move(self, b, answer, step: float) -> None:
-        """Move a block by ``step`` of the way. ``answer`` is the whole change of its gap, and stands in its residue."""
+        """Move a block by the part ``step`` of the change. ``answer`` is the change of its gap by the whole, and stands
+        in its residue."""
         b.residue *= np.float32(step)
         b.known += b.residue
         b.gap += np.multiply(answer, np.float32(step * self.compliance), out=b.residue)
@@ -246,7 +246,8 @@ class Descent:
             np.copyto(b.change, b.upper, where=yielded)
 
     def _try(self) -> None:
-        """Make the trial: the change of pressure one pace along the direction, within the limits, carrying the load."""
+        """Make the trial: the change of pressure by one pace along the direction, within the limits and with the
+        load."""
         pace, carried = np.float32(self.pace), 0.0
         for b in self.blocks:
             np.multiply(b.direction, pace, out=b.residue)
@@ -272,8 +273,8 @@ class Descent:
     def _project(self) -> None:
         """Make the trial by a bracketed shift of all cells, in double precision.
 
-        This is for when few of many cells stay in contact, or when the free cells cannot carry their share. All cells
-        are free then, and the direction is not kept.
+        This is needed when few of many cells stay in contact, or when the free cells cannot carry their share. Then all
+        cells are free, and the direction is not kept.
         """
         f = self.fields
         base = np.negative(f.lower, dtype=float)

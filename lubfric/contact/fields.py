@@ -1,5 +1,5 @@
-"""Single-precision fields of a search. They are worked on block by block, so that a block stays in the cache from
-one pass to the next."""
+"""Single-precision fields of a search. They are processed block by block, so that a block stays in the cache from one
+pass to the next."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ class Fields:
     """One value a cell, on one axis. Pressures are in units of the mean one in contact, gaps in units of their scale.
 
     - ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure.
-    - ``gap``: that under the ``known`` change; ``change``: the known change and what is still to be convolved.
-    - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the one that the
-      ``direction`` was turned by.
-    - ``trial``: the change aimed at.
+    - ``gap``: that under the ``known`` change; ``change``: the known change and the part that is still to be convolved.
+    - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the residue from which the
+      ``direction`` was made.
+    - ``trial``: the change to aim at.
     """
 
     lower: np.ndarray
@@ -33,13 +33,13 @@ class Fields:
     upper: np.ndarray | None = None
 
     def each(self, function) -> dict:
-        """``function`` of every field there is, by name."""
+        """``function`` of every field, by name."""
         every = ((f.name, self.__dict__[f.name]) for f in fields(Fields))
         return {name: function(values) for name, values in every if values is not None}
 
     def narrow(self, kept) -> None:
-        """Keep only the positions ``kept`` from now on. Fields are cut one after the other, so that the old ones are
-        let go soon."""
+        """Keep only the positions ``kept`` from now on. Fields are cut one after the other, so that old ones are freed
+        soon."""
         for name in self.each(len):
             self.__dict__[name] = self.__dict__[name].take(kept)
 
@@ -58,13 +58,14 @@ class Fields:
 
 @dataclass(kw_only=True)
 class Block(Fields):
-    """The fields of the cells ``part``, with ``spare`` room for two of numbers and two of flags, shared by all."""
+    """The fields of the cells ``part``, with ``spare`` room for two arrays of numbers and two of flags, shared by all
+    blocks."""
 
     part: slice
     spare: tuple
 
     def aimed(self, aim) -> float:
-        """Let the trial be ``aim`` within the limits; its sum."""
+        """Set the trial to ``aim`` within the limits; returns its sum."""
         np.maximum(aim, self.lower, out=self.trial)
         if self.upper is not None:
             np.minimum(self.trial, self.upper, out=self.trial)
@@ -85,6 +86,6 @@ def parts(size: int) -> list[slice]:
 
 
 def begun(gap, lower, upper) -> Fields:
-    """No change yet."""
+    """The fields at the start: no change yet."""
     rest = {name: np.zeros_like(gap) for name in ("change", "known", "direction", "weight", "residue", "before")}
     return Fields(lower=lower, gap=gap, trial=np.empty_like(gap), upper=upper, **rest)

@@ -1,8 +1,8 @@
-"""What nine points make too stiff: waves much longer than a cell, taken off on cells four times as long.
+"""A correction to the stencil of nine points, which is too stiff for waves much longer than a cell.
 
-Cut after the nearest neighbours, the series of |k| does not fall to zero with k. Spots of many cells, as smooth
-surfaces have, then converge more slowly than with |k| itself. The difference is smooth: a transform of a sixteenth of
-the cells holds it.
+The stencil is the series of |k|, cut after the nearest neighbours. Unlike |k| it does not fall to zero with k. So spots
+of many cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference is smooth:
+a transform of cells four times as long, a sixteenth of the cells, contains it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LEAST = 64  # cells along an axis: on shorter ones it costs more than it saves
 
 
 def worth(shape) -> bool:
-    """Whether a grid is long enough both ways."""
+    """Whether a grid is long enough along both axes."""
     return min(shape) >= LEAST
 
 
@@ -38,11 +38,11 @@ class LongWaves:
         self.owner: Any = None
 
     def take_on(self, cells, row, count: int) -> None:
-        """Be asked at ``cells`` (flat; None: all), which are in these ``row`` of ``count`` cells."""
+        """Prepare for the ``cells`` (flat; None: all), which are in these ``row`` of ``count`` cells."""
         self.owner = None if cells is None else row // FACTOR * self.shape[1] + (cells - row * count) // FACTOR
 
     def take_off(self, field, sums) -> None:
-        """Subtract what ``field`` (nx, ny) has of it from ``sums`` at the cells."""
+        """Subtract the long-wave part of ``field`` (nx, ny) from ``sums`` at the cells."""
         found = filtered(_summed(field), self.symbol, self.padded, None)
         if self.owner is not None:
             sums -= found.ravel().take(self.owner)

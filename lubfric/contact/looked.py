@@ -1,4 +1,4 @@
-"""What follows from a pressure alone: gap, approach and residuals of the whole patch."""
+"""What follows from the pressure alone: gap, approach and residuals of the whole patch."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .residual import blocks, contact_residuals, deflection_scale, dot
 class State:
     """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
 
-    ``scale`` [m]: the length that residuals are measured in; complementarity and penetration: the residuals. All are in
+    ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
     the precision of the operator used.
     """
 
@@ -31,7 +31,7 @@ class State:
         return max(self.residuals.values())
 
     def light(self) -> State:
-        """The state without displacement and with the gap in single precision, which is what a search needs."""
+        """The state without displacement and with the gap in single precision, which is enough for a search."""
         return replace(self, displacement=np.empty((0, 0)), gap=self.gap.astype(np.float32, copy=False))
 
     @property
@@ -69,8 +69,8 @@ def look(problem, operator, pressure, level=None) -> State:
 
 
 def _between(pressure, height) -> float:
-    """The approach where nothing is elastic: halfway between the highest yielded cell and the lowest free one. (Else it
-    is that at which the mean gap over elastic contact is zero.)"""
+    """The approach if nothing is elastic: halfway between the highest yielded cell and the lowest free one. (Otherwise
+    it is the approach at which the mean gap over elastic contact is zero.)"""
     yielded = pressure > 0
     highest = height[yielded].max()
     return float(0.5 * (highest + (height[~yielded].min() if not yielded.all() else highest)))

@@ -1,4 +1,4 @@
-"""A first pressure from coarser grids."""
+"""A start for the pressure from coarser grids."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than
 
 
 def load_controlled(problem, mean_pressure: float, start=None) -> Found:
-    """Solve for a mean pressure [Pa] from ``start``, made to carry it, or else from coarser grids."""
+    """Solve for a mean pressure [Pa]: from ``start``, made to carry it, or else from coarser grids."""
     load = mean_pressure * problem.gap0.size
     if start is not None and start.any():
         made_for = shifted if load <= HEAVIER * start.sum() else rescaled
@@ -30,8 +30,8 @@ def approach_controlled(problem, approach: float, guess: float, start=None) -> F
 
 
 def _from_coarse(problem, uniform: float, solve, *, mean_pressure=None, level=None) -> Found:
-    """Solve from a loose solution on cells twice as long, which is made in the same way. A grid that cannot be
-    halved starts from a uniform pressure. Convolutions are counted in units of this grid."""
+    """Solve from a loose solution on cells twice as long, which is made in the same way. A grid that cannot be halved
+    starts from a uniform pressure. Convolutions are counted in units of this grid."""
     coarse = problem.coarsened()
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
     if coarse is None:

@@ -20,10 +20,10 @@ ABSURD = 1e6  # times E': no start has such a pressure
 
 @dataclass(frozen=True)
 class Problem:
-    """The problem: gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection operator,
-    hardness [Pa] (inf: elastic), and when to stop.
+    """One contact problem: gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection
+    operator, hardness [Pa] (inf: elastic), and when to stop.
 
-    ``offset`` [m] is what was taken off the caller's gap0. Heights around zero keep the most digits near first touch.
+    ``offset`` [m] was subtracted from the caller's gap0: heights around zero keep the most digits near first touch.
     """
 
     gap0: np.ndarray
@@ -35,7 +35,8 @@ class Problem:
     max_iterations: int
 
     def coarsened(self) -> Problem | None:
-        """The same on cells twice as long (mean gap0) along every axis that can be halved, if any."""
+        """The same problem on cells twice as long (mean gap0) along every axis that can be halved; None if there is
+        none."""
         factors = [
             2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
             for kept, padded in zip(self.operator.shape, self.operator.padded)
@@ -59,7 +60,7 @@ class Problem:
 
 
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
-    """Validated problem; builds the operator when none is given, else checks that it fits."""
+    """Check a problem; builds the operator if none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
         raise InputError(
             "gap0 is a height map, not an array; give gap0 = -surface.heights in m (heights point out of "
@@ -109,7 +110,7 @@ def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
 
 
 def starting_pressure(problem: Problem, start) -> np.ndarray | None:
-    """Pressure field [Pa] of an earlier result (or the field itself), cut to the hardness."""
+    """Pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:
         return None
     pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)

@@ -11,8 +11,8 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
     """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
 
     This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
-    inside a shrinking bracket, so it is exact once the right piece is found. What is left is the rounding of a pressure
-    far above the load. The last factor removes it; cells at the hardness stay there.
+    inside a shrinking bracket, so it is exact once the right piece is found. What remains is the rounding error of a
+    pressure far above the load. A last factor removes it; cells at the hardness stay there.
     """
     upper = min(hardness, load) - pressure.min()
     lower, shift = -pressure.max(), 0.0
@@ -49,11 +49,11 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def shifted(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` with its elastic cells shifted alike, within 0..hardness, so that it carries ``load``. All loaded
-    cells are shifted where those cannot do it, else all cells.
+    """``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries ``load``.
+    If those cells cannot do it, all loaded cells are shifted, else all cells.
 
-    A start for another load: spots of contact grow and shrink at their edges, and their pressure changes as under a
-    flat punch, which is nearer to an even change than to one in proportion.
+    This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
+    under a flat punch. That is nearer to an even change than to one in proportion.
     """
     yielded, loaded = pressure >= hardness, pressure > 0
     for movable in (loaded & ~yielded, loaded, np.ones(pressure.shape, bool)):

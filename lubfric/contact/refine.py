@@ -1,8 +1,8 @@
 """Rounds of search and check: single precision on the cells that may touch, then double precision everywhere.
 
-Only the check ends the loop: a `look` at the whole patch in double precision, and never what the search believes. There
-is no proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end
-the solve as stagnated.
+Only the check ends the loop: a `look` at the whole patch in double precision, whatever the search found. There is no
+proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end the
+solve as stagnated.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ WASTED = 4  # rounds without halving the residual
 
 @dataclass(frozen=True)
 class Found:
-    """Where the rounds ended (``state``) and how, what they cost, and the pace that a next search should begin with."""
+    """The end of the rounds (``state``): how they ended, their cost, and the pace with which a next search should
+    begin."""
 
     state: State
     status: str
@@ -79,8 +80,8 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
 
 
 def _admissible(found, begun, load, hardness) -> np.ndarray:
-    """``found``, which may be written over, made to carry the load. Where single precision has lost it, what the search
-    had ``begun`` with."""
+    """``found``, which may be overwritten, made to carry the load. If single precision has lost the load, the pressure
+    with which the search had ``begun`` is used."""
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
         return begun
@@ -91,13 +92,13 @@ def _admissible(found, begun, load, hardness) -> np.ndarray:
 
 
 def _rigid(problem) -> bool:
-    """Whether cells yield before they bend noticeably. Then only the set of yielded cells is to be found."""
+    """Whether cells yield before they deform noticeably. Then only the set of yielded cells is to be found."""
     bent = problem.hardness * min(problem.operator.spacing) / problem.operator.e_prime
     return bent < RIGID * problem.roughness
 
 
 def _status(problem, residual, exact, iterations, wasted) -> str | None:
-    """How the solve has ended, if it has."""
+    """How the solve has ended, or None."""
     if not exact:
         return None
     if residual <= problem.tolerance:
@@ -108,7 +109,7 @@ def _status(problem, residual, exact, iterations, wasted) -> str | None:
 
 
 def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
-    """One round in single precision throughout: a start for a finer grid."""
+    """One round, in single precision throughout: a start for a finer grid."""
     fast = problem.operator.single
     state = look(problem, fast, pressure, level)
     if not state.residual:

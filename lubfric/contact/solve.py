@@ -31,10 +31,10 @@ def solve_contact(
 ) -> ContactResult:
     """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
-    Solved is ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``. With a hardness H also ``p <= H``, and
-    cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
+    The conditions are ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``. With a hardness H also
+    ``p <= H``, and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
     doi:10.1007/s11249-015-0536-z). The solve has converged when the largest residual of the report is <= tolerance
-    (`ContactResult` has their formulas).
+    (`ContactResult` has the formulas).
 
     Parameters
     ----------
@@ -48,7 +48,8 @@ def solve_contact(
     tolerance : largest residual accepted
     start : an earlier `ContactResult`, or a pressure field [Pa], to start from
     operator : a `HalfSpace` built before for this grid, to share between solves
-    max_iterations, raise_on_failure : after so many the solve gives up; False returns the unconverged result
+    max_iterations, raise_on_failure : number of iterations after which the solve ends; False returns the unconverged
+        result
 
     Returns
     -------

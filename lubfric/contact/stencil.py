@@ -1,8 +1,9 @@
-"""Nine points that stand for |k|: the inverse of the half-space, up to E'/4, near enough for a search direction. Long
-waves, which they make too stiff, are taken off (`lubfric.contact.long_waves`).
+"""A stencil of nine points for |k|, the inverse of the half-space up to E'/4: exact enough for a search direction. It
+is too stiff for long waves, which are corrected (`lubfric.contact.long_waves`).
 
-The Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. As those nine numbers
-are always a multiple of the identity less an outer product of three and three, two passes of three points do.
+It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. Those nine
+numbers are always a multiple of the identity less an outer product of three and three. So two passes of three points
+are enough.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
 
 class Stencil:
     """Applies the nine points, less long waves, times ``factor``, to single-precision values on some ``cells`` of a
-    grid (None: all), zero on the others; periodic axes close."""
+    grid (None: all). The values of the others are zero; periodic axes wrap around."""
 
     def __init__(self, shape, spacing, boundary, cells, factor: float):
         self.shape, self.boundary = shape, boundary
@@ -99,7 +100,7 @@ class Stencil:
             sums += part
 
     def _swept(self, values, sums) -> None:
-        """Some rows of all cells after the other, within the cache."""
+        """The sums for all cells, some rows at a time, within the cache."""
         flat, (nx, ny), width = self.padded.ravel(), self.shape, self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
         outer = along_x * along_y / across

@@ -1,4 +1,4 @@
-"""The Stribeck curve between its points, and the speeds at which it must be solved to be known everywhere."""
+"""The Stribeck curve between its points, and the choice of speeds from which it is known everywhere."""
 
 from .choose import next_speed
 from .interpolate import Interpolant, Samples

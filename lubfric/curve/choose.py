@@ -1,4 +1,4 @@
-"""Which speed to solve next, so that a Stribeck curve is known everywhere from few points."""
+"""The next speed to solve, so that few points determine a Stribeck curve everywhere."""
 
 from __future__ import annotations
 
@@ -16,14 +16,13 @@ GRID = 400
 
 
 def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | None, float]:
-    """The speed [m/s] to solve next, or None where the curve is known; and the largest estimated relative error of f
-    now.
+    """The speed [m/s] to solve next, or None if the curve is known; and the largest estimated relative error of f now.
 
-    ``tried``: speeds that failed, which are left alone.
+    ``tried``: speeds that failed and are left alone.
 
-    First the knee is enclosed: a film that clears the summits by little tells where they touch, and the contact just
-    before how it ends. No two films are left far apart. Then the speed at which the error is estimated to be largest,
-    until that is below ``tolerance`` everywhere; with few speeds, below half of it.
+    First the knee at lift-off is enclosed: a film that just clears the summits tells where they touch, and the contact
+    just before tells how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
+    largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
     speeds, knee = samples.speed, knee_of(samples)
     curve = Interpolant(samples, knee)
@@ -40,7 +39,7 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
 
 
 def _about_the_knee(samples: Samples, knee: float | None) -> list[float]:
-    """Speeds [m/s] without which the knee is not enclosed."""
+    """Speeds [m/s] that are needed to enclose the knee."""
     if knee is None:
         return []
     fastest, slowest = samples.speed[samples.contacts - 1], samples.speed[samples.contacts]
@@ -49,7 +48,7 @@ def _about_the_knee(samples: Samples, knee: float | None) -> list[float]:
 
 
 def _between_films(samples: Samples) -> list[float]:
-    """Speeds [m/s] in the middle of what is too wide to be judged from its ends."""
+    """Speeds [m/s] in the middle of intervals that are too wide to be judged from their ends."""
     films = samples.speed[samples.contacts :]
     return [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]
 
@@ -60,6 +59,6 @@ def _about(speed: float, taken: np.ndarray) -> int:
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
-    """Where ``at`` is not too close to a speed that is solved."""
+    """The speeds of ``at`` that are not too close to a solved one."""
     ratio = np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1)
     return ratio > np.log(APART)

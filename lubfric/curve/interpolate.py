@@ -1,12 +1,13 @@
-"""Friction between the solved speeds: the share of the load on the contact and the traction coefficient of the film, in
-coordinates in which each is smooth.
+"""Friction between the solved speeds: the contact's share of the load and the film's traction coefficient are
+interpolated, in coordinates in which each is smooth.
 
 With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the contact spots, and t = F_sh/F_H the
-traction coefficient of the film. In contact ln t hardly changes with the speed; beyond lift-off t/sqrt(U) is
-interpolated over 1/sqrt(U). The odds of the film (1 - s)/s grow about as the speed in boundary lubrication; at lift-off
-U_0 the share ends as that of one Hertz asperity, as (1 - U/U_0)^(3/2). What is left when both are taken out,
-ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows about as the film does, with the
-slopes that the points know of themselves. All by cubic splines; other cubics beside them tell how sure that is.
+traction coefficient of the film. In contact ln t hardly changes with the speed. Beyond lift-off t/sqrt(U) is
+interpolated over 1/sqrt(U). For the share, two known trends are taken out: in boundary lubrication the odds of the film
+(1 - s)/s grow about in proportion to the speed, and at lift-off U_0 the share ends as that of one Hertz asperity, as (1
+- U/U_0)^(3/2). What is left, ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows
+about as the film does, with the slopes that are known at the points. All interpolations are cubic splines. Other cubics
+are compared with them to estimate the error.
 """
 
 from __future__ import annotations
@@ -29,10 +30,11 @@ NOTHING = 1e-9  # the same below which the film carries nothing that could be to
 
 @dataclass(frozen=True)
 class Samples:
-    """What is known of a curve: arrays (n,) by ascending entrainment speed [m/s].
+    """The solved points of a curve: arrays (n,) by ascending entrainment speed [m/s].
 
-    share: of the load on the contact; boundary, film: parts of f; thickness: central film, clearance: of it above the
-    summits where nothing touches, both in units of Sq; steepness: d ln((1 - share)/share)/d ln U (NaN where not known).
+    share: of the load on the contact; boundary, film: parts of f; thickness: central film, and clearance: its distance
+    from the summits if nothing touches, both in units of Sq; steepness: d ln((1 - share)/share)/d ln U (NaN if not
+    known).
     """
 
     speed: np.ndarray
@@ -45,18 +47,18 @@ class Samples:
 
     @property
     def contacts(self) -> int:
-        """Number of speeds with contact, the slowest ones."""
+        """Number of speeds with contact, which are the slowest ones."""
         return int(np.count_nonzero(self.share > 0))
 
     def without(self, index: int) -> Samples:
-        """All but one."""
+        """All samples but one."""
         return Samples(*(np.delete(getattr(self, part.name), index) for part in fields(self)))
 
 
 @dataclass(frozen=True)
 class Interpolant:
-    """f between the speeds of ``samples``; ``lift_off`` [m/s]: where the contact ends (None: not in the range), as that
-    power ``end`` of the speed that remains."""
+    """f between the speeds of ``samples``. ``lift_off`` [m/s]: where the contact ends (None: not in the range); its
+    share falls there as the power ``end`` of 1 - U/lift_off."""
 
     samples: Samples
     lift_off: float | None
@@ -68,9 +70,9 @@ class Interpolant:
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
     def error(self, speed) -> np.ndarray:
-        """Estimated relative error at speeds [m/s]: the largest of what the two kinds of cubics differ by, what the
-        place of the knee and the way in which the contact ends there are unsure by, and a share of what the curve
-        through the other points misses the neighbouring ones by."""
+        """Estimated relative error at speeds [m/s]. It is the largest of three: the difference between the two kinds of
+        cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends there; and a
+        share of the error at the neighbouring points when the curve goes through the other points only."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
         for other in self._others:
@@ -78,8 +80,8 @@ class Interpolant:
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), self._missed_beside(speed))
 
     def _missed_beside(self, speed) -> np.ndarray:
-        """Leave each point out in turn, and see how much the curve misses it by, relative. Each speed gets `CLOSER`
-        times the larger miss of the two points around it."""
+        """Relative error at each point when that point is left out. Each speed gets `CLOSER` times the larger error of
+        the two points around it."""
         s = self.samples
         missed = np.zeros(s.speed.size)
         for i in range(1, s.speed.size - 1):
@@ -94,7 +96,8 @@ class Interpolant:
 
     @cached_property
     def _others(self) -> tuple[Interpolant, ...]:
-        """The same with the ends of what is known of the place of the knee, and of how the contact ends there."""
+        """The same curve with the extreme positions of the knee, and the extreme powers with which the contact may end
+        there."""
         if self.lift_off is None:
             return ()
         knees = tuple(replace(self, lift_off=knee) for knee in knee_range(self.samples) if knee != self.lift_off)
@@ -145,8 +148,9 @@ class Interpolant:
 
 
 def knee_of(samples: Samples) -> float | None:
-    """Lift-off [m/s]: where the film, a power of the speed through the slowest two without contact, is as thick as the
-    summits are high. Their height is what its clearance leaves of the slower of these."""
+    """Lift-off [m/s]: the speed at which the film is as thick as the summits are high. The film is a power of the speed
+    through the slowest two points without contact. The height of the summits is the film less the clearance at the
+    slower of these."""
     k = samples.contacts
     if k in (0, samples.speed.size):
         return None
@@ -165,8 +169,8 @@ def knee_of(samples: Samples) -> float | None:
 
 
 def knee_range(samples: Samples) -> tuple[float, float]:
-    """Ends of where lift-off [m/s] may be: a share of the way from its estimate to the slowest film without contact, to
-    either side, but not where it is known to touch."""
+    """The range in which lift-off [m/s] may be: to either side of its estimate, a share of the distance to the slowest
+    film without contact, but not where contact is known."""
     k, knee = samples.contacts, knee_of(samples)
     low, high = samples.speed[k - 1], samples.speed[k]
     away = (high / knee) ** UNSURE
@@ -174,22 +178,23 @@ def knee_range(samples: Samples) -> tuple[float, float]:
 
 
 def _film_alone(speed, traction, at, smooth):
-    """Where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + ..., since a Newtonian
-    film that deflects nothing has friction in proportion to sqrt(U), and a film that shears at its limit a constant."""
+    """Interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + .... The
+    friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its limiting
+    stress is constant."""
     root = np.sqrt(speed)
     return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth)
 
 
 def _of_logarithms(x, values, at, smooth):
-    """`_cubic` of ln ``values`` where all are positive, else of the values."""
+    """`_cubic` of ln ``values`` if all are positive, else of the values."""
     if not np.all(values > 0.0):
         return _cubic(x, values, at, smooth)
     return np.exp(_cubic(x, np.log(values), at, smooth))
 
 
 def _steered(x, values, slopes, at, smooth):
-    """Half way between the spline through the points and cubics with the ``slopes`` known there; beyond the points a
-    straight line. ``smooth=False``: the latter alone."""
+    """The mean of the spline through the points and of cubics with the ``slopes`` known there; beyond the points a
+    straight line. ``smooth=False``: these cubics alone."""
     from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
     if x.size < 2 or not np.isfinite(slopes).any():
@@ -203,7 +208,8 @@ def _steered(x, values, slopes, at, smooth):
 
 
 def _cubic(x, values, at, smooth):
-    """Between the points ``x``; beyond them a straight line, or, of the shape-preserving kind, the last secant."""
+    """A cubic between the points ``x``; beyond them a straight line or, for the shape-preserving kind, the last
+    secant."""
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
     if x.size == 1:

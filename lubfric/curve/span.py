@@ -1,4 +1,4 @@
-"""The speeds between which a contact passes from boundary lubrication to a full film, and where to look first."""
+"""The speeds between which a contact passes from boundary lubrication to full film, and the first ones to solve."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """The speeds [m/s] to begin with, fastest first: both ends of `span` and where Moes' film of the whole load is 0.5,
-    1.5 and 4.5 times Sq, which is where rough line contacts pass from contact to film; at least 5."""
+    """The first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the whole load
+    is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to full film."""
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:

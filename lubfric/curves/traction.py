@@ -67,9 +67,9 @@ def traction(
 ) -> TractionResult:
     """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
-    The ratio changes the shear of the film, its heat, and the heat of the inlet. Film and contact are otherwise the
-    same, so each point starts from the last. A point that fails leaves NaN, and its exception in ``errors``; the others
-    are still solved.
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. Otherwise film and contact stay the
+    same, so each point starts from the one before. A point that fails leaves NaN, and its exception in ``errors``; the
+    others are still solved.
 
     Parameters
     ----------
@@ -87,8 +87,8 @@ def traction(
     Raises
     ------
     InputError : before any work
-    ConvergenceError : at the end, when a point failed; the whole curve is its ``result``
-    ValidityError : the same, where all that failed was refused
+    ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
+    ValidityError : the same, if all points that failed were refused as invalid
     """
     ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
     own = scene_of(scene).motion.entrainment_speed

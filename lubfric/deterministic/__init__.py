@@ -1,6 +1,6 @@
-"""One gap and one pressure: the mixed film of a rough line contact, solved as a whole.
+"""The deterministic model: the film of a rough line contact with one gap and one pressure, solved as a whole.
 
-`lay_out` puts a height map under a cylinder, `solve_point` solves it.
+`lay_out` puts a height map under a cylinder; `solve_point` solves it.
 """
 
 from .domain import lay_out

@@ -1,9 +1,9 @@
-"""The order in which a sparse LU eliminates the cells of a grid, so that little fills in: nested dissection.
+"""Nested dissection: an order in which a sparse LU eliminates the cells of a grid with little fill-in.
 
 A line of cells cuts the grid in two and comes last. Each half is cut again, and so on (A. George, SIAM J. Numer. Anal.
-10 (1973) 345-363, doi:10.1137/0710032). Cells depend on two others upstream, so a cut across x is two cells wide. y is
-periodic and is cut twice first. Taken from the grid, this order costs nothing. It beats a minimum degree order that is
-found anew for every matrix.
+10 (1973) 345-363, doi:10.1137/0710032). A cell depends on two cells upstream, so a cut across x is two cells wide. y is
+periodic, and is cut twice first. The order follows from the grid at no cost. It fills in less than a minimum degree
+order that is found anew for every matrix.
 """
 
 from __future__ import annotations

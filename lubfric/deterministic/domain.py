@@ -1,4 +1,4 @@
-"""The grid under a cylinder that a rough patch is laid on. It reaches far enough up and down stream."""
+"""The grid under a cylinder that carries a rough patch, and how far it reaches up and down stream."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ LARGEST = 2**20  # cells
 def reach(contact: LineContact, sq: float) -> tuple[float, float]:
     """Lengths [m] of the grid upstream and downstream of the line of contact.
 
-    The grid ends where the roughness is small against the gap (its effect on the flow, 6 (Sq/h)², is below some 3 %)
-    and the pressure has gone. Upstream of it the film goes on in closed form.
+    The grid ends where the roughness is small compared with the gap (its effect on the flow, 6 (Sq/h)², is below some 3
+    %) and where there is no pressure. Upstream of the grid the film continues in closed form.
     """
     radius, b = contact.radius, contact.half_width
     film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film
@@ -41,10 +41,10 @@ def lay_out(
     ends: tuple[float, float] | None = None,
     floor: float = FLOOR,
 ) -> Problem:
-    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells.
+    """The `Problem` of ``surface`` on its own cells, its middle under the line of contact.
 
-    Where the grid is longer than the map the map is repeated, mirrored if it does not close on itself along x. ``ends``
-    [m]: lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`.
+    If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`.
     """
     (nx, ny), (dx, dy) = surface.shape, surface.spacing
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends

@@ -1,8 +1,8 @@
 """Mass flow through the faces between cells, and its derivatives by p and h of the cells on both sides.
 
 The pressure flow takes the mean of 1/h³ between the two cells, with h linear, and the mean fluidity between their
-pressures (`rheology`). So the narrowest place holds it back. The Couette flow U rho h is taken from upstream, to second
-order: half of the upstream difference is added, limited to half of the cell's own film.
+pressures (`rheology`). So the narrowest place limits the flow. The Couette flow U rho h is second-order upwind: half of
+the upstream difference is added, limited to half of the cell's own film.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from .rheology import CellFluid, mean_fluidity, thinning
 
 @dataclass(frozen=True)
 class PressureFlow:
-    """Through faces [m²/s] and d/dp, d/dh of the cells before and behind, each of the shape of the faces."""
+    """Flow through faces [m²/s] and its derivatives by p and h of the cells before and behind, each with the shape of
+    the faces."""
 
     flow: np.ndarray
     by_p: tuple[np.ndarray, np.ndarray]
@@ -25,7 +26,8 @@ class PressureFlow:
 
 
 def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> PressureFlow:
-    """Through the faces behind cells along ``axis``: all but the last row of cells along x, all along y (periodic)."""
+    """Pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row, along y
+    behind all (periodic)."""
     before, behind = _sides(axis)
     step = problem.spacing[axis]
     film = 0.5 * (before(h) + behind(h))
@@ -73,8 +75,8 @@ class CouetteFlow:
 
 
 def couette_flow(problem: Problem, mass, fill=1.0) -> CouetteFlow:
-    """U times rho h [m] = ``mass`` (nx, ny) carried to the faces, where the cell is filled to the part ``fill``; in the
-    first cell the parabola gives the difference."""
+    """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
+    the first cell the parabola gives the upstream difference."""
     x, dx = problem.x, problem.spacing[0]
     step = np.empty_like(mass)
     step[1:] = mass[1:] - mass[:-1]

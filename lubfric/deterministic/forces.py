@@ -1,14 +1,15 @@
-"""Friction, and who carries the load: spots where the asperities touch or nearly do, and the film between them.
+"""Friction, and the split of the load between asperity spots and the film between them.
 
-With one pressure there is no boundary between film and contact in the equations, so the split is a rule:
+With one pressure, no equation tells film and contact apart, so the split is a rule:
 
     A cell belongs to an asperity spot where the bodies touch (h = floor), or where p > 50 MPa, a Newtonian film would
     be sheared above the boundary friction, eta Δu/h > f_b p, and h is less than half its mean over the section.
 
-The second condition finds the summits of a light contact, which carry films of nanometres; alone it would also mark
-the whole of a thick film at high pressure, whose shear is limited for another reason: the third leaves that to the
-film. `LoadSplit` has the parts that other rules give. The coefficient of friction hardly depends on the rule: spots are
-sheared at f_b p, the film by the lubricant's law, and a Newtonian film above 50 MPa at no more than f_b p either.
+The second condition finds the summits of a light contact, which carry films of nanometres. Alone it would also mark the
+whole of a thick film at high pressure, whose stress is at its limit for another reason. The third condition leaves that
+to the film. `LoadSplit` has the load by other rules. The friction coefficient hardly depends on the rule, because the
+stress is f_b p on spots, follows the lubricant's law in the film, and is limited to f_b p in a Newtonian film above 50
+MPa too.
 """
 
 from __future__ import annotations
@@ -27,8 +28,9 @@ CLOSE = 0.5  # of the mean gap of the section
 
 @dataclass(frozen=True)
 class LoadSplit:
-    """Load [N/m] of cells by four rules, from the narrowest: ``touching`` (h = floor); ``spots`` (the rule of this
-    module); ``saturated``: p > 50 MPa and eta Δu/h > f_b p, or touching; and ``whole`` of it, film and all."""
+    """Load [N/m] on the cells that four rules select, from the narrowest: ``touching`` (h = floor); ``spots`` (the rule
+    of this module); ``saturated``: p > 50 MPa and eta Δu/h > f_b p, or touching; and the ``whole`` load, film and all.
+    """
 
     touching: float
     spots: float
@@ -38,8 +40,8 @@ class LoadSplit:
 
 @dataclass(frozen=True)
 class Forces:
-    """Per width [N/m] on the moving body: f_b p over the spots, Couette and rolling shear of the film; ``split`` of the
-    load; ``spots``, ``wet`` (bool) and ``shear`` [Pa] by cells (nx, ny)."""
+    """Forces per width [N/m] on the moving body: f_b p over the spots, Couette and rolling shear of the film; the
+    ``split`` of the load; and ``spots``, ``wet`` (bool) and ``shear`` [Pa] on the cells (nx, ny)."""
 
     boundary: float
     couette: float
@@ -51,7 +53,7 @@ class Forces:
 
 
 def forces(problem: Problem, at: Look, pressed=PRESSED, close=CLOSE) -> Forces:
-    """Of a solved state; ``pressed`` [Pa] and ``close`` [-] are the two numbers of the rule."""
+    """Forces of a solved state; ``pressed`` [Pa] and ``close`` [-] are the two numbers of the rule."""
     p, h, kind = at.state.pressure, at.balance.film, at.state.kind
     touching, fluid = kind == TOUCHING, kind == FLUID
     f_b, rate = problem.boundary_friction, problem.sliding / h

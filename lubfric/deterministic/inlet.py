@@ -1,8 +1,8 @@
-"""The film upstream of the grid, in closed form: there the gap is the parabola and the fluid hardly thickens.
+"""The film upstream of the grid, in closed form: there the gap is the parabola, and the viscosity hardly rises.
 
 With h(x) known, Reynolds' equation is one integral: Q(x) = 12 eta0 ∫ (U h - q)/(h³ Φ) dx', with Q the reduced pressure
 ∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on. The substitution x = -a/t maps it
-on 0 < t < 1, where everything is smooth.
+to 0 < t < 1, where everything is smooth.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Inlet:
-    """Of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first face;
-    load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); the integrals upstream
-    ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m], means over the rows."""
+    """Values of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first
+    face. Also the load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); and the
+    integrals upstream ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m], means over the rows."""
 
     flow: np.ndarray
     by_pressure: np.ndarray
@@ -50,8 +50,8 @@ class Inlet:
 
 
 def inlet(problem: Problem, pressure, film) -> Inlet:
-    """Upstream of the first face, where the film is ``film`` [m] (ny,), p of the first cells ``pressure`` [Pa]
-    (ny,)."""
+    """The `Inlet` upstream of the first face, where the film is ``film`` [m] (ny,); ``pressure`` [Pa] (ny,): of the
+    first cells."""
     lubricant, speed = problem.lubricant, problem.speed
     t, weight, integral = _rule()
     dx = problem.spacing[0]
@@ -100,7 +100,7 @@ def _ambient_thinning(problem: Problem, gap) -> np.ndarray:
 
 
 def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
-    """∫_0^p eta0/eta dp and its derivative, the viscosity exponential in between."""
+    """∫_0^p eta0/eta dp and its derivative, with the viscosity exponential between 0 and p."""
     fluid = cell_fluid(lubricant, pressure)
     log_mean, _, by = mean_fluidity(np.zeros_like(pressure), fluid.log_viscosity)
     mean = np.exp(log_mean)

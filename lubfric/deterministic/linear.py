@@ -1,7 +1,8 @@
-"""One linear system of Newton's method: GMRES with the dense K by FFT, preconditioned by a sparse LU with its diagonal.
+"""One linear system of Newton's method: GMRES applies the dense K by FFT; the preconditioner is a sparse LU with its
+diagonal.
 
-Unknown in every cell is p, or the dent where it has yielded, or the fill where it has ruptured; and h0. Through h every
-cell depends on every pressure; ``R_p + R_h diag(K)`` is sparse and enough of that.
+Every cell has one unknown: p, the dent if it has yielded, or the fill if it has ruptured; h0 is one more. Through h
+every cell depends on every pressure. ``R_p + R_h diag(K)`` is sparse, and near enough to that for a preconditioner.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ KRYLOV, CYCLES = 40, 3
 
 @dataclass(frozen=True)
 class Step:
-    """Changes of pressure [Pa], fill [-], dent [m], h0 [m] and gap [m] that solve the linear system; ``iterations`` of
-    GMRES, and the relative residual that was left."""
+    """Solution of the linear system: changes of pressure [Pa], fill [-], dent [m], h0 [m] and gap [m]; ``iterations``
+    of GMRES, and the relative residual reached."""
 
     pressure: np.ndarray
     fill: np.ndarray
@@ -36,7 +37,8 @@ class Step:
 
 
 class System:
-    """The linear system at a state; rows are made dimensionless by U and a film, columns by a pressure."""
+    """The linear system at a state. Rows are scaled by U and a film, columns by a pressure, so that both have no
+    dimension."""
 
     def __init__(self, problem: Problem, at: Look, past: Past | None = None):
         self.problem, self.at = problem, at
@@ -57,11 +59,12 @@ class System:
     def _rows(self, past):
         """d(equation)/dp, d/dh and d/dfill of every cell over all cells."""
         problem, at = self.problem, self.at
-        by_p, by_h, by_fill = derivatives(problem, at.balance, at.state.pressure)
+        open_ = at.state.kind != TOUCHING  # also where h is still the floor: it is about to rise
+        by_p, by_h, by_fill = derivatives(problem, at.balance, at.state.pressure, open_)
         if past is not None:
             fluid, film, fill = at.balance.fluid, at.balance.film, at.state.fill
             by_p = by_p + diags((fill * fluid.density_slope * film).ravel() / past.step)
-            by_h = by_h + diags((fill * fluid.density * at.balance.open_).ravel() / past.step)
+            by_h = by_h + diags((fill * fluid.density * open_).ravel() / past.step)
             by_fill = by_fill + diags((fluid.density * film).ravel() / past.step)
         flowing = diags(np.where(self.touching, 0.0, self.row))
         closed = diags(self.touching / self.film)

@@ -1,4 +1,4 @@
-"""Implicit Euler steps in time towards the steady state, for starts from which Newton's method does not get there."""
+"""Implicit Euler steps in time towards the steady state, for starts from which Newton's method does not converge."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ INNER, LOOSE = 6, 1e-2  # Newton steps in a step in time, and how well they solv
 
 @dataclass(frozen=True)
 class March:
-    """The state at its end, and the work (LU factorisations, GMRES iterations, steps in time)."""
+    """The final state and the work: LU factorisations, GMRES iterations, steps in time."""
 
     state: State
     factorisations: int
@@ -25,7 +25,7 @@ class March:
 
 
 def march(problem: Problem, state: State, *, most: int) -> March:
-    """Let the film settle from ``state`` in time steps that grow while they are solved; at most ``most``
+    """Let the film settle from ``state`` in time steps that grow as long as they converge; at most ``most``
     factorisations."""
     unit = problem.spacing[0] / problem.speed
     step, factorisations, krylov, steps = FIRST * unit, 0, 0, 0

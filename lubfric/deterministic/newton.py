@@ -19,7 +19,8 @@ PATIENCE, PROGRESS = 20, 0.95  # steps in which the residual has to fall to that
 
 @dataclass(frozen=True)
 class Found:
-    """Where Newton's method ended: its residuals, their history, and the work (LU factorisations, GMRES iterations)."""
+    """The end of Newton's method: state, residuals, their history, and the work (LU factorisations, GMRES
+    iterations)."""
 
     look: Look
     residuals: dict[str, float]
@@ -36,10 +37,10 @@ class Found:
 def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None = None) -> Found:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
-    Before every step each cell gets the equation it asks for (`settled`). A step leaves every cell a fifth of its gap
-    and is halved while the mass residual of the fluid cells grows. Ends early where a number is not finite, or for
-    `PATIENCE` steps neither the residual has fallen nor that which the whole step would have led to. (That falls first,
-    while a heavily loaded film finds its shape in short steps.)
+    Before every step each cell gets the equation that its state asks for (`settled`). A step leaves every cell at least
+    a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives up when a
+    number is not finite, or when for `PATIENCE` steps neither the residual has fallen nor the residual that the whole
+    step would have led to. (The latter falls first, while a heavily loaded film finds its shape in short steps.)
     """
     history: list[float] = []
     promised: list[float] = []
@@ -74,7 +75,8 @@ def _stalled(history) -> bool:
 
 
 def _advanced(problem: Problem, at: Look, step, past) -> tuple[Look, float]:
-    """Where a part of ``step`` leads, and the merit of the longest that was tried."""
+    """The state after the longest part of ``step`` that is accepted, and the merit of the longest part that was
+    tried."""
     length = _longest(problem, at, step)
     before = _merit(problem, at, at.state.kind != TOUCHING)
     merits: list[float] = []
@@ -108,7 +110,7 @@ def _moved(problem: Problem, at: Look, step, length: float, past) -> Look:
 
 
 def _merit(problem: Problem, at: Look, apart) -> float:
-    """Σ |r| over the cells that were ``apart``, and the load, both relative."""
+    """Σ |r| over the cells that were ``apart``, and the load error, both relative."""
     value = float(np.abs(at.residual[apart]).sum())
     flow = float(np.mean(np.abs(at.balance.inlet.flow))) * apart.shape[1] / problem.spacing[0]
     merit = value / flow + abs(load_error(problem, at)) / problem.load

@@ -1,4 +1,4 @@
-"""Fields of deterministic points in a file and in a picture."""
+"""Fields of deterministic points as a file and as a picture."""
 
 from __future__ import annotations
 

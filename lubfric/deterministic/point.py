@@ -1,4 +1,4 @@
-"""A scene at one speed, solved as a whole, and on which grids."""
+"""The deterministic film of a scene at one speed, and the grids on which it is solved."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ KEPT = 0.9  # of Sq, on the coarsest grid
 
 
 def grids(scene: Scene, surface: Surface) -> tuple[tuple[int, int], ...]:
-    """Shapes of the map on the grids to be tried, coarsest first: halved while it keeps 90 % of Sq and 32 cells across,
-    its own, and doubled up to 512 cells across; its half and its own for ``numerics.grid = "given"``."""
+    """Shapes of the map on the grids to try, coarsest first. They are the map's own shape, halved as long as it keeps
+    90 % of Sq and 32 cells across, and doubled up to 512 cells across. With ``numerics.grid = "given"``: half of its
+    own, and its own."""
     nx, ny = surface.shape
     if scene.numerics.grid == "given":
         return ((max(nx // 2, 1), max(ny // 2, 1)), (nx, ny))
@@ -36,7 +37,8 @@ def _keeps(surface: Surface, shape) -> bool:
 
 
 def layer(scene: Scene, surface: Surface, speed: float) -> Callable[[tuple[int, int]], Problem]:
-    """lay(shape): the problem of ``surface`` at ``speed`` [m/s], the map on ``shape``; a negative speed turns it."""
+    """A function lay(shape): the problem of ``surface`` at ``speed`` [m/s] with the map on ``shape``. For a negative
+    speed the map is turned."""
     bodies, contact = scene.bodies, scene.line_contact(abs(speed))
     if speed < 0:
         surface = replace(surface, heights=surface.heights[::-1], mask=None)
@@ -54,7 +56,8 @@ def layer(scene: Scene, surface: Surface, speed: float) -> Callable[[tuple[int, 
 
 
 def deterministic_point(scene: Scene, surface: Surface, speed: float, start: Refined | None = None) -> Refined:
-    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on grids fine enough for ``numerics.tolerance``.
+    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on grids that are fine enough for
+    ``numerics.tolerance``.
 
     Raises `InputError` (`lubfric.scene.resolved_gap`) and `ConvergenceError`.
     """

@@ -76,14 +76,14 @@ class Problem(OfLineContact):
 
     @property
     def edge_log(self) -> float:
-        """4 w/(pi E') [m]: the gap far upstream falls behind the parabola by that times ln|x|."""
+        """4 w/(pi E') [m]: far upstream the gap is less than the parabola by this times ln|x|."""
         return 4 * self.load / (math.pi * self.e_prime)
 
     def at_speed(self, speed: float) -> Problem:
-        """The same on the same grid at another U [m/s], as much of it sliding."""
+        """The same problem on the same grid at another U [m/s], with the same ratio of sliding."""
         faster = replace(self.contact, entrainment_speed=speed)
         return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
 
     def with_lubricant(self, lubricant: Lubricant) -> Problem:
-        """The same with another lubricant."""
+        """The same problem with another lubricant."""
         return replace(self, contact=replace(self.contact, lubricant=lubricant))

@@ -1,4 +1,5 @@
-"""A deterministic point on one grid after the other, each started from the last, with an estimate of what is left."""
+"""A deterministic point on finer and finer grids, each started from the last, with an estimate of the error that is
+left."""
 
 from __future__ import annotations
 
@@ -17,8 +18,8 @@ UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
 
 @dataclass(frozen=True)
 class Refined:
-    """The solution on every grid, the coarsest first; ``error``: estimate of the relative error that the last grid
-    leaves in the coefficient (None with one grid)."""
+    """The solution on every grid, the coarsest first; ``error``: estimated relative error of the coefficient on the
+    last grid (None with one grid)."""
 
     results: tuple[DeterministicResult, ...]
     error: float | None
@@ -38,13 +39,13 @@ def solve_refined(
     start: Refined | None = None,
     precision: float = 1e-5,
 ) -> Refined:
-    """Solve ``lay(shape)`` for the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; at
+    """Solve ``lay(shape)``, the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; on at
     least ``least`` of them.
 
     The estimate is the geometric series of the changes c0, c1 of f on the last grids, c1 q/(1 - q) with q = c1/c0 kept
-    within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed. A grid starts
-    from it or from the next coarser grid, and where both fail from the dry contact. ``precision``: of `solve_point`.
-    Raises `ConvergenceError`.
+    within 1/4 and 3/4 (1/2 from two grids), over f. ``start``: the result of a neighbouring speed. A grid starts from
+    it or from the next coarser grid, and if both fail from the dry contact. ``precision``: of `solve_point`. Raises
+    `ConvergenceError`.
     """
     results: list = []
     error, coarser = None, None
@@ -62,7 +63,8 @@ def solve_refined(
 
 
 def _starts(problem: Problem, neighbour, coarse) -> list[Start]:
-    """A neighbour in speed and the coarser grid, where there are any: the coarser grid first where the film carries."""
+    """The neighbouring speed and the coarser grid as starts, as far as they exist; the coarser grid first if the film
+    carries."""
     starts: list[Start] = []
     if neighbour is not None:
         starts.append(Start(partial(state_on, problem, neighbour), neighbour.speed))
@@ -74,7 +76,7 @@ def _starts(problem: Problem, neighbour, coarse) -> list[Start]:
 
 
 def estimate(values) -> float | None:
-    """Relative error of the last of ``values`` found on grids each twice as fine as the one before; None of one
+    """Relative error of the last of ``values``, found on grids each twice as fine as the one before; None for one
     value."""
     if len(values) < 2:
         return None

@@ -14,17 +14,18 @@ from .state import TOUCHING, Look, State
 
 @dataclass(frozen=True)
 class DeterministicResult:
-    """One operating point: fields by cells (nx, ny), x along the motion; forces per width [N/m].
+    """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
 
-    pressure [Pa]: of film and contact, the whole. gap [m] between the rough surfaces, at least the floor. fill [-]: the
-    filled part of it, 1 but where the film has ruptured. touching, spots, wet (bool): h = floor; the asperity spots of
-    `lubfric.deterministic.forces`; fluid under pressure outside them. shear [Pa] on the moving surface. dent [m]:
-    plastic depth.
-    coefficient: (boundary + couette + rolling)/load. split: the load by four rules, ``split.spots`` the one used.
-    flow_film [m]: flow/U; min_gap, central_gap (mean at x = 0), mean_gap (over ``strip``, the columns with |x| <= b of
-    the load) [m]; spot_fraction, plastic_fraction: of the area of the strip. drawn: flow that touching cells
-    of the strip give off (the floor is kept full), over U times the mean gap.
-    approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
+    - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
+      the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
+      the asperity spots of `lubfric.deterministic.forces`. wet (bool): fluid under pressure outside the spots. shear
+      [Pa]: on the moving surface. dent [m]: plastic depth.
+    - coefficient: (boundary + couette + rolling)/load. split: the load by four rules; ``split.spots`` is the one used.
+    - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over ``strip``, the columns with |x| <=
+      b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
+    - drawn: flow that touching cells of the strip give off (because their floor is kept full), over U times the mean
+      gap.
+    - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
     x: np.ndarray

@@ -1,8 +1,8 @@
-"""How a sheared fluid resists a pressure flow: fluidity between two cells, and what sliding adds to it.
+"""How a sheared fluid resists a pressure flow: the fluidity between two cells, and its change by the sliding.
 
 The pressure flow through a face is ``-rho h³/(12 eta) Φ dp/dx``. 1/eta is averaged over the pressures between the two
-cells, so that the flow follows the reduced pressure ∫ dp/eta. Φ >= 1 tells how much the sliding thins the fluid, with
-s = eta Δu/(h tau) the ratio of the Newtonian stress to a characteristic one:
+cells, so that the flow follows the reduced pressure ∫ dp/eta. Φ >= 1 is the factor by which the sliding thins the
+fluid. With s = eta Δu/(h tau), the Newtonian stress over a characteristic stress tau, it is:
 
 - Ree-Eyring, tau = tau_E: along the sliding the tangent of its law, sqrt(1 + s²); across it the secant, s/asinh(s)
   (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
@@ -24,8 +24,8 @@ THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not told from 
 
 @dataclass(frozen=True)
 class CellFluid:
-    """The laws at the pressures of cells: ln(eta/eta0), rho/rho0, tau_0 + Λ p [Pa] (None: no limit), and their slopes
-    by p [1/Pa], [1/Pa], [-]."""
+    """The laws at the pressures of the cells: ln(eta/eta0), rho/rho0, tau_0 + Λ p [Pa] (None: no limit), and their
+    derivatives by p [1/Pa], [1/Pa], [-]."""
 
     log_viscosity: np.ndarray
     log_slope: np.ndarray
@@ -68,7 +68,7 @@ def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Thinning:
-    """Φ [-], d ln Φ/d ln s over all stresses, and the part of it that belongs to the limiting stress."""
+    """Φ [-], its derivative d ln Φ/d ln s, and the part of the derivative that belongs to the limiting stress."""
 
     factor: np.ndarray
     exponent: np.ndarray
@@ -76,7 +76,7 @@ class Thinning:
 
 
 def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thinning | None:
-    """Φ at the Newtonian stress eta Δu/h [Pa] of faces, ``limit`` [Pa] their tau_0 + Λ p; None where Φ = 1."""
+    """Φ at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p; None if Φ = 1."""
     eyring = lubricant.eyring_stress
     if eyring is None and limit is None:
         return None

@@ -1,4 +1,4 @@
-"""One deterministic operating point on one grid: Newton's method, and the ways out where it fails."""
+"""One deterministic operating point on one grid: Newton's method, and other ways if it fails."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from .state import State
 
 TOLERANCE = 1e-5
 FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
+MOST = 400  # of all ways together: of those that were solved none is known to have taken 200
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
@@ -26,7 +27,7 @@ THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and a
 
 @dataclass(frozen=True)
 class Start:
-    """A ``state`` to begin from, made when it is asked for, and the ``speed`` [m/s] it belongs to."""
+    """A ``state`` to begin from, made when it is needed, and the ``speed`` [m/s] to which it belongs."""
 
     state: Callable[[], State]
     speed: float
@@ -37,12 +38,17 @@ def solve_point(
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn: Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), at once and through the
-    speeds in between; from the dry contact lifted by Moes' film; with a Newtonian lubricant from the solution of one
-    with a limiting shear stress; from higher speeds step by step; and from where implicit steps in time lead from the
-    dry contact. Which one it was is in ``report.notes``. Converged when the
-    largest of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
-    result.
+    Tried in turn until one converges:
+
+    - Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), directly and through speeds in
+      between;
+    - from the dry contact, lifted by Moes' film;
+    - for a Newtonian lubricant, from the solution with a limiting shear stress;
+    - from higher speeds, step by step;
+    - from the state that implicit steps in time reach from the dry contact.
+
+    Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
+    of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work()
     tried: list[tuple[str, Found]] = []
@@ -54,7 +60,8 @@ def solve_point(
     report = _report(found, tolerance, work, name)
     if not report.converged:
         ways = ", ".join(f"{way} ({at.residual:.1e})" for way, at in tried)
-        report = replace(report, advice=f"tried, with the residual left: {ways}; {ADVICE}")
+        spent = f"{work.factorisations} of {MOST} factorisations"
+        report = replace(report, advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}")
     result = assemble(problem, found.look, report)
     if raise_on_failure:
         report.raise_if_failed(result)
@@ -63,17 +70,22 @@ def solve_point(
 
 @dataclass
 class Work:
-    """What the attempts at one point cost: LU factorisations, GMRES iterations, steps in time; residuals along the
-    way."""
+    """The cost of the attempts at one point: LU factorisations, GMRES iterations, steps in time; and their
+    residuals."""
 
     factorisations: int = 0
     krylov: int = 0
     steps: int = 0
     history: list[float] = field(default_factory=list)
 
+    @property
+    def left(self) -> int:
+        """Factorisations that may still be done."""
+        return max(MOST - self.factorisations, 0)
+
     def direct(self, problem, state, tolerance, most=DIRECT) -> Found:
         """`newton`, counted."""
-        found = newton(problem, state, tolerance=tolerance, most=most)
+        found = newton(problem, state, tolerance=tolerance, most=min(most, self.left))
         self.factorisations += found.factorisations
         self.krylov += found.krylov
         self.history += found.history
@@ -96,7 +108,7 @@ class Work:
 
     def in_time(self, problem, state, tolerance) -> Found:
         """`march`, then `newton`, counted."""
-        way = march(problem, state, most=MARCHED)
+        way = march(problem, state, most=min(MARCHED, self.left))
         self.factorisations += way.factorisations
         self.krylov += way.krylov
         self.steps += way.steps

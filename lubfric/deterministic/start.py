@@ -1,4 +1,4 @@
-"""Where Newton's method begins: the dry contact of the whole load, lifted by the smooth film."""
+"""The start of Newton's method: the dry contact of the whole load, lifted by the smooth film."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ def dry_contact(problem: Problem, start=None, tolerance=DRY_TOLERANCE) -> Contac
 
 
 def dry_start(problem: Problem, dry: ContactResult, film: float) -> State:
-    """The pressure of the ``dry`` contact and its gap plus ``film`` [m]; behind contact and film it has ruptured."""
+    """The pressure of the ``dry`` contact, and its gap plus ``film`` [m]. Behind contact and film the film has
+    ruptured."""
     p = dry.pressure
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
     full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)

@@ -1,4 +1,4 @@
-"""The unknowns of an iteration, and which equation each cell obeys."""
+"""The unknowns of an iteration, and the equation that each cell obeys."""
 
 from __future__ import annotations
 
@@ -16,9 +16,12 @@ STREAK = 16  # cells along x that open at once
 
 @dataclass(frozen=True)
 class State:
-    """pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (of `FLUID`, `RUPTURED`, `TOUCHING`), yielded
-    (bool), arrays (nx, ny); approach h0 [m]. A ruptured cell has p = 0 and its fill for unknown, any other is full; of
-    those a yielded one has p = P_u and its dent for unknown, the rest w = 0 and their pressure."""
+    """The unknowns, arrays (nx, ny): pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (`FLUID`,
+    `RUPTURED` or `TOUCHING`), yielded (bool); and the approach h0 [m].
+
+    The unknown of a ruptured cell is its fill, with p = 0. All other cells are full. The unknown of a yielded cell is
+    its dent, with p = P_u. In the rest it is the pressure, with w = 0.
+    """
 
     pressure: np.ndarray
     fill: np.ndarray
@@ -30,7 +33,7 @@ class State:
 
 @dataclass(frozen=True)
 class Look:
-    """A state with what follows from it: gap h [m] (nx, ny) and the mass balance of its cells."""
+    """A state with its gap h [m] (nx, ny) and the mass balance of its cells."""
 
     state: State
     gap: np.ndarray
@@ -39,20 +42,20 @@ class Look:
 
     @property
     def residual(self) -> np.ndarray:
-        """Outflow less inflow and what is given up [m/s]."""
+        """Outflow minus inflow plus, in time, what the cell stores [m/s]."""
         return self.balance.residual if self.stored is None else self.balance.residual + self.stored
 
 
 @dataclass(frozen=True)
 class Past:
-    """The mass rho h [m] of the cells a time ``step`` [s] ago."""
+    """The mass rho h [m] of the cells, one time ``step`` [s] ago."""
 
     mass: np.ndarray
     step: float
 
 
 def look(problem: Problem, state: State, past: Past | None = None) -> Look:
-    """Gap and mass balance of ``state``, of an implicit step in time where there is a ``past``."""
+    """Gap and mass balance of ``state``; with ``past``, of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     found = balance(problem, state.pressure, gap, state.fill)
     stored = None if past is None else (mass(state, found) - past.mass) / past.step
@@ -60,14 +63,15 @@ def look(problem: Problem, state: State, past: Past | None = None) -> Look:
 
 
 def mass(state: State, at: Balance) -> np.ndarray:
-    """rho h of what fills the gap [m]."""
+    """rho h [m] of the lubricant in the gap."""
     return state.fill * at.fluid.density * at.film
 
 
 def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
-    """``at`` with every cell given the equation it asks for."""
+    """``at``, with every cell given the equation that its state asks for."""
     new = look(problem, _resorted(problem, at), past)
-    closed = (new.state.kind == FLUID) & (new.gap < problem.floor)  # by a pressure that was cut to P_u
+    fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
+    closed = fluid & (new.gap < problem.floor)  # by a pressure that was cut to P_u
     kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
     return replace(new, state=replace(new.state, kind=kind))
 
@@ -75,9 +79,9 @@ def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
 def _resorted(problem: Problem, at: Look) -> State:
     """Give every cell the equation that its pressure, gap and residual ask for.
 
-    - Fluid that would pull ruptures. A ruptured cell that is full carries pressure again.
-    - A fluid cell closer than the floor touches. A touching cell that is pulled opens (`_opened`).
-    - A pressure above P_u yields. A dent that would vanish does not.
+    - A fluid cell under suction ruptures. A ruptured cell that is full carries pressure again.
+    - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).
+    - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
     state, r = at.state, at.residual
     p, kind = state.pressure, state.kind.copy()
@@ -102,8 +106,9 @@ def _resorted(problem: Problem, at: Look) -> State:
 
 
 def _opened(touching, pulled) -> np.ndarray:
-    """``pulled`` touching cells, and those that touch behind them, at most `STREAK` in a row. Along a furrow that the
-    film wets they would otherwise open one a step; those opened in vain close again in the next step, all at once."""
+    """The ``pulled`` touching cells, and those that touch behind them, at most `STREAK` in a row. Along a furrow that
+    the film wets they would otherwise open one by one; cells opened in vain close again in the next step, all at once.
+    """
     found, reach = pulled.copy(), pulled
     for cells in range(1, STREAK):
         reach = reach[:-1] & touching[cells:]
@@ -116,7 +121,7 @@ def _pull(problem: Problem) -> float:
 
 
 def load_error(problem: Problem, at: Look) -> float:
-    """∫ p dx less the load [N/m], with what the film upstream of the grid carries."""
+    """∫ p dx, with the load carried upstream of the grid, minus the load [N/m]."""
     carried = at.state.pressure.sum() * problem.spacing[0] / at.gap.shape[1]
     return float(carried + at.balance.inlet.load - problem.load)
 
@@ -128,7 +133,7 @@ def residuals(problem: Problem, at: Look) -> dict[str, float]:
     - load: relative;
     - gap: the largest |h - floor| over touching cells, and floor - h over the others, over the mean gap;
     - suction: Σ (-r - `PULL` U floor/dx) over touching cells, where positive, relative to the flow that enters;
-    - fill: the largest by which a ruptured cell is filled to less than nothing or more than all;
+    - fill: the largest amount by which the fill of a ruptured cell is below 0 or above 1;
     - pressure: the largest of -p and p - P_u over the largest pressure.
     """
     state, r = at.state, at.residual

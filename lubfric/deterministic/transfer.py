@@ -1,7 +1,7 @@
 """A solved state as a start on another grid, of another length or with cells of another size.
 
 Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
-difference to the dry contact is interpolated instead, and added to the dry contact of the finer grid.
+difference from the dry contact is interpolated instead, and added to the dry contact of the finer grid.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ SHARP = 0.3  # share of the load on spots from which on the dry contact is inter
 def state_on(problem: Problem, result: DeterministicResult) -> State:
     """The state of ``result`` on the grid of ``problem``, of the same width along y; linear between cells.
 
-    Beyond the old grid p = 0, fluid upstream and ruptured downstream. h0 moves by what the gauge of the half-space,
-    u = 0 at the length of the grid from a line load, differs.
+    Beyond the old grid p = 0, with fluid upstream and rupture downstream. h0 is corrected, because the half-space has
+    its zero, u = 0, at the length of the grid from a line load.
     """
     old, shape = result.state, problem.heights.shape
     length_old, length = (n * dx for n, dx in ((result.x.size, result.spacing[0]), (shape[0], problem.spacing[0])))
@@ -46,7 +46,7 @@ def state_on(problem: Problem, result: DeterministicResult) -> State:
 
 
 def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
-    """The state of ``result``, of the problem ``coarse``, on the smaller cells of ``problem``."""
+    """The state of ``result``, a solution of the problem ``coarse``, on the smaller cells of ``problem``."""
     state = state_on(problem, result)
     if result.split.spots < SHARP * result.load:
         return state
@@ -61,7 +61,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
 
 
 def _interpolated(field, along, across) -> np.ndarray:
-    """Linear at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
+    """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
     i, j = np.floor(along).astype(int), np.floor(across).astype(int)
     s, t = (along - i)[:, None], across - j
     padded = np.zeros((field.shape[0] + 2, field.shape[1]))

@@ -1,8 +1,8 @@
 """Elastohydrodynamic line contact: the film carries the load.
 
-The steady film, `solve_ehl`: `problem` (its units), `grid` and `kernel`, `reynolds` (the equations), `newton`,
-`start`, `imposed` (another pressure on the same line), `assemble` and `result`; `solve` puts them together.
-`transient`: the film in time, on a fixed grid.
+`solve` has the steady film, `solve_ehl`. It is made of `problem` (the equations in Moes' units), `grid` and `kernel`,
+`reynolds` (the discrete equations), `newton`, `start`, `imposed` (a further pressure that deflects the film),
+`assemble` and `result`. `transient` is the film in time, on a fixed grid.
 """
 
 from .result import EHLResult

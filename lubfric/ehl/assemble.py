@@ -18,9 +18,9 @@ from .start import solution_state
 def grid_error(levels: list[Solution]) -> float:
     """Relative discretisation error of the last solution; the formula is in `solve_ehl`.
 
-    Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and the
-    rest mostly within a factor of two. central_film follows, but where the pressure spike sits at x = 0 (M near 2, L
-    above 12) no grid converges it, and a note tells its change.
+    Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in the
+    rest mostly within a factor of two. It also covers central_film, unless the pressure spike sits at x = 0 (M near 2,
+    L above 12): then no grid converges central_film, and a note tells its change.
     """
     films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
@@ -35,7 +35,7 @@ def _at_centre(problem: Problem, solution: Solution) -> float:
 
 
 def _interpolated(problem: Problem, X: np.ndarray, H: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Film at ``points``: the deflection by its own pressure is interpolated, the rest is known."""
+    """Film at ``points``. Only the deflection by its own pressure is interpolated; the rest is known."""
     bend, rest = H - 0.5 * X * X, 0.5 * points * points
     if problem.imposed is not None:
         bend, rest = bend - problem.imposed_deflection(X)[0], rest + problem.imposed_deflection(points)[0]
@@ -43,8 +43,8 @@ def _interpolated(problem: Problem, X: np.ndarray, H: np.ndarray, points: np.nda
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
-    """Effect of the next order of the inlet condition, tested against longer domains: the tail's share of
-    the load times 4 (q + |H - X²/2|)/(X²/2)."""
+    """Effect of the next order of the inlet condition: the tail's share of the load times 4 (q + |H - X²/2|)/(X²/2). It
+    was tested against longer domains."""
     if problem.inlet_length is not None:
         return 0.0
     t = solution.terms
@@ -54,7 +54,7 @@ def domain_error(problem: Problem, solution: Solution) -> float:
 
 
 def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
-    """Largest tension before rupture (of the largest pressure) or film deficit behind it (of h)."""
+    """Largest tension before rupture (over the largest pressure), or largest film deficit behind it (over h)."""
     P, H = solution.terms.P, solution.terms.H
     return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
 
@@ -93,7 +93,7 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
 def assemble(
     problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, notes: tuple[str, ...]
 ) -> EHLResult:
-    """The result in SI units of solutions on nested grids, seen along +x."""
+    """The result in SI units from solutions on nested grids, seen along +x."""
     last, contact = levels[-1], problem.contact
     sign = math.copysign(1.0, contact.entrainment_speed)
     t, M = last.terms, problem.M

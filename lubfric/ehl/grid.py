@@ -1,8 +1,8 @@
 """Graded grids that move with the rupture point.
 
-Node positions xi are relative to the rupture point (xi = 0, the last node). So the free boundary moves the whole grid.
-The elastic kernel depends on differences of positions only, and stays as it is. The map t -> xi is smooth and t is
-uniform. So doubling the cells nests the grids, and errors have a clean expansion in 1/n.
+Node positions xi are relative to the rupture point (xi = 0, the last node), so the whole grid moves with this free
+boundary. The elastic kernel stays the same, because it depends on differences of positions only. The map t -> xi is
+smooth and t is uniform. So doubling the cells nests the grids, and errors have a clean expansion in 1/n.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ CORE = 1.2  # cells spread evenly over the contact, relative to the above
 
 @dataclass(frozen=True)
 class Grid:
-    """xi: node positions (n + 1); kernel: film at the nodes; face_film (n, n + 1): from nodes to faces,
-    third-order upwind; face_kernel = face_film @ kernel; weights: of the pressure integral."""
+    """xi: node positions (n + 1); kernel: from pressure to film at the nodes; face_film (n, n + 1): from nodes to
+    faces, third-order upwind; face_kernel = face_film @ kernel; weights: of the pressure integral."""
 
     xi: np.ndarray
     kernel: np.ndarray

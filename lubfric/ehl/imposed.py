@@ -33,11 +33,11 @@ class LinePressure:
 
 @dataclass(frozen=True)
 class Seat:
-    """An approximation of what the film sits on when another pressure is imposed: a cylinder of ``radius`` R and
-    ``modulus`` E' (ratios to the real ones) about ``centre`` [m].
+    """A cylinder that approximates the gap which an imposed pressure leaves: ``radius`` R and ``modulus`` E' (ratios to
+    the real ones) about ``centre`` [m].
 
-    An imposed pressure leaves a gap of another shape. In that gap the film and the dry contact of the film's own load
-    are about those of this cylinder. Only grids and starts are made from it.
+    The film in that gap, and the dry contact of the film's own load, are roughly those of this cylinder. It only serves
+    to make grids and starts.
     """
 
     centre: float = 0.0
@@ -46,10 +46,11 @@ class Seat:
 
 
 def find_seats(problem) -> tuple[Seat, ...]:
-    """The seats of a `Problem`, the likelier one first. There is one where no pressure is imposed.
+    """The seats of a `Problem`, the likelier one first; a single one if no pressure is imposed.
 
-    One seat is flat: Johnson's modulus, E' times the film's own share of the load. The other is curved. Over a window
-    |x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is zero.
+    One seat is flat: it has Johnson's modulus, E' times the film's share of the load. The other is curved. Over a
+    window
+    x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is zero.
     Its curvature is k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt. A dry contact of the half-width s then carries what a
     cylinder of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact
     and film, s² = b² + 2 h/k.
@@ -95,8 +96,8 @@ def _window(problem, ratio: float) -> tuple[float, float]:
 
 
 def line_pressure(value) -> LinePressure | None:
-    """``value`` = (x [m], pressure [Pa]), checked, without the nodes far from any pressure. None where the pressure
-    is zero."""
+    """The pressure ``value`` = (x [m], pressure [Pa]), checked, without the nodes far from any pressure. None if the
+    pressure is zero."""
     if value is None:
         return None
     if isinstance(value, LinePressure):

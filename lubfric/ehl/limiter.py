@@ -1,4 +1,4 @@
-"""How long a Newton step may be: two limits that keep the film physical."""
+"""The length of a Newton step: two limits keep the film physical."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ FILM_STEP = 0.7  # largest share of the film (or the flux) that one step may rem
 
 
 def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
-    """The share of a step to take, 0 to 1, from what the whole step would do: its change of ln(eta) at the nodes,
-    and ``film_loss``, the largest share of the film (or flux) that it removes."""
+    """The part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta) at the
+    nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
     change = float(np.max(np.abs(log_viscosity_change)))
     length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
     return length if film_loss * length <= FILM_STEP else FILM_STEP / film_loss

@@ -26,10 +26,10 @@ STARVED = 0.1  # film of a badly starved contact, relative to the square of the 
 
 @dataclass(frozen=True)
 class Problem:
-    """A line contact in its own units, seen along its motion: X points downstream.
+    """A line contact in Moes' units, seen along its motion: X points downstream.
 
-    inlet_length: None or metres upstream of the centre; imposed: a pressure that deflects the film beside its own and
-    carries none of the load; seat: what the film is like then, for grids and starts.
+    inlet_length: None or metres upstream of the centre; imposed: a pressure that deflects the film in addition to its
+    own, and carries none of the load; seat: the cylinder that approximates the gap then, for grids and starts.
     """
 
     contact: LineContact
@@ -74,7 +74,7 @@ class Problem:
 
     @property
     def flat_half_width(self) -> float:
-        """Hertz half-width, in units of x, of own and imposed load together."""
+        """Hertz half-width, in units of x, of the film's own load and the imposed load together."""
         return math.sqrt(8.0 * (self.M + self.imposed_load) / math.pi)
 
     @property
@@ -84,24 +84,25 @@ class Problem:
 
     @property
     def seat_half_width(self) -> float:
-        """Dry half-width, in units of x, of the own load over the gap that the imposed pressure leaves."""
+        """Half-width, in units of x, of the dry contact of the film's own load in the gap that the imposed pressure
+        leaves."""
         return math.sqrt(8.0 * self.M * self.seat.radius / (math.pi * self.seat.modulus))
 
     def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of the imposed pressure at ``X`` (n,), with its derivative by X."""
+        """Deflection by the imposed pressure at ``X`` (n,), and its derivative by X."""
         if self.imposed is None:
             return np.zeros_like(X), np.zeros_like(X)
         return line_deflection(X, self.imposed.x / self.length_unit, self.imposed.pressure / self.pressure_unit)
 
     def alone(self) -> Problem:
-        """The cylinder of the seat, without imposed pressure."""
+        """The problem of the seat's cylinder, without imposed pressure."""
         whole, seat = self.contact, self.seat
         cylinder = replace(whole, radius=whole.radius * seat.radius, e_prime=whole.e_prime * seat.modulus)
         return replace(self, contact=cylinder, imposed=None, seat=Seat())
 
     @property
     def film_guess(self) -> float:
-        """Moes' film, less where the lubricant begins within the length on which a flooded film builds up."""
+        """Moes' film; less if the lubricant begins within the length on which a flooded film builds up."""
         film = seated_film(self.M, self.L, self.seat)
         if self.inlet_length is None:
             return film

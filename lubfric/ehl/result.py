@@ -107,7 +107,7 @@ class EHLResult(Shown, OfLineContact):
         return film_at(self, x)
 
     def imposed_deflection(self, x) -> np.ndarray:
-        """Part of the film [m] at ``x`` [m], any shape, that the imposed pressure makes, up to a constant."""
+        """Part of the film [m] at ``x`` [m], any shape, that is due to the imposed pressure, up to a constant."""
         x = np.asarray(x, dtype=float)
         if self.imposed is None:
             return np.zeros(x.shape)

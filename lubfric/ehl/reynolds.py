@@ -1,19 +1,19 @@
 """Discrete equations of the line contact: residual and Jacobian.
 
-Unknowns ``z`` = pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture
-point e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P,
-whose ``defect`` one undamped Newton step removes: a film interpolated from a coarser grid is a far better
-start than the film of an interpolated pressure. Equations, each made dimensionless by its own scale:
+The unknowns ``z`` are the pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture point
+e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P. One undamped Newton step
+removes the ``defect`` of that equation. This helps because a film that is interpolated from a coarser grid is a far
+better start than the film of an interpolated pressure. The equations, each divided by its own scale, are:
 
-* n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille
-  flow with the logarithmic mean of the fluidity 1/eta (exact for Barus); Couette flow with film and
-  density interpolated third-order upwind, which sees the sawtooth in P that a centred mean would not.
-* inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and
-  P = |X|/3 dP/dX; or P = 0 where the lubricant begins (starved inlet).
-* load, with the tail upstream of the inlet.
-* rupture (Swift-Stieber): P = 0 is built in, dP/dX = 0 means rho H = q at the last node.
+- n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow has the
+  logarithmic mean of the fluidity 1/eta (exact for Barus). Couette flow has film and density interpolated third-order
+  upwind. Such an interpolation sees a sawtooth in P, which a centred mean would not.
+- inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and P = |X|/3 dP/dX; or P = 0 where
+  the lubricant begins (starved inlet).
+- load, with the tail upstream of the inlet.
+- rupture (Swift-Stieber): P = 0 is built in; dP/dX = 0 means rho H = q at the last node.
 
-An imposed pressure adds its deflection, a function of X alone, which the nodes travel through as e moves.
+An imposed pressure adds its deflection. It is a function of X alone, and the nodes move over it as e changes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from .problem import Problem
 
 @dataclass(frozen=True)
 class Terms:
-    """What one evaluation of the residual leaves for the Jacobian."""
+    """The part of an evaluation of the residual that the Jacobian needs."""
 
     P: np.ndarray
     H: np.ndarray
@@ -97,8 +97,8 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian (n + 3, n + 3) with the film eliminated, and what removing the film's defect adds to the
-    residual (n + 3). Fortran order lets LAPACK factorise in place."""
+    """Jacobian (n + 3, n + 3) with the film eliminated, and the change of the residual (n + 3) when the film's defect
+    is removed. Fortran order lets LAPACK factorise in place."""
     n = grid.n
     J = np.empty((n + 3, n + 3), order="F")
     shift = np.zeros(n + 3)

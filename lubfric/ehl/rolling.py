@@ -1,9 +1,9 @@
 """Half of ∫ h dp, the resistance to rolling, from the gap of the undeformed bodies.
 
-A pressure does no work on the deflection it makes itself when it is moved along: the kernel of the half-space is even,
-so ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R + imposed deflection) dp; without the latter the first moment of
-the pressure, -∫ x p dx/R. The sum of h dp is a small difference at high pressure, and takes ten times as many cells for
-the same error.
+The kernel of the half-space is even, so a pressure does no work when it is shifted together with the deflection that it
+causes: ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R + imposed deflection) dp; without an imposed pressure this is
+the first moment of the pressure, -∫ x p dx/R. The direct sum of h dp is a small difference at high pressure, and takes
+ten times as many cells for the same error.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ class Rolling(NamedTuple):
 
 
 def rolling_resistance(problem: Problem, levels: Sequence[Solution]) -> Rolling:
-    """Of the last of ``levels``, solutions on ever finer grids, extrapolated to second order where there are two; the
-    error is that step, or a quarter of the one before where that is larger."""
+    """The rolling force on the last of ``levels``, solutions on ever finer grids; extrapolated to second order if there
+    are two. The error is the step of the extrapolation, or a quarter of the one before if that is larger."""
     unit = problem.pressure_unit * problem.film_unit
     found = [unit * _half_work(problem, solution) for solution in levels[-3:]]
     steps = np.diff(found) / 3.0
@@ -38,7 +38,7 @@ def rolling_resistance(problem: Problem, levels: Sequence[Solution]) -> Rolling:
 
 
 def _half_work(problem: Problem, solution: Solution) -> float:
-    """∫ h dp/2 of a pressure that is linear between the nodes and jumps to zero upstream of the first."""
+    """∫ h dp/2 of a pressure that is linear between the nodes and zero upstream of the first."""
     t = solution.terms
     given = problem.imposed_deflection(t.X)[0]
     square = (t.X[1:] ** 2 + t.X[1:] * t.X[:-1] + t.X[:-1] ** 2) / 6.0

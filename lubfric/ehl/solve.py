@@ -30,8 +30,8 @@ EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow
 
 @dataclass(frozen=True)
 class Effort:
-    """What is asked of the grids, and what may be spent: relative ``tolerance`` of the films (1e-5 to 0.1), cells
-    before rupture that are reached even where the films need fewer, and Newton steps per grid."""
+    """The accuracy asked for and the effort allowed: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
+    rupture that are used even if the films need fewer, and Newton steps per grid."""
 
     tolerance: float = 3e-3
     least_cells: int = 0
@@ -44,7 +44,7 @@ class Effort:
 
     @property
     def cells(self) -> int:
-        """``least_cells``, or the finest grid there is."""
+        """``least_cells``, or the number of cells of the finest grid."""
         return min(self.least_cells, FINEST)
 
 
@@ -69,24 +69,24 @@ def solve_ehl(
 ) -> EHLResult:
     """Film of a smooth line contact: Reynolds' equation, elastic half-spaces, a given load.
 
-    Solved is d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point (Swift-Stieber),
-    h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width, by Newton's method on nested grids
-    (`lubfric.ehl.reynolds`). Checked for Moes' M = 1e-6 to 1000, L = 0 to 20. The cells are doubled until the largest
-    residual of the report (`EHLResult`) is <= tolerance.
+    The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
+    (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
+    Newton's method on nested grids (`lubfric.ehl.reynolds`), and checked for Moes' M = 1e-6 to 1000, L = 0 to 20. The
+    cells are doubled until the largest residual of the report (`EHLResult`) is <= tolerance.
 
     Parameters
     ----------
     load_per_width : > 0 [N/m]
     radius, e_prime : R > 0 [m]; E' > 0 [Pa], 2/E' = sum (1 - nu²)/E
-    entrainment_speed : U = (u1 + u2)/2 [m/s], not 0; negative mirrors the solution
+    entrainment_speed : U = (u1 + u2)/2 [m/s], not 0; a negative one mirrors the solution
     viscosity, pressure_viscosity_coefficient : eta0 at ambient pressure [Pa s]; alpha [1/Pa]
     viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m] upstream of the line of
         centres at which the lubricant begins (starved)
     imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
-        between the x and zero outside, that is added to p in the deflection (kinks cost cells), and carries no load
-    start : the result of a neighbouring load or speed; where it leads nowhere a cold start is taken, and noted
+        between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
+    start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
     least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
     raise_on_failure : False returns an unconverged result with its report
 
@@ -143,7 +143,7 @@ def solve_line_contact(
 
 
 def make_problem(contact: LineContact, inlet_length: float | None, imposed: LinePressure | None = None) -> Problem:
-    """The contact in its own units, along its motion; `InputError` where the lubricant begins inside the dry
+    """The contact in Moes' units, along its motion. Raises `InputError` if the lubricant begins inside the dry
     contact."""
     if imposed is not None and contact.entrainment_speed < 0:
         imposed = imposed.mirrored()
@@ -160,7 +160,7 @@ def make_problem(contact: LineContact, inlet_length: float | None, imposed: Line
 
 
 def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
-    """Two grids, the finer one as fine as the error of ``state`` says is needed, or more."""
+    """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
     n = _coarsest(problem)
     needed = max(effort.cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
     while 2 * n < min(needed, FINEST):
@@ -171,8 +171,7 @@ def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
 def _cold(
     problem: Problem, seats: tuple[Seat, ...], effort: Effort
 ) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
-    """A solution from a cold start: grids from the coarsest up, and from another start or a finer grid where that
-    fails.
+    """A solution from a cold start on grids from the coarsest up; if that fails, from another start or on a finer grid.
 
     Returns the problem on its seat with its solutions, the solutions that led there, and notes.
     """
@@ -193,12 +192,12 @@ def _cold(
 
 
 def _coarsest(problem: Problem) -> int:
-    """Cells of the coarsest grid: more where the inlet is far narrower than the contact."""
+    """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
     return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
 
 
 def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
-    """(cells, seat, doublings of the speed) of one cold start after the other."""
+    """The cold starts to try, one after the other: (cells, seat, doublings of the speed)."""
     grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
     grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
     if len(seats) == 1:
@@ -209,7 +208,7 @@ def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, i
 
 
 def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
-    """Solutions on ``fewest`` or more grids of n, 2n, ... cells until they are as many and as accurate as asked."""
+    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they are as accurate as asked."""
     rupture = rupture_guess(problem)
     levels: list[Solution] = []
     while True:
@@ -225,9 +224,10 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
 
 
 def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
-    """From nothing: rough solutions on n cells while alpha rises from where L = EASY.
+    """The first solution: rough ones on n cells while alpha rises from the value at which L = EASY.
 
-    In place of an imposed pressure: the cylinder of the seat, or a film of a speed doubled so many times."""
+    With an imposed pressure it begins with the cylinder of the seat, or with a speed that is doubled so many times.
+    """
     if doublings:
         return _descent(problem, n, max_steps, doublings)
     if problem.imposed is not None:
@@ -248,7 +248,7 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 
 
 def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
-    """Begin with a thick film, which bridges whatever gap an imposed pressure leaves, and halve the speed again and
+    """Begin with a thick film, which bridges any gap that an imposed pressure leaves, and halve the speed again and
     again."""
 
     def stage_of(k: int) -> Problem:
@@ -278,7 +278,8 @@ def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
 
 
 def _sound(levels: list[Solution]) -> bool:
-    """Whether a solution has converged, and is no root with tension in the film or with the inlet on the wrong side."""
+    """Whether a solution has converged, and is not a root with tension in the film or with the inlet on the wrong
+    side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
     P, X = levels[-1].terms.P, levels[-1].terms.X

@@ -1,4 +1,4 @@
-"""First guesses: from nothing, from a coarser grid, from a solution of a neighbouring problem."""
+"""First guesses: without any solution, from a coarser grid, and from a solution of a neighbouring problem."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def expected_rupture(M: float, L: float, seat: Seat = Seat()) -> float:
 
 
 def rupture_guess(problem: Problem) -> float:
-    """`expected_rupture`, nearer to the centre where a starved film is thin."""
+    """`expected_rupture`, but nearer to the centre if a starved film is thin."""
     expected = problem.seat_centre + expected_rupture(problem.M, problem.L, problem.seat)
     if problem.inlet_length is None:
         return expected
@@ -46,7 +46,7 @@ def rupture_guess(problem: Problem) -> float:
 
 
 def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
-    """A semi-ellipse of the right load that ends at the rupture point, over the expected film: (z, H)."""
+    """(z, H): a semi-ellipse of the right load that ends at the rupture point, and the expected film."""
     film = problem.film_guess
     e = rupture_guess(problem)
     width = np.hypot(problem.half_width, np.sqrt(2.0 * film))
@@ -75,7 +75,7 @@ def solution_state(problem: Problem, solution: Solution, error: float) -> State:
 
 
 def from_alone(problem: Problem, state: State) -> State:
-    """A state of ``problem.alone()`` in the units of ``problem``, as one of this one."""
+    """A state of ``problem.alone()``, in the units of ``problem``, as a state of ``problem``."""
     other = problem.alone()
     pressure, film = other.pressure_unit / problem.pressure_unit, other.film_unit / problem.film_unit
     return State(
@@ -91,7 +91,8 @@ def from_alone(problem: Problem, state: State) -> State:
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H) on a grid of twice the cells; the pressure linear, so that a sharp spike does not ring."""
+    """(z, H) on a grid of twice the cells. The pressure is interpolated linearly, so that a sharp spike does not
+    oscillate."""
     P = solution.terms.P
     fine = np.empty(2 * P.size - 2)
     fine[::2], fine[1::2] = P[:-1], 0.5 * (P[:-1] + P[1:])
@@ -99,7 +100,7 @@ def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """The pressure and film of ``state`` node by node, scaled to the load and by Moes' formula: (z, H)."""
+    """(z, H): pressure and film of ``state`` node by node, scaled to the load and by Moes' formula."""
     P, H = np.append(state.pressure, 0.0), state.film
     while H.size > grid.n + 1:
         P, H = P[::2], H[::2]

@@ -1,4 +1,4 @@
-"""What every film has, and what every level of film does. This is all that an implementer needs to know.
+"""What every film has, and what every level of film does: all that you need to know to write one.
 
 A film is data (`Film`). A level (`FilmLevel`) solves for it and knows what it leaves out. `lubfric.prepare` takes the
 levels to choose from, the simplest first (``film_levels``). A new level is a subclass, here or anywhere, with ``solve``
@@ -26,8 +26,8 @@ class Film(Protocol):
     """A steady film of a smooth line contact, in SI units. Arrays are (n,), x ascending, with the line of centres at 0.
 
     - ``rupture`` [m]: where the pressurised film ends, a node; ``flow_film`` [m]: mass flux/(rho0 |U|); ``load`` [N/m].
-    - ``e_prime`` [Pa]: what it was solved with; ``cells``: of its grid (0: closed form).
-    - ``imposed``: a pressure that deflects the film beside its own.
+    - ``e_prime`` [Pa]: the one with which it was solved; ``cells``: of its grid (0: closed form).
+    - ``imposed``: a pressure that deflects the film in addition to its own.
     """
 
     @property
@@ -63,13 +63,13 @@ class Film(Protocol):
         """Film thickness [m] at any positions ``x`` [m]."""
 
     def imposed_deflection(self, x) -> np.ndarray:
-        """Part of the film [m] at ``x`` [m] that ``imposed`` makes, up to a constant; zero without one."""
+        """Part of the film [m] at ``x`` [m] that is due to ``imposed``, up to a constant; zero without one."""
 
 
 @dataclass(frozen=True)
 class LeftOut:
-    """What a level leaves out: ``parts`` by name. Each is the relative change of the film or of its friction,
-    whichever is larger."""
+    """What a level leaves out: ``parts`` by name. Each is the relative change of the film or of its friction, whichever
+    is larger."""
 
     parts: dict[str, float] = field(default_factory=dict)
 
@@ -82,7 +82,7 @@ class LeftOut:
         return total
 
     def of(self, names: Iterable[str]) -> LeftOut:
-        """Those called ``names`` only."""
+        """Only the parts called ``names``."""
         return LeftOut({name: value for name, value in self.parts.items() if name in names})
 
 
@@ -90,7 +90,7 @@ class LeftOut:
 class FilmLevel:
     """A way to find the film of a `LineContact`.
 
-    name: as in ``numerics.film_level``; words: in `Decision.text`; neglects: names of the parts it leaves out;
+    name: as in ``numerics.film_level``; words: in `Decision.text`; neglects: names of the parts that it leaves out;
     numerical: whether it takes a tolerance and a number of cells (False: closed form).
     """
 
@@ -102,16 +102,16 @@ class FilmLevel:
     def solve(
         self, line: LineContact, *, tolerance: float, cells: int = 0, imposed=None, start: Film | None = None
     ) -> Film:
-        """The film that carries ``line.load_per_width``, to ``tolerance`` (relative) on ``cells`` or more.
+        """The film that carries ``line.load_per_width``, to ``tolerance`` (relative), on at least ``cells`` cells.
 
-        ``imposed``: a line pressure that deflects it too (as in `lubfric.solve_ehl`); ``start``: the film of a
+        ``imposed``: a line pressure that also deflects the film (as in `lubfric.solve_ehl`); ``start``: the film of a
         neighbour, of any level.
         """
         raise NotImplementedError
 
     def left_out(self, film: Film, line: LineContact, allowed: float) -> LeftOut:
-        """What ``film``, which this level found for ``line``, leaves out. Once a part is beyond ``allowed``, the
-        others need not be found."""
+        """What ``film``, which this level found for ``line``, leaves out. Once a part is above ``allowed``, the others
+        need not be found."""
         return LeftOut()
 
     def shear(
@@ -127,7 +127,7 @@ class FilmLevel:
         rolling: Rolling | None = None,
     ) -> ShearForce:
         """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`); ``warm``: with its heat;
-        ``rolling``: of a level whose films know theirs."""
+        ``rolling``: for a level whose films know their rolling force."""
         return shear_force(
             film,
             lubricant,

@@ -1,4 +1,4 @@
-"""The levels of the film, the simplest first, and the lowest one that is enough for a line contact."""
+"""The levels of the film, the simplest first, and the choice of the lowest one that is enough for a line contact."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .shear import ShearForce
 
 @dataclass(frozen=True)
 class Isoviscous(FilmLevel):
-    """Martin's film: no deflection, no rise of the viscosity, no compression."""
+    """Martin's film: no deflection, constant viscosity, no compression."""
 
     name: str = "isoviscous"
     words: str = "rigid isoviscous"
@@ -34,7 +34,7 @@ class Isoviscous(FilmLevel):
         return isoviscous_film(line)
 
     def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
-        """To first order; the piezoviscous part is the difference of the two rigid films."""
+        """To first order; the piezoviscous part is the difference between the two rigid films."""
         elastic, density = elastic_error(film, line.lubricant), compression(film, line.lubricant)
         parts = {"elastic": elastic}
         if elastic + density <= allowed:
@@ -44,7 +44,7 @@ class Isoviscous(FilmLevel):
 
 @dataclass(frozen=True)
 class Piezoviscous(FilmLevel):
-    """The viscosity law of the lubricant: no deflection, no compression."""
+    """The film with the viscosity law of the lubricant: no deflection, no compression."""
 
     name: str = "piezoviscous"
     words: str = "rigid piezoviscous"
@@ -53,7 +53,7 @@ class Piezoviscous(FilmLevel):
     def solve(
         self, line: LineContact, *, tolerance: float, cells: int = 0, imposed=None, start: Film | None = None
     ) -> RigidFilm:
-        """The film to 1e-9 always; only ``line`` is used."""
+        """The film, always to 1e-9; only ``line`` is used."""
         return piezoviscous_film(line)
 
     def left_out(self, film: Film, line: LineContact, allowed: float = math.inf) -> LeftOut:
@@ -63,7 +63,7 @@ class Piezoviscous(FilmLevel):
 
 @dataclass(frozen=True)
 class Elastohydrodynamic(FilmLevel):
-    """Full EHL, on as many cells as the tolerance takes."""
+    """Full EHL, on as many cells as the tolerance needs."""
 
     name: str = "ehl"
     words: str = "full EHL"
@@ -81,7 +81,7 @@ class Elastohydrodynamic(FilmLevel):
         )
 
     def shear(self, film: Film, lubricant: Lubricant, **point) -> ShearForce:
-        """The rolling force as the film itself knows it."""
+        """The shear force, with the rolling force that the film itself knows."""
         return super().shear(film, lubricant, **{"rolling": cast(EHLResult, film).rolling} | point)
 
 
@@ -89,15 +89,15 @@ LEVELS: tuple[FilmLevel, ...] = (Isoviscous(), Piezoviscous(), Elastohydrodynami
 
 
 def higher(levels: Sequence[FilmLevel], level: FilmLevel, other: FilmLevel) -> FilmLevel:
-    """The one of the two that leaves out less."""
+    """The level that leaves out less, of two."""
     return max(level, other, key=levels.index)
 
 
 def given_level(levels: Sequence[FilmLevel], numerics: Numerics) -> FilmLevel | None:
-    """The level that the scene fixes, or None where it is to be chosen.
+    """The level that the scene fixes; None if it is to be chosen.
 
-    It is fixed by name. It is the last one where everything is to be modelled, and where the total pressure deflects
-    the film, since rigid films have no deflection.
+    A level can be fixed by name. The last level is fixed if everything is to be modelled, and if the total pressure
+    deflects the film, since rigid films have no deflection.
     """
     if numerics.film_level != "auto":
         return next(level for level in levels if level.name == numerics.film_level)
@@ -109,8 +109,8 @@ def lowest_level(levels: Sequence[FilmLevel], line: LineContact, allowed: float)
     """The simplest level that leaves out no more than ``allowed`` (relative) of the film of ``line``, and what it
     leaves out.
 
-    Each level is judged by its own film. A level is passed over where it shares a part that the level before was found
-    to leave out too much of. What is left out grows with the load.
+    Each level is judged by its own film. A level is passed over if it leaves out a part that was too large at the level
+    before. What is left out grows with the load.
     """
     found = LeftOut()
     for level in levels[:-1]:

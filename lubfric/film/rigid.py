@@ -1,8 +1,8 @@
-"""The film between rigid surfaces, as an object that can stand in for an `EHLResult`.
+"""The film between rigid surfaces, with the same interface as an `EHLResult`.
 
 ``h = h0 + x²/2R`` with Swift-Stieber rupture, at constant density. In the reduced pressure ``q = ∫ dp eta0/eta(p)``
 Reynolds' equation is the isoviscous one. Its closed form is `lubfric.analytic.rigid.pressure`. The load fixes h0:
-directly without a viscosity law, by one bracketed root with it.
+directly for a constant viscosity, by one bracketed root with a viscosity law.
 """
 
 from __future__ import annotations
@@ -68,8 +68,8 @@ def _all_nodes() -> np.ndarray:
 
 @cache
 def _unit_pressure() -> tuple[np.ndarray, np.ndarray]:
-    """The isoviscous pressure at `unit_nodes`, and the weights of its integral over x/sqrt(2 R h0), the inlet's tail
-    ~ 1/x³ before the first node among them: pure numbers."""
+    """The isoviscous pressure at `unit_nodes`, and the weights of its integral over x/sqrt(2 R h0), which include the
+    inlet's tail ~ 1/x³ before the first node: pure numbers."""
     nodes = unit_nodes()
     cells = np.diff(nodes)
     weight = 0.5 * (np.append(cells, 0.0) + np.append(0.0, cells))
@@ -115,7 +115,7 @@ def _pressure_unit(line: LineContact, h0: float) -> float:
 
 @lru_cache(maxsize=16)
 def true_pressure(lubricant: Lubricant):
-    """p(q) [Pa] of the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest q there is."""
+    """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
     if lubricant.viscosity_law == "constant":
         return np.positive
     alpha = lubricant.pressure_viscosity_coefficient
@@ -132,7 +132,7 @@ def true_pressure(lubricant: Lubricant):
 
 
 def reduced_pressure(lubricant: Lubricant):
-    """q(p) = ∫ dp eta0/eta(p) [Pa] of the lubricant's law: the inverse of `true_pressure`."""
+    """q(p) = ∫ dp eta0/eta(p) [Pa] by the lubricant's law: the inverse of `true_pressure`."""
     if lubricant.viscosity_law == "constant":
         return np.positive
     alpha = lubricant.pressure_viscosity_coefficient

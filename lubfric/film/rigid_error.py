@@ -1,4 +1,4 @@
-"""What a rigid film leaves out, to first order, from the rigid film itself."""
+"""What a rigid film leaves out, to first order, computed from the rigid film itself."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def _unit_deflection() -> tuple[np.ndarray, np.ndarray]:
 
 
 def elastic_error(film: Film, lubricant: Lubricant) -> float:
-    """First-order effect of the elastic deflection of the pressure of a rigid film on `unit_nodes`, at the same load.
+    """First-order effect of the elastic deflection by the pressure of a rigid film on `unit_nodes`, at the same load.
 
     A small change d(x) of the film changes the reduced pressure by dq' = 12 eta0 U ((d - dr)/h³ - 3 (h - hr) d/h⁴),
-    hr the film at rupture and dr such that dq vanishes there; the load by ∫ (eta/eta0) dq dx. d is the deflection
-    plus the shift that leaves the load as it is. Returned: the larger of |d|/h at the centre, and of the change of
-    ∫ eta/h dx. At M -> 0 both are a number times M². Infinite where the viscosity rises above e^50.
+    with hr the film at rupture, and dr such that dq vanishes there. It changes the load by ∫ (eta/eta0) dq dx. d is the
+    deflection plus the shift that keeps the load. Returned is the larger of |d|/h at the centre and the change of ∫
+    eta/h dx. For M -> 0 both are a number times M². Infinite if the viscosity rises above e^50.
     """
     nodes, kernel = _unit_deflection()
     sign = math.copysign(1.0, film.entrainment_speed)
@@ -61,5 +61,5 @@ def elastic_error(film: Film, lubricant: Lubricant) -> float:
 
 
 def compression(film: Film, lubricant: Lubricant) -> float:
-    """Largest rise of the density, relative, that a film of constant density leaves out."""
+    """Largest relative rise of the density, which a film of constant density leaves out."""
     return float(density_ratio(lubricant, film.pressure.max())[0]) - 1

@@ -17,11 +17,11 @@ class ShearForce:
 
     - ``couette``: from the difference of the surface speeds; ``rolling``: from the pressure gradient; ``total``: their
       sum, F_sh of Eq. (10).
-    - ``quadrature``: estimated error of these sums, from two rules. It is large where the nodes do not hold a pressure
+    - ``quadrature``: estimated error of these sums, from two rules. It is large if the nodes do not resolve a pressure
       spike, whatever the error of the film.
     - ``rolling_parts``: at high pressure the rolling force is the small difference of two parts, and this is the larger
-      of them. They are those of rising and of falling pressure. Of a film that knows the force in another way, they are
-      that of the whole film and what the spots take of it. An error of the film reaches the force by that much more.
+      one. The parts are those of rising and of falling pressure. For a film that knows the force in another way, they
+      are that of the whole film and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
@@ -102,17 +102,18 @@ def shear_force(
 
 
 def _above_carried(pressure, tau, lengths, full) -> tuple[float, float]:
-    """Largest stress over what oils carry, and the force per width of all above it where the film is ``full``."""
+    """Largest stress over what oils carry, and the force per width of all stress above it, where the film is
+    ``full``."""
     carried = carried_stress(pressure)
     above = np.maximum(np.abs(tau) - carried, 0.0)
     return float(np.max(np.abs(tau) / carried)), float(np.sum((0.5 * (above[1:] + above[:-1]) * lengths)[full]))
 
 
 def spike_error(x, tau) -> float:
-    """What a sum over nodes may be off by where a spike stands between them.
+    """Possible error of a sum over nodes if a spike stands between them.
 
-    It is an eighth of the second-order error estimate of the sum over every second node. A spike makes that estimate at
-    least eight times as large as the error.
+    It is an eighth of the second-order error estimate from the sum over every second node. A spike makes that estimate
+    at least eight times as large as the error.
     """
     second = (x[::2], tau[::2]), (x[: 2 * ((x.size + 1) // 2) - 1], tau[: 2 * ((x.size + 1) // 2) - 1])
     coarse, fine = (np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(s)) for s, t in second)
@@ -120,7 +121,8 @@ def spike_error(x, tau) -> float:
 
 
 def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
-    """∫ (h/2) dp [N/m] where the film is ``wet``, what an error of the film is felt by, and the error of the sum."""
+    """∫ (h/2) dp [N/m] where the film is ``wet``, the parts by which an error of the film is felt, and the error of the
+    sum."""
     if known is None:
         rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
         parts = max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
@@ -131,8 +133,8 @@ def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
 
 
 def rolling_error(p, h, share) -> float:
-    """A third of the change of ∫ (h/2) share dp when every second node is left out, an error of second order; of
-    ``share`` of the width of each of the n - 1 cells, or of every one."""
+    """A third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
+    ``share``: of the width of each of the n - 1 cells; None: all of it."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     share = np.broadcast_to(share, p.size - 1)[: last - 1]
     shares = share, 0.5 * (share[::2] + share[1::2])

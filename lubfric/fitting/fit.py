@@ -24,21 +24,22 @@ MOST = 30  # curves on the way, beside those of the differences
 
 
 def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None, on_progress=None) -> FitResult:
-    """Find the values of ``parameters`` with which a scene comes closest to a measured curve.
+    """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
 
-    Minimised is ``sum ((f - measured)/deviation)²``, with relative deviations where none are given. The method is a
-    trust region within the bounds (`scipy.optimize.least_squares`, "trf"), with differences of 4 % of the bounds, which
-    stay above the tolerance on f. They are taken anew when the parameters have moved by more than 4 % of their bounds.
-    The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the sum by <= 1e-4 of it.
-    Each point starts from the same point of an earlier curve. `FitResult` says how sure the values are, and
-    `lubfric.explain_fit` says beforehand how long a fit will take.
+    The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. The method is a
+    trust region within the bounds (`scipy.optimize.least_squares`, "trf"). Its derivatives are differences over 4 % of
+    the bounds, which stay above the tolerance on f. They are computed anew when the parameters have moved by more than
+    4 % of their bounds. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
+    sum by <= 1e-4 of it. Each point starts from the same point of an earlier curve. `FitResult` says how sure the
+    values are, and `lubfric.explain_fit` says beforehand how long a fit will take.
 
     Parameters
     ----------
     scene : what is known, with the numerics to be used
     measured : from `lubfric.read_measured`, or `lubfric.Measured(speeds, coefficients)`
     parameters : {"section.key": (lowest, highest)}, numbers of the scene to be found between bounds, in SI units
-    start : {"section.key": value} to begin with; default: the scene's own where they lie within, else the middle
+    start : {"section.key": value} to begin with; default: the scene's own if they lie within the bounds, else the
+        middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     on_progress : called as on_progress(curve, done, total) when ``done`` of the ``total`` points of a curve are solved;
         curves count from 1
@@ -106,8 +107,8 @@ def _told(on_progress: Callable, total: int) -> Callable[[int], None]:
 
 
 class Walk:
-    """The curves of a search, of which only two are kept whole: that which the last differences were taken at, from
-    which the others start, and the last."""
+    """The curves of a search. Two are kept: the one with the last derivatives, from which the others start, and the
+    last."""
 
     def __init__(self, predict: Predictor):
         self._predict = predict
@@ -122,7 +123,7 @@ class Walk:
         return self._last
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """df/d(unit), (n, p), by differences at the curve there, or by the last ones where they were taken near by."""
+        """df/d(unit), (n, p), by differences at the curve there, or the last ones if these were computed near by."""
         if self._base is None or np.abs(unit - self._base.unit).max() > STEP:
             self._base = self.at(unit)
             self._slopes = jacobian(self._predict, self._base, STEP)
@@ -130,7 +131,7 @@ class Walk:
 
 
 def _result(predict: Predictor, scale, search) -> FitResult:
-    """Of a ``search`` whose differences were taken where it ended, or near by."""
+    """The result of a ``search`` whose derivatives were computed where it ended, or near by."""
     residuals, slopes = search.fun, search.jac * scale[:, None]
     f, unit = residuals * scale + predict.measured.coefficient, np.clip(search.x, 0.0, 1.0)
     n, p = slopes.shape

@@ -16,7 +16,7 @@ STEPS = 3  # curves of a search, beside the first and those of the differences
 def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     """What a fit will do and about how long it will take, in words.
 
-    The map is made, and one film is solved as a clock of this machine. No point is solved.
+    The map is made, and one film is solved to time this machine. No point is solved.
 
     Parameters
     ----------

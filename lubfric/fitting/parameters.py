@@ -23,7 +23,7 @@ class Parameters:
 
     @property
     def logarithmic(self) -> np.ndarray:
-        """Which parameters are sought in their logarithm."""
+        """Which parameters are searched in their logarithm."""
         return (self.low > 0) & (self.high >= LOGARITHMIC * np.where(self.low > 0, self.low, 1.0))
 
     def values(self, unit: np.ndarray) -> np.ndarray:

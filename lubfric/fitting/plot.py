@@ -1,4 +1,4 @@
-"""A fit drawn: the curve among the measured points, and the residuals."""
+"""A fit drawn: the curve beside the measured points, and the residuals."""
 
 from __future__ import annotations
 

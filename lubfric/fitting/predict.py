@@ -29,7 +29,7 @@ FREE = ("bodies.boundary_friction_coefficient",)  # of the bodies, which neither
 
 @dataclass(frozen=True)
 class Curve:
-    """The computed curve at a position ``unit`` of the parameters: f (n,), and all that the same points start from for
+    """The computed curve at a position ``unit`` of the parameters: f (n,), and all from which the same points start for
     other values."""
 
     unit: np.ndarray
@@ -42,9 +42,9 @@ class Predictor:
     """f of ``scene`` at the points of ``measured``, for any values of ``parameters``. Each curve is solved to
     ``tolerance``.
 
-    ``like``: a prepared scene whose map and operator or curve serve for all values. None where these depend on the
-    values. ``warm``: whether a point can start from that of other values. ``on_points``: called with the number of
-    points solved of a curve as they end.
+    ``like``: a prepared scene whose map and operator or curve suit all values; None if these depend on the values.
+    ``warm``: whether a point can start from that of other values. ``on_points``: called with the number of solved
+    points of a curve as they end.
     """
 
     scene: Scene
@@ -109,13 +109,13 @@ def _split(order: np.ndarray, executor) -> list[np.ndarray]:
 
 
 def tolerance_of(scene: Scene, measured: Measured) -> float:
-    """The tolerance on f of a fit: as tight as the scatter of the measurement asks for."""
+    """The tolerance on f of a fit: as tight as the scatter of the measurement requires."""
     shares = 0.05 if measured.deviation is None else float(np.median(measured.deviation / np.abs(measured.coefficient)))
     return min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
 
 
 def shares_contact(scene: Scene, parameters: Parameters) -> bool:
-    """Whether one map, and one operator or contact curve, serve for all values of the parameters."""
+    """Whether one map, and one operator or contact curve, suit all values of the parameters."""
     by_curve = scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
     making = (
         (*SHARING, "bodies.load", "bodies.hertz_pressure", "bodies.radius", "bodies.width") if by_curve else SHARING

@@ -1,4 +1,4 @@
-"""What a fit found, and how sure it is."""
+"""The result of a fit, and how sure it is."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ AT_BOUND = 5e-3  # of the bounds
 
 @dataclass(frozen=True, eq=False)
 class FitResult:
-    """Parameters found by `lubfric.fit`, and how well the data tell them.
+    """Parameters found by `lubfric.fit`, and how well the data determine them.
 
-    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p where no deviations are given. A parameter whose 95 %
-    interval is as wide as its bounds is one that the data cannot tell.
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given. The data cannot determine a
+    parameter whose 95 % interval is as wide as its bounds.
 
     Attributes
     ----------
@@ -77,13 +77,13 @@ class FitResult:
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Parameters that the data cannot tell: their 95 % interval is as wide as their bounds."""
+        """Parameters that the data cannot determine: their 95 % interval is as wide as their bounds."""
         reach = self._student * np.sqrt(np.diag(self.unit_covariance))
         return tuple(key for key, r in zip(self.parameters.keys, reach) if not 2 * r < 1.0)
 
     @property
     def at_bounds(self) -> tuple[str, ...]:
-        """Parameters that ended on a bound: the data ask for more than it allows."""
+        """Parameters that ended on a bound: a value beyond it would fit the data better."""
         edge = np.minimum(self.unit, 1.0 - self.unit) < AT_BOUND
         return tuple(key for key, there in zip(self.parameters.keys, edge) if there)
 
@@ -94,7 +94,7 @@ class FitResult:
 
     @property
     def band(self) -> tuple[np.ndarray, np.ndarray]:
-        """(low, high) of f at the measured points: where the computed curve lies with 95 %."""
+        """(low, high): the 95 % band of the computed curve at the measured points."""
         reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
         return self.predicted - reach, self.predicted + reach
 
@@ -108,7 +108,7 @@ class FitResult:
         return bool(distance <= f.ppf(LEVEL, p, n - p))
 
     def explain(self) -> str:
-        """Values, intervals, correlations, and what the data cannot tell."""
+        """Values, intervals, correlations, and the parameters that the data cannot determine."""
         lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
         for key, (low, high) in self.intervals.items():
             told = " - the data cannot tell it" if key in self.undetermined else ""

@@ -54,7 +54,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return filtered(pressure, self.symbol, self.padded, self.workers)
 
     def _under_strip(self, pressure, first: int, last: int) -> np.ndarray:
-        """`apply` where only some rows are loaded."""
+        """`apply` if only some rows are loaded."""
         nx = self.shape[0]
         count = rounded(last - first, nx)
         first = min(first, nx - count)
@@ -62,10 +62,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
 
     def window(self, count: int) -> Strip:
-        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y, made once for every count.
-
-        An exact part of this one, in the same gauge.
-        """
+        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y: an exact part of this one,
+        with the same zero level. Made once for every count."""
         return self._strip(count, count, count - 1)
 
     def _strip(self, count: int, rows: int, farthest: int) -> Strip:
@@ -108,8 +106,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return self._made[key]
 
     def _coarsened(self, factors) -> HalfSpace:
-        """The operator on coarser cells from the low frequencies, which is exact when periodic and close to it when
-        free. With one free axis the kernel is made anew, because its waves end."""
+        """The operator on coarser cells from the low frequencies: exact if periodic, and close to it if free. With one
+        free axis the kernel is made anew, because its waves end."""
         shape = tuple(n // f for n, f in zip(self.shape, factors))
         padded = tuple(m // f for m, f in zip(self.padded, factors))
         spacing = tuple(d * f for d, f in zip(self.spacing, factors))

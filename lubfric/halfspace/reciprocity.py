@@ -1,4 +1,4 @@
-"""A contract every deflection operator keeps, as a function anyone can call."""
+"""A property of every deflection operator, reciprocity, as a function that anyone can call."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""Deflection under a strip of the free axis. Every wave along the periodic axis is followed only as far as it reaches.
+"""Deflection under a loaded strip of the free axis, with every wave along the periodic axis computed only as far as it
+reaches.
 
-A wave k along y decays like exp(-k x). So for all but the longest waves a padded length far below twice the patch
-leaves no image. Waves of similar reach are transformed together.
+A wave k along y decays like exp(-k x). So for all but the longest waves, a padded length far below twice the patch is
+enough for no image to reach the patch. Waves of similar reach are transformed together.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ ROUND = 8  # rows: strips of nearly the same width share their transforms
 
 @dataclass(frozen=True)
 class Group:
-    """Waves ``columns`` of the spectrum, nothing beyond ``reach`` rows, transformed over ``length`` rows."""
+    """Waves ``columns`` of the spectrum, which reach at most ``reach`` rows, transformed over ``length`` rows."""
 
     columns: slice
     reach: int
@@ -28,7 +29,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Strip:
-    """The deflection of ``rows`` of a patch under pressure on ``shape`` = (some of them in a row, all columns)."""
+    """The deflection of ``rows`` of a patch under pressure on ``shape`` = (some neighbouring rows, all columns)."""
 
     shape: tuple[int, int]
     rows: int
@@ -78,7 +79,7 @@ def strip(kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=
 
 
 def _reaches(kernel, negligible: float, farthest: int) -> np.ndarray:
-    """Rows beyond which a wave and all shorter ones do not deflect, never rising from wave to wave."""
+    """Number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to wave."""
     felt = np.abs(kernel[: farthest + 1]) > negligible * np.abs(kernel[0])
     last = felt.shape[0] - 1 - np.argmax(felt[::-1], axis=0)
     return np.maximum.accumulate(last[::-1])[::-1]

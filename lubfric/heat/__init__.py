@@ -1,4 +1,4 @@
-"""Heat of the film: what shearing does to its viscosity, in the inlet and between the bodies."""
+"""Heat of the film: how shearing lowers its viscosity, in the inlet and between the bodies."""
 
 from .conjunction import FilmHeat, Surroundings, heated_film
 from .inlet import InletHeat, inlet_heat

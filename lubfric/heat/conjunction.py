@@ -21,7 +21,7 @@ TOLERANCE = 1e-6  # of the largest rise
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What carries the heat off, and what else makes it.
+    """The bodies that carry the heat away, and other sources of heat.
 
     carried: e1 √u1 + e2 √u2 of the bodies; sliding: u2 - u1 [m/s]; contact_heat (n,) [W/m²] of the contact spots and
     wet (n,), the share of the width that the film covers, at the nodes of the film.
@@ -58,10 +58,10 @@ class FilmHeat:
 
 
 def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surroundings) -> FilmHeat:
-    """One pass: the surfaces as hot as the stress of the unheated film makes them, and the stress of the film between
-    such surfaces.
+    """An upper estimate of the temperatures in one pass: the surfaces as hot as the stress of the unheated film makes
+    them, and the stress of the film between such surfaces.
 
-    They are hotter than in the solution. So the stress of the heated film lies between this stress and the isothermal
+    They are hotter than in the solution, so the stress of the heated film lies between this stress and the isothermal
     one.
     """
     nodes = _nodes(x.size)
@@ -79,7 +79,7 @@ def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *
 
     The heat of film and contact spots makes the surfaces hot (`flash_matrix`, on at most 257 of the nodes). The stress
     is that of the film between such walls (`heated_stress`). Newton's method finds the wall temperatures. It stops when
-    none misses its equation by more than 1e-6 of the largest rise. After 40 steps it raises `ConvergenceError` with the
+    no equation is off by more than 1e-6 of the largest rise. After 40 steps it raises `ConvergenceError` with the
     report.
     """
     nodes = _nodes(x.size)

@@ -1,10 +1,10 @@
 """Flash temperature of the surfaces: moving heat sources on half-spaces.
 
-Two bodies of effusivity e = sqrt(k rho c), which move the same way at u1 and u2, carry off the heat q(x) [W/m²]. Assume
-that the film is too thin to hold a difference of temperature, and that the sources move fast (u b rho c/(2 k) above
-about 5). Then both surfaces follow the same law, and share the heat as e sqrt(u): ``T(x) = 1/(√π (e1 √u1 + e2 √u2))
-∫_{-∞}^{x} q(x')/√(x - x') dx'`` (J. C. Jaeger, Proc. R. Soc. N.S.W. 76 (1942) 203; H. Blok 1937). A slow source is
-cooler than that.
+Two bodies of effusivity e = sqrt(k rho c) move the same way at u1 and u2, and carry away the heat q(x) [W/m²]. Two
+assumptions are made: the film is so thin that both surfaces have the same temperature, and the sources move fast (u b
+rho c/(2 k) above about 5). Then the surfaces share the heat in proportion to e sqrt(u): ``T(x) = 1/(√π (e1 √u1 + e2
+√u2)) ∫_{-∞}^{x} q(x')/√(x - x') dx'`` (J. C. Jaeger, Proc. R. Soc. N.S.W. 76 (1942) 203; H. Blok 1937). A slow source
+is cooler than that.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ FAST = 5.0  # Péclet number u b rho c/(2 k) from which a source moves fast
 
 
 def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
-    """Matrix (n, n), lower triangular, that gives the rise [K] at the nodes ``x`` (n,) [m], rising downstream, from the
-    heat [W/m²] there, linear between them and none upstream. carried: e1 √u1 + e2 √u2 [J/(m² K s^½) (m/s)^½]."""
+    """Matrix (n, n), lower triangular: from the heat [W/m²] at the nodes ``x`` (n,) [m], rising downstream, to the rise
+    [K] there. The heat is linear between the nodes, and zero upstream. carried: e1 √u1 + e2 √u2 [J/(m² K s^½) (m/s)^½].
+    """
     n, step = x.size, np.diff(x)
     behind = np.maximum(x[:, None] - x[None, :], 0.0)  # from a node to those upstream
     far, near = behind[:, :-1], behind[:, 1:]

@@ -1,15 +1,15 @@
-"""Inlet shear heating: how much thinner a film is because its inlet is warmer than the oil around.
+"""Inlet shear heating: the film is thinner because its inlet is warmer than the oil around.
 
 Two published factors, h/h_isothermal over the thermal number ``L = eta0 beta U²/k`` and the slide-roll ratio S:
 
 - P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster, J. B. Schrand, Tribol. Trans. 35 (1992) 269-274,
   doi:10.1080/10402009208982117: ``(1 - 13.2 (p_h/E') L^0.42)/(1 + 0.213 (1 + 2.23 S^0.83) L^0.64)``: used here;
 - W. R. D. Wilson, S. Sheu, J. Lubr. Technol. 105 (1983) 187-188, doi:10.1115/1.3254559, as used by A. V. Olver, H. A.
-  Spikes, Proc. Inst. Mech. Eng. J 212 (1998) 321-332, doi:10.1243/1350650981542137: ``1/(1 + 0.1 (1 + 14.8 S^0.83)
-  L^0.64)``.
+  Spikes, Proc. Inst. Mech. Eng. J 212 (1998) 321-332, doi:10.1243/1350650981542137:
+  ``1/(1 + 0.1 (1 + 14.8 S^0.83) L^0.64)``.
 
-In rolling they agree to some 10 %. Both were fitted near rolling: at S = 2 they differ by up to 100 % (0.47 and 0.27 at
-L = 1), and which is right is not known. What they differ by is told with every factor.
+In rolling they agree to some 10 %. Both were fitted near rolling. At S = 2 they differ by up to 100 % (0.47 and 0.27 at
+L = 1), and which is right is not known. Every factor comes with the difference between the two.
 """
 
 from __future__ import annotations

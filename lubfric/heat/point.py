@@ -1,5 +1,5 @@
-"""Heat of one operating point, as a level. It is modelled where leaving it out would move f by more than its share
-of the tolerance."""
+"""Heat of one operating point, as a level: modelled if leaving it out would change f by more than its share of the
+tolerance."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ NOTHING = 1e-9  # of the film: less heat than that is none
 
 @dataclass(frozen=True)
 class WarmFilm:
-    """What heat does to the shear of a film: its stress, and the viscosity [Pa s] of the inlet it was solved with.
+    """The effect of heat on the shear of a film: its stress, and the viscosity [Pa s] of the inlet with which it was
+    solved.
 
     stress(x, pressure, film): shear stress [Pa] at positions x [m] running downstream; None: isothermal.
     """
@@ -36,7 +37,7 @@ class Heat:
     """Heat of an operating point.
 
     inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
-    temperatures of film and surfaces, relative (an upper estimate where it is left out, ``heated`` None); peclet: u b
+    temperatures of film and surfaces, relative (an upper estimate if they are left out, ``heated`` None); peclet: u b
     rho c/(2 k) of the faster surface.
     """
 
@@ -48,22 +49,22 @@ class Heat:
 
     @property
     def film_factor(self) -> float:
-        """Factor on the film by the heat of the inlet; 1 where that is left out."""
+        """Factor on the film by the heat of the inlet; 1 if that is left out."""
         return self.inlet.factor if self.used and self.inlet is not None else 1.0
 
     @property
     def flash(self) -> float:
-        """Largest rise of the surfaces [K]; 0 where it is left out."""
+        """Largest rise of the surfaces [K]; 0 if it is left out."""
         return self.heated.flash if self.heated else 0.0
 
     @property
     def film(self) -> float:
-        """Largest mean rise of the film over the surfaces [K]."""
+        """Largest mean rise of the film over the surfaces [K]; 0 if it is left out."""
         return self.heated.film if self.heated else 0.0
 
     @property
     def slow(self) -> bool:
-        """Whether the surfaces move too slowly for the flash temperature used. It is too high then."""
+        """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
         return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:
@@ -98,7 +99,7 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
 
 
 def film_lubricant(scene, speed: float) -> Lubricant:
-    """The lubricant that the film is solved with: as viscous as it is in the heated inlet, so that Moes' film is
+    """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
     thinner by the factor of `inlet_at`."""
     found, used = inlet_at(scene, speed)
     if found is None or not used or found.factor > 1 - NOTHING:
@@ -122,8 +123,8 @@ def film_lubricant(scene, speed: float) -> Lubricant:
 
 
 def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | None]:
-    """Heat at ``balance``, and what it does to the shear of its film (None: nothing). ``force``: |f F_T| [N] and
-    ``shear`` (`ShearForce`) without the heat of the film."""
+    """Heat at ``balance``, and its effect on the shear of the film (None: none). ``force``: |f F_T| [N] and ``shear``
+    (`ShearForce`) without the heat of the film."""
     film = balance.film
     if film is None:
         return Heat(), None
@@ -153,7 +154,7 @@ def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | No
 
 
 def _surroundings(scene, balance):
-    """Nodes running downstream, pressure, film there, and what surrounds it."""
+    """Nodes running downstream, pressure and film there, and the `Surroundings`."""
     film, bodies, motion = balance.film, scene.bodies, scene.motion
     speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
     order = np.argsort(film.x * direction)

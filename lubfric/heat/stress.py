@@ -1,16 +1,20 @@
 """Shear stress across a film that heats itself, between walls of a given temperature.
 
-The stress is constant across the film. With the viscosity falling as exp(-beta (T - T_w)) from the walls, heat k T'' =
--tau gamma integrates in closed form for any law gamma = gamma_w(tau) exp(beta (T - T_w)), Newtonian and Ree-Eyring:
-with a = exp(beta (T_middle - T_w)) and G = beta tau gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and
-``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid `lubfric.analytic.nahme`).
+The stress is constant across the film. If the viscosity falls as exp(-beta (T - T_w)) from the walls, the heat equation
+k T'' = -tau gamma integrates in closed form for any law gamma = gamma_w(tau) exp(beta (T - T_w)), Newtonian and
+Ree-Eyring: with a = exp(beta (T_middle - T_w)) and G = beta tau gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)``
+and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid `lubfric.analytic.nahme`).
 
-Over temperature: viscosity by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, S0 from the temperature coefficient (C.
-J. A. Roelands, thesis, Delft 1966), by exp(-beta (T - T0)) for the other laws; Eyring stress ~ T (H. Eyring, J. Chem.
-Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v); limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L.
-Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526-532, doi:10.1115/1.3251731). Both stresses are taken at the mean
-temperature of the film, T_w + tau dU h/(12 k). Linearised about the walls, the viscosity of a film that is tens of
-kelvin hotter in its middle is somewhat too low.
+With the temperature change:
+
+- the viscosity, by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, with S0 from the temperature coefficient (C. J. A.
+  Roelands, thesis, Delft 1966); by exp(-beta (T - T0)) for the other laws;
+- the Eyring stress ~ T (H. Eyring, J. Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v);
+- the limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981)
+  526-532, doi:10.1115/1.3251731).
+
+Both stresses are taken at the mean temperature of the film, T_w + tau dU h/(12 k). Since the viscosity is linearised
+about the walls, it is somewhat too low if the middle of the film is tens of kelvin hotter.
 """
 
 from __future__ import annotations

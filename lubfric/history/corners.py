@@ -13,9 +13,9 @@ LEAST = 1e-4  # of the largest value: what is smaller than it may be missed by a
 def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
     """Times [s] at which a line of straight pieces has to have a corner to follow ``values`` within 1 %.
 
-    Every piece begins at a row and is as long as one straight line from there passes all rows by less than `BEND` of
-    their values (the cone of such lines gets narrower with every row). A jump, a time given twice, begins a new piece.
-    So a smooth wave has some twenty corners a period, however finely it is sampled, and a pulse has all of its own.
+    Every piece begins at a row. It is as long as one straight line from there stays within `BEND` of the values of all
+    rows (the cone of such lines gets narrower with every row). A jump, which is a time given twice, begins a new piece.
+    So a smooth wave has some twenty corners a period, however finely it is sampled, and a pulse keeps all of its own.
     """
     allowed = BEND * np.maximum(np.abs(values), LEAST * np.abs(values).max())
     t, v, miss = times.tolist(), values.tolist(), allowed.tolist()

@@ -31,7 +31,7 @@ class History:
         return self.at(time)
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """Times [s] inside the run, beside the jumps, at which a step ends."""
+        """Times [s] inside the run, other than the jumps, at which a step ends."""
         return ()
 
     def jumps(self, duration: float) -> tuple[float, ...]:
@@ -89,9 +89,8 @@ class Harmonic(History):
 class Table(History):
     """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
 
-    A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table
-    must last as long as the run. A step ends at every corner (`lubfric.history.corners`), so that none leaps over a
-    pulse.
+    A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table must last as
+    long as the run. A step ends at every corner (`lubfric.history.corners`), so that no step passes over a pulse.
     """
 
     times: tuple[float, ...] = ()
@@ -137,8 +136,8 @@ class Table(History):
         return v[i - 1] + (v[i] - v[i - 1]) * (time - t[i - 1]) / (t[i] - t[i - 1])
 
     def _on_a_row(self, time: float, side: str) -> float:
-        """``time`` in the first period, and on the row of the table from which only rounding parts it: 0.1 + 0.2 s is
-        a jump at 0.3 s."""
+        """``time`` in the first period. If it differs only by rounding from a row of the table, it is the time of that
+        row: 0.1 + 0.2 s is a jump at 0.3 s."""
         t = self.times
         near = ROUNDING * max(time, t[-1])
         if self.repeat and time > 0.0:

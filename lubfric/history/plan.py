@@ -43,7 +43,7 @@ class Transient:
 
     @property
     def histories(self) -> tuple[History, ...]:
-        """All that changes."""
+        """The histories of all that changes."""
         given = (self.speed, self.sliding, self.load, self.radius, self.viscosity)
         return tuple(h for h in given if h is not None)
 

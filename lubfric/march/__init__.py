@@ -1,5 +1,5 @@
-"""The march in time that every film with a memory shares.
+"""The integration in time that all films with a memory share.
 
-`bdf`: one step, its local error, and its retry; `course`: from output to output, over the jumps of the histories. What
-is marched is a `Solver`: an implicit step of some equations, given as y' = rate (y - memory).
+`bdf`: one step, its local error, and its repetition; `course`: from output to output, over the jumps of the histories.
+Both work on a `Solver`, which is an implicit step of some equations, given as y' = rate (y - memory).
 """

@@ -1,10 +1,9 @@
 """One step in time: variable-step BDF2 with a local error estimate, started by two backward Euler half steps.
 
-BDF2 differentiates the parabola through the new value and the two before it; seen from one step it is
-backward Euler with another memory: y' = rate (y - memory) (`Memory`). Its
-local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third derivative from the divided difference of four
-values (τ' is the step before τ). A start, and every jump of a history, takes one step as two halves and as a
-whole; their difference is the error.
+BDF2 differentiates the parabola through the new value and the two before it. For one step this is backward Euler with
+another memory: y' = rate (y - memory) (`Memory`). Its local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third
+derivative from the divided difference of four values (τ' is the step before τ). A start, and every jump of a history,
+takes one step as two halves and as a whole; the difference is the error.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of
 
 @dataclass(frozen=True)
 class Memory:
-    """What an implicit step knows of the past: y' = rate (y - film), in 1/s; rate = 0: steady."""
+    """What an implicit step needs of the past: y' = rate (y - film), in 1/s; rate = 0: steady."""
 
     rate: float
     film: np.ndarray
@@ -31,7 +30,7 @@ class Memory:
 
 class Solved(Protocol):
     """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else
-    the next solve starts from. Only a ``status`` of "converged" is marched on."""
+    the next solve starts from. The run continues only from a ``status`` of "converged"."""
 
     @property
     def status(self) -> str: ...
@@ -44,8 +43,8 @@ class Solved(Protocol):
 
 
 class Solver(Protocol):
-    """What is marched. The last of its unknowns z may have any sign; the others are 0 or positive, and stay what they
-    are in the extrapolation that a step starts from."""
+    """The equations of one implicit step. The last of its unknowns z may have any sign; the others are 0 or positive,
+    and keep that when the start of a step is extrapolated."""
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Solved:
         """The state at ``time`` [s] with this memory, from the unknowns ``z``."""
@@ -67,11 +66,11 @@ class Level:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a run has come; it can go on from any.
+    """How far a run has come. It can continue from any progress.
 
     ``levels``: up to three, oldest first, since the last jump; ``step``: the next [s]; ``payload``: what the solver
-    left beside its unknowns. ``steps`` taken and ``rejected``; ``worst``: largest local error so far [of the
-    tolerance]. Of the last step its ``solution``, its ``error``, and whether it ended at an output time.
+    returned beside its unknowns. ``steps`` taken and ``rejected``; ``worst``: largest local error so far, over the
+    tolerance. Of the last step its ``solution``, its ``error``, and whether it ended at an output time.
     """
 
     levels: tuple[Level, ...]
@@ -96,8 +95,8 @@ def started(first: Solved, step: float) -> Progress:
 
 
 def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
-    """One step towards ``until`` [s]. It is halved where it would leave a tiny last step. Where its solve fails, or
-    its error is above ``tolerance``, it is tried again shorter. None: even the shortest step [s] failed."""
+    """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
+    is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
     rejected, step = now.rejected, now.step
     while step >= shortest:
         left = until - now.time
@@ -166,7 +165,8 @@ def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
 
 
 def _extrapolated(old: Level, last: Level, ratio: float) -> np.ndarray:
-    """Unknowns on the line through two levels; what is zero stays so, what is positive keeps `LEAST_LEFT` of itself."""
+    """Unknowns on the line through two levels. Zeros stay zero, and positive ones keep at least `LEAST_LEFT` of their
+    value."""
     guess = last.z + ratio * (last.z - old.z)
     guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], LEAST_LEFT * last.z[:-1]), 0.0)
     return guess

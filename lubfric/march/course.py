@@ -19,8 +19,9 @@ ROUNDING = 1e-13  # relative: times that are closer are one time; below that of 
 
 @dataclass(frozen=True)
 class Plan:
-    """When and how closely: output ``times`` [s], ``stops`` (times at which a step ends, these among them), those that
-    are ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a step."""
+    """The times and the accuracy of a run: output ``times`` [s], ``stops`` (times at which a step ends, these among
+    them), those that are ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a
+    step."""
 
     times: np.ndarray
     stops: tuple[float, ...]
@@ -43,8 +44,8 @@ def checked_times(times) -> np.ndarray:
 
 
 def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
-    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Times that only rounding parts
-    are one: no step is as short as that."""
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Times that differ only by
+    rounding become one, because no step is as short as that."""
     histories, end = tuple(histories), float(times[-1])
     jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
     stops = np.union1d(times, jumps)
@@ -53,8 +54,8 @@ def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, 
 
 
 def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
-    """The times ``found`` [s], rising, each on the one of ``known``, or on the one before it, from which only rounding
-    parts it."""
+    """The times ``found`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
+    it, is replaced by that."""
     times = np.unique(np.array(found, float))
     times = times[np.diff(times, prepend=-np.inf) > ROUNDING * np.abs(times)]
     right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
@@ -65,7 +66,7 @@ def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
-    time is before ``plan.end``.) A run can go on from any progress, so the caller needs to keep nothing else."""
+    time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
             found = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
@@ -78,7 +79,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
 
 
 def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, float]) -> Report:
-    """Of a run: ``residuals``, each over its tolerance, beside "step", the largest accepted local error."""
+    """The report of a run: ``residuals``, each over its tolerance, and "step", the largest accepted local error."""
     residuals = {"step": now.worst} | residuals
     status = CONVERGED if now.time >= plan.end else STAGNATED
     if status == CONVERGED and not max(residuals.values()) <= 1.0:

@@ -114,7 +114,7 @@ def grade_viscosity(grade: str) -> float:
 
 
 def _viscosity(name: str, value: float) -> float:
-    """A checked kinematic viscosity [m²/s]. The error says so where mm²/s were likely meant."""
+    """A checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         raise InputError(

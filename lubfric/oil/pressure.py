@@ -1,11 +1,12 @@
 """Pressure-viscosity coefficient: estimates from the viscosity, each with the range in which measured oils lie.
 
-No estimate knows the oil. So a range is given with it: that of measured coefficients over the estimate, widened to
-round numbers. The oils measured are 13 mineral oils at 30, 60 and 100 °C (Stachowiak and Batchelor, Engineering
-Tribology, Table 2.3; `tests/oil` holds them), glycols and esters of the same table, and polyalphaolefins.
+An estimate cannot tell oils of the same viscosity apart, so it comes with a range: measured coefficients over the
+estimate, widened to round numbers. The measured oils are 13 mineral oils at 30, 60 and 100 °C (Stachowiak and
+Batchelor, Engineering Tribology, Table 2.3; `tests/oil` has them), glycols and esters of the same table, and
+polyalphaolefins.
 
-The coefficient wanted is the slope d ln(eta)/dp at ambient pressure. Published fits often give a mean slope up to some
-0.2 GPa, which is lower.
+The coefficient is the slope d ln(eta)/dp at ambient pressure. Published fits often give a mean slope up to some 0.2
+GPa, which is lower.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
 
 
 def checked_temperature(temperature: float, name: str = "temperature") -> float:
-    """``temperature`` [K], checked to be one that an oil can have. The error says so where °C were likely meant."""
+    """``temperature`` [K], checked to be possible for an oil. The error says so if °C were likely meant."""
     likely = isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]
     hint = f"°C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K" if likely else ""
     try:

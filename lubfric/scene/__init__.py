@@ -1,4 +1,4 @@
-"""What is asked: bodies, lubricant, motion, roughness and numerics, typed, frozen and validated."""
+"""The scene: bodies, lubricant, motion, roughness and numerics, typed, frozen and validated."""
 
 from ..roughness import Roughness
 from .bodies import Bodies

@@ -73,7 +73,7 @@ class Bodies(Brief):
 
     @property
     def strip_rise(self) -> float:
-        """b²/(6 R) [m]: what the undeformed cylinder rises over the Hertz strip, on average."""
+        """b²/(6 R) [m]: the mean rise of the undeformed cylinder over the Hertz strip."""
         return self.half_width**2 / (6 * self.radius)
 
     @property

@@ -14,8 +14,8 @@ from ..short_forms import resolve, short_keys
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:
-    """``old`` with the fields in the dict ``values``. ``values`` may also be a whole section, which then takes the
-    place of ``old``."""
+    """``old`` with the fields in the dict ``values``. ``values`` may also be a whole section, which then replaces
+    ``old``."""
     kinds: dict[str, type] = {"name": str, "transient": Transient, "counterface": Roughness}
     kind: Any = kinds.get(section, type(old))
     if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):

@@ -18,7 +18,7 @@ ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 
 @dataclass(frozen=True, repr=False)
 class ContactDomain(Brief):
-    """The part of the contact that is resolved, and how the two models meet on it.
+    """The part of the contact that is resolved, and how film and contact are compared on it.
 
     Attributes
     ----------
@@ -26,10 +26,10 @@ class ContactDomain(Brief):
         flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1)
     region : area A of the volume balance, Eq. (8): "hertz", the strip |x| <= b of the total load, or "box", the whole
         patch
-    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. A measured map keeps its own grid where they are
-        left out
-    model : "half-space": every point of the surface, with interaction; "summits" or "patches": independent Hertz
-        contacts (`lubfric.asperity`)
+    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are left out, a measured map keeps its own
+        grid
+    model : "half-space": every point of the surface may carry load, and deforms all others; "summits" or "patches":
+        independent Hertz contacts (`lubfric.asperity`)
     asperity_separation : how the film sets the separation of independent asperities: "volume" (Eq. 8 without
         deflection) or "mean-plane" (the mean film itself)
     """

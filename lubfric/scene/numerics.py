@@ -1,4 +1,4 @@
-"""How exactly a scene is solved, and with what."""
+"""How exactly a scene is solved, and by which methods."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ class Tolerances:
 
 @dataclass(frozen=True, repr=False)
 class Numerics(Brief):
-    """How accurately, and how much, a scene is solved. Tolerances are relative.
+    """How exactly a scene is solved, and what is modelled. Tolerances are relative.
 
     Attributes
     ----------
-    tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it where they are
-        left out (`tolerances`)
+    tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
+        out (`tolerances`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
     sampling : the surface that is solved: "line", a line of the scene's roughness as long as ``sampling_tolerance``
-        asks (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
+        needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite line may leave
     closure : "load": contact solved at F_T - F_H, volume balanced; "separation": the paper's way, film imposed on the
         contact, loads balanced; "one-way": one film in the dry contact's own gap
     film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
-        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total"). "auto": the first where that changes
-        f by less than its share of the tolerance, else the second
+        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total"). "auto": the first if the second
+        changes f by less than its share of the tolerance, else the second
     model : "auto": no more than the tolerance needs (docs/levels.md); "full": everything, on the scene's own grid;
         "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md)
     film_level, contact_level, grid : a level given by name instead of "auto"
-    heat : whether the heat of inlet, film and surfaces is modelled: "auto" (where it matters, and the lubricant says
-        how its viscosity falls with the temperature), "on", "off"
+    heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
+        its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
     workers : threads of the Fourier transforms

@@ -1,4 +1,4 @@
-"""Which scenes a film in a resolved rough gap takes."""
+"""Which scenes the models that resolve the rough gap can solve."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ HEAT = ("auto", "off")
 
 
 def resolves_gap(scene: Scene) -> bool:
-    """Whether the gap is resolved: one pressure in it, or one-way load sharing."""
+    """Whether the rough gap is resolved: the deterministic model, or one-way load sharing."""
     return scene.numerics.model == "deterministic" or scene.numerics.closure == "one-way"
 
 
 def check_resolved_gap(scene: Scene) -> None:
-    """Raise `InputError` for what a film in a resolved gap does not take."""
+    """Raise `InputError` for keys that a model with a resolved gap does not take."""
     one_way = scene.numerics.model != "deterministic"
     asked = "numerics.closure = 'one-way'" if one_way else "numerics.model = 'deterministic'"
     instead = "numerics.closure = 'load'" if one_way else "numerics.model = 'auto'"

@@ -51,9 +51,9 @@ class Scene(SceneShown):
             )
 
     def with_(self, **sections) -> Scene:
-        """A copy with fields of sections replaced: ``scene.with_(bodies={"load": 10.0})``.
+        """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 
-        The short forms of scene files serve as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
+        The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
         changed = {}
         for section, values in sections.items():
@@ -67,7 +67,7 @@ class Scene(SceneShown):
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
-        once, in whatever order they stand: a Hertz pressure is that with the radius beside it."""
+        once, in any order: a Hertz pressure is that with the radius given beside it."""
         whole = {key: value for key, value in values.items() if "." not in key}
         sections = {key: dict(value) for key, value in whole.items() if isinstance(value, dict)}
         for key, value in values.items():
@@ -90,7 +90,7 @@ class Scene(SceneShown):
 
 
 def _dotted(key: str, value) -> str:
-    """How to write what a key with its section in front, such as ``numerics.tolerance``, was meant to say."""
+    """How to write what a dotted key, such as ``numerics.tolerance``, was meant to say."""
     section, _, name = key.partition(".")
     return f"; write with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 

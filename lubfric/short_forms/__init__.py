@@ -1,4 +1,4 @@
-"""Short forms of a scene: what stands on a drawing or an oil can becomes the fields of its sections.
+"""Short forms of a scene: the numbers on a drawing or an oil can become the fields of its sections.
 
 Scene files and `Scene.with_` share them. `resolve` takes what was given for a section, and the section as it was (None
 for a file). It returns the plain fields of the section.
@@ -14,14 +14,14 @@ BEFORE = {"numerics": {"ehl_tolerance": "film_tolerance"}}  # names that keys ha
 
 
 def short_keys(section: str) -> tuple[str, ...]:
-    """Keys of a section that are no fields of it."""
+    """Keys of a section that are not fields of it."""
     return SECTIONS[section].KEYS if section in SECTIONS else tuple(BEFORE.get(section, ()))
 
 
 def resolve(section: str, given: dict, old=None) -> dict:
-    """Plain fields of ``section`` for what was ``given``; ``old``: the section to be changed, None for a new one.
+    """Plain fields of ``section`` from what was ``given``; ``old``: the section to be changed, None for a new one.
 
-    Raises `InputError` where two keys say the same thing, one is missing its partner, or a value is out of range.
+    Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
     if section in SECTIONS:
         return SECTIONS[section].resolve(dict(given), old)

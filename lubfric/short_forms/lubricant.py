@@ -63,7 +63,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
 
 
 def _own_coefficient(old) -> dict:
-    """The temperature coefficient of the lubricant before, where it was given and is not that of its oil."""
+    """The temperature coefficient of the lubricant before, if it was given and is not that of its oil."""
     if getattr(old, "oil", None) is None:
         return {}
     of_oil = old.oil.temperature_coefficient(old.temperature)
@@ -81,8 +81,7 @@ def _kelvin(celsius) -> float:
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:
-    """The oil that ``source`` names. It keeps the properties of the one ``before``, and what ``source`` does not say
-    is as it was."""
+    """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
     only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
     kept = _kept(before)

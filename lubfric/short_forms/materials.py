@@ -41,5 +41,5 @@ MATERIALS = {
 
 
 def material(name: str) -> Material:
-    """The named material; an error lists those there are."""
+    """The named material; an error lists the known ones."""
     return MATERIALS[validate.choice("bodies.material", name, tuple(MATERIALS))]

@@ -6,7 +6,7 @@ from ..errors import InputError
 
 
 def pair(name: str, value, unit: str) -> tuple:
-    """A list or tuple of two, one a body."""
+    """A list or tuple of two values, one for each body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise InputError(f" = {value!r} must be a pair, one value a body [{unit}]", name)
     return tuple(value)

@@ -1,4 +1,4 @@
-"""Results for eyes: one line, a small table in notebooks, axes to draw on."""
+"""How results are shown: one line, a small table in notebooks, and drawings on axes."""
 
 from .shown import Shown
 

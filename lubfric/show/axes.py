@@ -1,4 +1,4 @@
-"""Results drawn on axes: one's own, or new ones of pyplot."""
+"""Results drawn on given axes, or on new ones of pyplot."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def axes_or_new(ax):
 
 
 def curve_axes(curve, ax=None, **style):
-    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; where it chose
-    its speeds, as interpolated."""
+    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
+    it chose its speeds."""
     axes = axes_or_new(ax)
     good = np.isfinite(curve.coefficient) & (curve.speed != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(curve.speed[good]))]

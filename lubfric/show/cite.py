@@ -1,4 +1,4 @@
-"""The papers behind a result: what was used is what is cited."""
+"""The papers behind a result: those of the methods that it used."""
 
 from __future__ import annotations
 

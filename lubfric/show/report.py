@@ -1,4 +1,4 @@
-"""A run as one HTML page that needs nothing else: inputs, decision, validity, uncertainty, curve, maps, provenance."""
+"""A run as one HTML page that needs no other file: inputs, decision, validity, uncertainty, curve, maps, provenance."""
 
 from __future__ import annotations
 

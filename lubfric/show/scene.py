@@ -1,4 +1,4 @@
-"""A scene for eyes: its main numbers in a line, its keys with their units in a table."""
+"""How a scene is shown: its main numbers in a line, its keys with their units in a table."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MANY = 8  # values of a list that are shown
 
 
 class SceneShown(Shown):
-    """How a `lubfric.Scene` prints. The fields are those of it."""
+    """How a `lubfric.Scene` prints. Its fields are those of the scene."""
 
     name: str
     bodies: Any

@@ -1,5 +1,5 @@
-"""How a result prints: one line, and a table where the reader is a notebook; and a part of a scene: without the fields
-that are as they are by default."""
+"""How a result prints: one line, and a table in notebooks; and how a part of a scene prints: without the fields that
+have their defaults."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def table(facts: dict[str, str], title: str) -> str:
 
 
 class Brief:
-    """A dataclass that prints as the call that makes it, its defaults left out."""
+    """A dataclass that prints as the call that makes it, without its defaults."""
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name}={value!r}" for name, value in changed(self).items())
@@ -36,7 +36,7 @@ class Brief:
 
 
 def changed(part: Any) -> dict[str, Any]:
-    """The fields of a dataclass that are not as they are by default, by name."""
+    """The fields of a dataclass that differ from their defaults, by name."""
     values = {f.name: (getattr(part, f.name), _default(f)) for f in fields(part)}
     return {name: value for name, (value, default) in values.items() if default is MISSING or value != default}
 

@@ -1,9 +1,9 @@
-"""Frozen dataclasses as plain data and arrays, and back. There is no pickle, so nothing in a file can run code.
+"""Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
 
-A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array ``{"array": [dtype, shape, order,
-place]}``, a number that is not finite ``{"float": "nan"}``. Tuples become lists, lists ``{"list": [...]}``, dicts
-``{"dict": {...}}``. Floats keep every bit. In the file the length of this tree stands first, then the tree, then the
-arrays. Each array stands there once, however often the tree names it.
+A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array
+``{"array": [dtype, shape, order, place]}``, a number that is not finite ``{"float": "nan"}``. Tuples become lists,
+lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats keep every bit. The file begins with the length of this
+tree; then come the tree and the arrays. Each array is stored once, however often the tree names it.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Arrays:
         self._end = 0
 
     def put(self, array: np.ndarray) -> list:
-        """Add ``array`` where it is not there yet. Returns [dtype, shape, order, place in bytes]."""
+        """Add ``array`` unless it is there already. Returns [dtype, shape, order, place in bytes]."""
         if id(array) not in self._places:
             if array.dtype.hasobject:
                 raise TypeError(f"an array of {array.dtype} cannot be stored")

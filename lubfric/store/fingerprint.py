@@ -1,4 +1,4 @@
-"""What a number depends on, as one hash."""
+"""A hash of all that a number depends on."""
 
 from __future__ import annotations
 

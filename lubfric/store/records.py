@@ -23,11 +23,11 @@ class Records:
     """Records by key in ``folder``: any number of processes may add, each to its own file, while others read.
 
     A line is ``<checksum> {"key": ..., "value": ...}`` in strict JSON. Lines are only ever added. When `add` returns,
-    the system has the line, and keeps it whatever becomes of this process.
+    the operating system has the line, and keeps it whatever happens to this process.
 
     Lines are forced to the disk by `close`, and by the first line that is added a second or more after the last
-    forcing. A loss of power can take the lines since then. A line that was cut or overwritten fails its checksum and
-    counts as absent.
+    forcing. A loss of power can take the lines since then. A line that was cut off or overwritten fails its checksum
+    and counts as absent.
     """
 
     def __init__(self, folder):
@@ -55,7 +55,7 @@ class Records:
                 raise
 
     def read(self) -> Iterator[tuple[str, dict]]:
-        """Every whole record as (key, value), each key once: the first found."""
+        """Every undamaged record as (key, value), each key once: the first found."""
         seen = set()
         for path in sorted(self.folder.glob("*.jsonl")):
             with saying(f"{path} was not read"), path.open("rb") as file:
@@ -92,8 +92,8 @@ class Records:
 
 
 def growth(folder) -> Callable[[], int]:
-    """A function that counts the lines that were added to the records in ``folder`` since this call. It reads only what
-    is new, and does not look at what the lines say."""
+    """A function that counts the lines added to the records in ``folder`` since this call. It reads only new bytes, and
+    does not look at what the lines say."""
     ends = {path: path.stat().st_size for path in Path(folder).glob("*.jsonl")}
     count = 0
 

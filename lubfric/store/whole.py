@@ -17,10 +17,10 @@ PART = ".part-"  # begins the name of a file that is being written
 
 def write_whole(path, *content, sync: bool = True) -> None:
     """Replace ``path`` by ``content``, bytes in one or several pieces. Whoever reads the file, even after a kill, sees
-    the old one or the new one, whole.
+    either the old one or the new one, complete.
 
-    ``sync=False`` leaves it to the system when the disk gets it, for what a loss of power may take. Raises as
-    `whole_file`.
+    ``sync=False`` leaves it to the operating system when the disk gets it, for what may be lost with the power. Raises
+    as `whole_file`.
     """
     with whole_file(path, sync=sync) as part:
         with part.open("wb", buffering=0) as file:
@@ -62,7 +62,7 @@ def whole_file(path, *, sync: bool = True):
 
 
 def write_checked(path, *content, sync: bool = True) -> None:
-    """`write_whole`, with a checksum in front that `read_checked` asks for."""
+    """`write_whole`, with a checksum in front for `read_checked`."""
     found = hashlib.sha256()
     for piece in content:
         found.update(piece)
@@ -70,7 +70,7 @@ def write_checked(path, *content, sync: bool = True) -> None:
 
 
 def read_checked(path) -> bytes | None:
-    """What `write_checked` wrote, or None where the file was cut or overwritten since."""
+    """What `write_checked` wrote, or None if the file has been cut off or overwritten since."""
     with saying(f"{path} was not read"):
         data = Path(path).read_bytes()
     content = data[HEAD:]
@@ -91,7 +91,7 @@ def saying(what: str):
 
 
 def clear_parts(folder) -> None:
-    """Remove what killed writers left half written in ``folder``. Only the holder of its lock may do this."""
+    """Remove the half-written files of killed writers in ``folder``. Only the holder of its lock may do this."""
     for path in Path(folder).glob(f"{PART}*"):
         path.unlink(missing_ok=True)
 

@@ -1,4 +1,4 @@
-"""Many operating points: planned, spread over any executor, kept as they end, read as tables."""
+"""Many operating points: planned, spread over any executor, saved as they end, and read as tables."""
 
 from .plan import StudyPlan, plan_study
 from .result import StudyResult, open_study

@@ -1,4 +1,4 @@
-"""A Stribeck curve at speeds that it chooses itself: where it begins, and which comes next."""
+"""A Stribeck curve that chooses its speeds: the first ones, and the next one."""
 
 from __future__ import annotations
 
@@ -19,23 +19,21 @@ DECIDED = CLEARANCE, STEEPNESS = "clearance", "steepness"  # what an interpolati
 
 
 def begin_with(prepared: Prepared, wanted=()) -> list[float]:
-    """The speeds [m/s] that do not depend on any result, the ``wanted`` ones among them, fastest first."""
+    """The speeds [m/s] that do not depend on any result, including the ``wanted`` ones, fastest first."""
     return sorted({*first_speeds(prepared.scene, prepared.surface.sq), *wanted}, reverse=True)
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """The tolerance on f between the points of a curve.
-
-    It is that on f. On a line of a rough surface neighbouring points may be solved on different lengths of it. There it
-    is the root sum of squares of that on f and the sampling tolerance.
-    """
+    """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
+    points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
+    sampling tolerance."""
     numerics = prepared.scene.numerics
     return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 
 
 def choose(prepared: Prepared, speeds: list[float], outcomes: list) -> float | None:
-    """The next speed [m/s] after those that have these ``outcomes``, or None where the curve is known or too few of
-    them are solved."""
+    """The next speed [m/s] after those with these ``outcomes``, or None if the curve is known or too few of them are
+    solved."""
     good = [o for o in outcomes if isinstance(o, FrictionResult)]
     if len(good) < FEWEST:
         return None
@@ -45,7 +43,7 @@ def choose(prepared: Prepared, speeds: list[float], outcomes: list) -> float | N
 
 
 def samples_of(points: list[FrictionResult]) -> Samples:
-    """What an interpolation needs of solved points, by ascending speed."""
+    """The `Samples` of solved points, by ascending speed."""
     points = sorted(points, key=lambda point: abs(point.speed))
     names = ("contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
     columns = {name: np.array([getattr(p, name) for p in points]) for name in names}
@@ -54,7 +52,7 @@ def samples_of(points: list[FrictionResult]) -> Samples:
 
 
 def samples_at(speed: np.ndarray, columns: dict[str, np.ndarray]) -> Samples:
-    """The same at ascending speeds [m/s], of the numbers of their points by name."""
+    """The `Samples` at ascending speeds [m/s], from the numbers of their points by name."""
     total = columns["contact_load"] + columns["film_load"]
     boundary = columns["boundary_force"] / total
     return Samples(

@@ -1,8 +1,8 @@
-"""What a point will cost, foretold from closed forms and two clocks of this machine.
+"""A forecast of what a point will cost, from closed forms and two timings on this machine.
 
-The time of a point is that of its films and of the transforms of its contact. How many there are depends on Moes' film
-of the whole load over Sq; the counts come from the built-in scenes. On a long line the transforms grow with the length
-that `lubfric.lines.outlook` foretells.
+The time of a point is that of its films and of the transforms of its contact. Their number depends on Moes' film of the
+whole load over Sq; the counts come from the built-in scenes. On a long line the transforms grow with the length that
+`lubfric.lines.outlook` predicts.
 """
 
 from __future__ import annotations
@@ -58,12 +58,12 @@ class Ground:
 
 
 def by_curve(scene: Scene) -> bool:
-    """Its contact is read from one periodic contact curve."""
+    """Whether its contact is read from one periodic contact curve."""
     return scene.contact.geometry == "flat" or scene.numerics.contact_level == "flat"
 
 
 def ground_of(scene: Scene, curve: bool) -> Ground:
-    """The `Ground` of ``scene``, whose map is made for it. Raises `InputError` where it cannot be made."""
+    """The `Ground` of ``scene``, whose map is made for it. Raises `InputError` if that is not possible."""
     surface = contact_map(scene)
     if not takes_line(scene):
         return Ground(surface.sq, surface.shape, _transform(surface.shape), curve=curve)
@@ -79,7 +79,7 @@ def mean_speed(speeds: Iterable[float]) -> float:
 
 
 def in_words(seconds: float) -> str:
-    """A foretold time, with the unit that suits it."""
+    """A predicted time, in a suitable unit."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds > 2 * size:
             return f"{float(f'{seconds / size:.2g}'):g} {unit}"
@@ -87,7 +87,7 @@ def in_words(seconds: float) -> str:
 
 
 def film_clock(scene: Scene, speed: float) -> float:
-    """Processor seconds of one film of ``scene``, solved here."""
+    """Processor seconds of one film of ``scene``, which is solved for that."""
     contact = scene.line_contact(abs(speed))
     begun = time.process_time()
     for _ in range(REPEATS):

@@ -12,7 +12,7 @@ MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line b
 
 
 def curves_axes(result, ax=None, **style):
-    """See `StudyResult.plot`: points where they are solved; between chosen ones, as interpolated."""
+    """See `StudyResult.plot`: points where they are solved, and the interpolated curve if a curve chose its speeds."""
     axes = axes_or_new(ax)
     indices = list(np.ndindex(*result.status.shape[:-1]))
     shown = [indices[i] for i in np.unique(np.linspace(0, len(indices) - 1, min(MOST, len(indices))).astype(int))]

@@ -22,10 +22,10 @@ LISTED = 4  # values of a key that are named one by one
 
 
 def explain(plan, store=None) -> str:
-    """The points of a `StudyPlan`, what they share, how many of them the folder ``store`` holds already, and the
+    """The points of a `StudyPlan`, what they share, how many of them the folder ``store`` has already, and the
     predicted cost and disk of the rest, in words.
 
-    The maps are made, and one film is solved as a clock of this machine. No point is solved.
+    The maps are made, and one film is solved to time this machine. No point is solved.
     """
     maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
     about = "" if plan.speeds else "about "
@@ -55,7 +55,7 @@ def explain(plan, store=None) -> str:
 
 
 def _kept(plan, known, store) -> list[str]:
-    """How much of the plan the store holds, where it holds any of it."""
+    """How much of the plan the store has, if any."""
     keys = set(plan.keys().flat)
     held = len(keys & known.keys())
     what = "points" if plan.speeds else "curves"
@@ -73,7 +73,7 @@ def _foretold(plan, seconds: float) -> str:
 
 
 def _left(batch: Batch, known) -> list[tuple[Scene, tuple[float, ...]]]:
-    """Scene and speeds [m/s] of what is left of the walks of a batch; no speeds where a walk chooses them."""
+    """Scene and remaining speeds [m/s] of the walks of a batch; no speeds if a walk chooses them."""
     left = [(walk, tuple(u for u, key in zip(walk.speeds, walk.keys) if key not in known)) for walk in batch.walks]
     return [(walk.scene, speeds) for walk, speeds in left if not walk.ended(known)]
 
@@ -105,8 +105,7 @@ def _costs(plan, known: dict[str, Any] | None = None) -> tuple[int, float, list[
 
 
 def _points(walks: list[tuple[Scene, Ground, tuple[float, ...]]]) -> float:
-    """Processor seconds of the points of some walks, at their speeds [m/s], which are empty where each chooses its
-    own."""
+    """Processor seconds of the points of some walks, at their speeds [m/s]; no speeds if each chooses its own."""
     scene, ground, speeds = walks[len(walks) // 2]
     film = film_clock(scene, mean_speed(speeds or first_speeds(scene, ground.sq)))
     found = 0.0
@@ -122,7 +121,7 @@ def _count(things, name: str) -> str:
 
 
 def _range(values: tuple) -> str:
-    """The values of a key: one by one where they are few, else the smallest and the largest, or first and last."""
+    """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
     if len(values) <= LISTED:
         return ", ".join(map(_short, values))
     if all(isinstance(value, Real) for value in values):

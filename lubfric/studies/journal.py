@@ -1,5 +1,4 @@
-"""What is kept on disk of points while they are solved: each finished one at once, and what its neighbours start
-from."""
+"""The points on disk while a study is solved: each finished one at once, with all that its neighbours start from."""
 
 from __future__ import annotations
 
@@ -21,8 +20,8 @@ SPEED = "speed"  # in a record
 
 
 class Point(NamedTuple):
-    """A point that has ended: its speed [m/s] and its `FrictionResult` or error. Without an outcome, the mark that a
-    walk which chose its speeds has ended."""
+    """A point that has ended: its speed [m/s] and its `FrictionResult` or error. Without an outcome it marks the end of
+    a walk that chose its speeds."""
 
     key: str
     speed: float = math.nan
@@ -40,8 +39,8 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Failure:
-    """A point without an answer, as it is stored. ``error``: the name of its exception. The other fields are those
-    of it."""
+    """A point without an answer, as it is stored. ``error``: the name of its exception; the other fields are the
+    exception's."""
 
     error: str
     message: str
@@ -51,10 +50,11 @@ class Failure:
 
 
 class Journal:
-    """The folder of a store, as one process writes it; without a folder (`NOWHERE`) nothing is kept, and nothing found.
+    """The folder of a store, as one process writes it. Without a folder (`NOWHERE`) nothing is saved and nothing found.
 
-    A point is first put whole into a file of its own, its state, then as one line into the records. So a kill at any
-    moment leaves a record for each state but, at most, the last. That one is the point whose record is missing.
+    A point is first written whole to a file of its own, its state, and then as one line to the records. So after a kill
+    at any moment there is a record for each state except, at most, the last, which is the point whose record is
+    missing.
     """
 
     def __init__(self, folder):
@@ -69,12 +69,12 @@ class Journal:
             self._records.close()
 
     def records(self) -> dict[str, dict]:
-        """Every whole record by key."""
+        """Every undamaged record by key."""
         return {} if self._records is None else dict(self._records.read())
 
     def point(self, key: str, records: dict[str, dict], wanted) -> Point | None:
-        """The point ``key`` as ``records`` hold it, with its fields if its speed is ``wanted``; None where it is not
-        whole."""
+        """The point ``key`` from ``records``, with its fields if its speed is ``wanted``; None if it is not
+        complete."""
         record = records.get(key)
         if record is None:
             return None
@@ -86,14 +86,14 @@ class Journal:
         return None if outcome is None else Point(key, outcome.speed, outcome)
 
     def add(self, point: Point) -> Point:
-        """Add the record of a point, which is given back."""
+        """Add the record of a point, and return it."""
         if self._records is not None:
             self._records.add(point.key, point.record)
         return point
 
     def keep(self, key: str, speed: float, outcome, fields: bool = False) -> Point:
-        """Keep an ``outcome`` with all that a neighbour starts from. Returns the point without that; with ``fields``,
-        these are kept too, and stay in it."""
+        """Save an ``outcome`` with all that a neighbour starts from. Returns the point without that. With ``fields``,
+        these are saved too, and stay in the point."""
         if self.folder is not None:
             state = encode(_storable(outcome))
             if fields:
@@ -102,11 +102,11 @@ class Journal:
         return self.add(Point(key, speed, outcome if fields else without_fields(outcome)))
 
     def state(self, key: str):
-        """The outcome of point ``key`` with all that a neighbour starts from, or None where no whole one is kept."""
+        """The outcome of point ``key`` with all that a neighbour starts from, or None if no complete one is there."""
         return self._read(STATES, key)
 
     def end(self, keys: Iterable[str]) -> None:
-        """Remove the states of points from which no other will start."""
+        """Remove the states of points from which no other point will start."""
         if self.folder is not None:
             for key in keys:
                 self._path(STATES, key).unlink(missing_ok=True)
@@ -121,7 +121,7 @@ class Journal:
         return before
 
     def finish(self, name: str) -> None:
-        """Take the mark of `begin` away."""
+        """Remove the mark of `begin`."""
         if self.folder is not None:
             self._path(STATES, name, "begun").unlink(missing_ok=True)
 
@@ -153,7 +153,7 @@ def outcome_of(record: dict):
 
 
 def without_fields(outcome):
-    """A result without its fields. The same for the result that a refusal carries. Any other outcome stays as it is."""
+    """A result without its fields, or a refusal whose result has none. Any other outcome stays as it is."""
     if isinstance(outcome, FrictionResult):
         return outcome.without_fields()
     if isinstance(outcome, ValidityError) and outcome.result is not None:
@@ -162,7 +162,7 @@ def without_fields(outcome):
 
 
 def bare(result: FrictionResult) -> FrictionResult:
-    """A result without what a neighbour that starts from it can make again
+    """A result without what a neighbour that starts from it can compute again
     (`lubfric.sampling.line_friction.LineStart`)."""
     return result if result.line is None else replace(result, line=result.line.bare())
 

@@ -1,4 +1,4 @@
-"""Every point of a study laid out before the first is solved: walks along its curves, in batches that share a height
+"""All points of a study, laid out before the first is solved: walks along its curves, in batches that share a height
 map."""
 
 from __future__ import annotations
@@ -23,10 +23,11 @@ BATCH = 50  # points at least, where curves that share a map are solved by one p
 
 @dataclass(frozen=True)
 class StudyPlan:
-    """All of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it out.
+    """The plan of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it
+    out.
 
     The walks, and with them the starts, depend on the values and speeds alone, never on how many processes share the
-    work. So every executor gives the same bits. ``speeds``: none where every curve chooses its own.
+    work. So every executor gives the same bits. ``speeds``: none if every curve chooses its own.
     """
 
     scene: Scene
@@ -46,12 +47,12 @@ class StudyPlan:
 
     @property
     def walks(self) -> list[Walk]:
-        """All that is to be solved."""
+        """All walks of the study."""
         return [walk for batch in self.batches for walk in batch.walks]
 
     def keys(self) -> np.ndarray:
-        """The key of each point, an array of ``shape``. Where speeds are chosen: the key of each complete curve,
-        over the axes."""
+        """The key of each point, an array of ``shape``. If speeds are chosen: the key of each complete curve, over the
+        axes."""
         found = np.empty(self.shape if self.speeds else self.shape[:-1], dtype=object)
         at = {speed: i for i, speed in enumerate(self.speeds)}
         for walk in self.walks:
@@ -62,8 +63,8 @@ class StudyPlan:
         return found
 
     def explain(self, store=None) -> str:
-        """Points, what they share, predicted cost and disk, in words. ``store``: the folder of the study, whose points
-        are not counted in the cost."""
+        """Points, what they share, predicted cost and disk, in words. ``store``: the folder of the study; points that
+        are in it already cost nothing."""
         from .explain import explain
 
         return explain(self, store)
@@ -112,7 +113,7 @@ def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
 
 
 def _batches(scenes: dict, speeds: tuple[float, ...]):
-    """The curves grouped by their map, in pieces. The pieces fix which curves are solved beside each other."""
+    """The curves grouped by their map, in pieces. The pieces fix which curves are solved by the same process."""
     groups: dict = {}
     maps: dict = {}
     for index, scene in scenes.items():
@@ -142,7 +143,7 @@ def _walks(index, scene, leader, speeds, maps) -> list[Walk]:
 
 
 def _shared(scene: Scene) -> str:
-    """What two scenes must have equal to use each other's map and operator or curve."""
+    """What must be equal in two scenes that share a map, and an operator or a curve."""
     bodies, numerics = scene.bodies, scene.numerics
     cut = bodies.half_width if scene.contact.shape is None else 0.0
     return repr((scene.surface, scene.counterface, scene.contact, bodies.e_prime, bodies.hardness, numerics, cut))

@@ -1,4 +1,4 @@
-"""The worker processes of a command. They end with it, whatever ends it."""
+"""The worker processes of a command. They end with it, however it ends."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def processors() -> int:
 
 @contextmanager
 def pool(workers: int):
-    """An executor of ``workers`` processes, which begin at once. None where one is asked for: then this process does
-    the work itself."""
+    """An executor of ``workers`` processes, which start at once. None for one worker: then this process does the work
+    itself."""
     if workers == 1:
         yield None
         return
@@ -43,7 +43,7 @@ def pool(workers: int):
 
 
 def _follow(parent: int) -> None:
-    """Run in a worker: leave Ctrl-C to the command, and end when the command is gone."""
+    """Runs in a worker: leave Ctrl-C to the command, and end when the command is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 

@@ -68,7 +68,7 @@ class StudyResult(Shown):
 
     @property
     def chosen(self) -> bool:
-        """Each curve chose its own speeds."""
+        """Whether each curve chose its own speeds."""
         return self.plan["speeds"] == AUTO
 
     @property
@@ -97,7 +97,7 @@ class StudyResult(Shown):
 
     @property
     def missing(self) -> int:
-        """Number of points (of curves, where speeds are chosen) that a study which was interrupted has not come to."""
+        """Number of points (of curves, if speeds are chosen) that an interrupted study has not reached."""
         return int(np.count_nonzero(self.status == MISSING))
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -122,8 +122,8 @@ class StudyResult(Shown):
 
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
-        the axes, and over the speeds where these are several. NaN outside the speeds that a curve is known for, and in
-        the other direction."""
+        the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
+        other direction."""
         speeds = validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
         sense = -1.0 if not self.chosen and self.coords[SPEED][1].min() < 0 else 1.0
         found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
@@ -137,8 +137,8 @@ class StudyResult(Shown):
 
     @property
     def lift_off(self) -> np.ndarray:
-        """The speed [m/s], over the axes, at which the film lifts the surfaces off each other; NaN where a curve does
-        not reach it."""
+        """The speed [m/s], over the axes, at which the film lifts the surfaces off each other; NaN if a curve does not
+        reach it."""
         found = np.full(self.status.shape[:-1], np.nan)
         for index in np.ndindex(*found.shape):
             curve = self.curve(index)
@@ -147,7 +147,7 @@ class StudyResult(Shown):
         return found
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
-        """The curve at one position along the axes, or None where fewer than three of its points are solved, or they
+        """The curve at one position along the axes, or None if fewer than three of its points are solved, or if they
         run both ways."""
         columns = {name: values[index] for name, values in self.columns.items()}
         signed = columns[SPEED] if self.chosen else self.coords[SPEED][1]
@@ -217,7 +217,7 @@ def open_study(folder) -> StudyResult:
 
 
 def _on_speeds(plan: dict, rows: dict[str, dict]):
-    """(place in the flat arrays, row) of the known points, and the status of all points before these are put in."""
+    """(place in the flat arrays, row) of the known points, and the status of all points before these are filled in."""
     status = np.full(len(plan["keys"]), MISSING, dtype=object)
     return [(at, rows[key]) for at, key in enumerate(plan["keys"]) if key in rows], status
 

@@ -1,4 +1,4 @@
-"""`study`: carry out a plan on any executor, and keep it point by point."""
+"""`study`: carry out a plan on any executor, and save it point by point."""
 
 from __future__ import annotations
 
@@ -103,13 +103,13 @@ def _carried_out(plan: StudyPlan, executor, store, on_progress) -> StudyResult:
 
 
 class Progress:
-    """Calls ``on_progress`` (None: nobody listens) with the number of points that are done whenever it has grown."""
+    """Calls ``on_progress`` (None: nobody listens) with the number of finished points whenever it has grown."""
 
     def __init__(self, on_progress, total: int):
         self._on_progress, self._total, self._told = on_progress, total, -1
 
     def tell(self, done: int) -> None:
-        """``done`` points are done, as far as the caller knows."""
+        """``done`` points are finished, as far as the caller knows."""
         if self._on_progress and done > self._told:
             self._told = done
             self._on_progress(done, self._total)

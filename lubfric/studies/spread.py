@@ -1,4 +1,4 @@
-"""Pieces of work on any executor. What a lost worker leaves undone is done again. Faults of the program are raised."""
+"""Pieces of work on any executor. Pieces of a lost worker are done again; errors of the program are raised."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ SHARE = 0.1  # of the time spent on looking, at most
 def spread(
     executor, work: Callable, pieces: list, again: Callable | None = None, look: Callable | None = None
 ) -> Iterator:
-    """Yield what ``work(piece)`` yields, for every piece: here each at once, from an executor those of a piece when it
-    has ended.
+    """Yield what ``work(piece)`` yields, for every piece. Done here, the values come at once; from an executor, those
+    of a piece come when it has ended.
 
     ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
-    must catch what a piece may rightly raise. An exception out of it is a fault: pieces not yet begun are cancelled,
-    and it is raised as it is.
+    must catch what a piece may rightly raise. Any other exception is an error of the program: pieces not yet begun are
+    cancelled, and it is raised.
 
     A *worker* may be lost: killed, or its machine gone. Then its pieces, and those of a pool that broke with it, are
-    done here. ``again(piece)`` gives what is left of a piece (None: all of it). ``look()`` is called every now and then
-    while pieces are under way on an executor.
+    done here. ``again(piece)`` gives what is left of a piece (None: all of it). ``look()`` is called from time to time
+    while pieces are being done on an executor.
     """
     if executor is None:
         for piece in pieces:
@@ -78,7 +78,7 @@ def _ended(left: set, look: Callable | None) -> Iterator:
 
 
 def _attempt(work, piece):
-    """(True, the values) or (False, the exception): tells faults of the work from those of the executor."""
+    """(True, the values) or (False, the exception): tells errors of the work from those of the executor."""
     try:
         return True, list(work(piece))
     except Exception as error:

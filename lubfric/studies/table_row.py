@@ -1,4 +1,4 @@
-"""A record of a point, narrowed to the numbers that a table holds."""
+"""The numbers of a point's record that a table contains."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 def row_of(record: dict) -> dict:
     """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and its status in words.
-    Nothing for the mark of a curve that is complete."""
+    Nothing for the mark of a complete curve."""
     if not record:
         return {}
     if "error" in record:

@@ -1,4 +1,4 @@
-"""A study as the tables that other tools open; each tool is imported only when its table is asked for."""
+"""A study as tables for other tools; each tool is imported only when its table is asked for."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _heading(name: str) -> str:
 
 
 def check_tools(netcdf: bool, parquet: bool) -> None:
-    """Raise `InputError` where a package that these tables need is not there."""
+    """Raise `InputError` if a package that these tables need is missing."""
     for name in (*(("xarray", "netCDF4") if netcdf else ()), *(("pandas", "pyarrow") if parquet else ())):
         _tool(name)
 

@@ -1,4 +1,4 @@
-"""The points of a walk, solved or taken over from where an earlier run was cut, to the same bits."""
+"""The points of a walk, solved or taken over from an interrupted run, to the same bits."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from .walk import Batch, Walk
 
 
 def points_of(batch: Batch) -> Iterator[Point]:
-    """Yield every point of a batch as it ends; each is in the store before. A walk that chose its speeds ends with a
-    point without outcome.
+    """Yield every point of a batch as it ends, when it is in the store. A walk that chose its speeds ends with a point
+    without outcome.
 
-    A scene that cannot be made ready is the error of all points of its walk.
+    If a scene cannot be made ready, that is the error of all points of its walk.
     """
     leader = batch.prepared
     with Journal(batch.folder) as journal:
@@ -54,10 +54,10 @@ def _failed(walk: Walk, error: LubfricError, journal: Journal, known: dict) -> I
 
 
 class Trail:
-    """The points of a walk so far: ``speeds`` [m/s] and ``outcomes``, which have fields only where they are wanted.
+    """The points of a walk so far: ``speeds`` [m/s] and ``outcomes``, which have fields only if these are wanted.
 
-    ``known``: records that the ``journal`` holds, by key; ``before``: the outcome that the first point starts from.
-    Raises `InputError` where there is no range to choose speeds from.
+    ``known``: records that the ``journal`` has, by key; ``before``: the outcome from which the first point starts.
+    Raises `InputError` if there is no range from which to choose speeds.
     """
 
     def __init__(self, prepared: Prepared, walk: Walk, journal: Journal = NOWHERE, known=None, before=None):
@@ -69,8 +69,8 @@ class Trail:
         self._whole: dict[int, object] = {}  # outcomes with all that a neighbour starts from
 
     def points(self) -> Iterator[Point]:
-        """Yield the points. A point that fails leaves its error, and what starts from it begins cold. Every exception
-        but a `LubfricError` is a fault of the program and is raised."""
+        """Yield the points. A point that fails leaves its error, and points that would start from it begin cold. Every
+        exception but a `LubfricError` is an error of the program and is raised."""
         walk, journal, parent = self._walk, self._journal, os.getppid()
         for at, key in enumerate(walk.keys):
             point = journal.point(key, self._known, walk.wanted)
@@ -102,7 +102,8 @@ class Trail:
         return self._whole[at]
 
     def _start(self, at: int):
-        """The outcome that point ``at`` starts from: the one before it, or, of chosen speeds, the nearest so far."""
+        """The outcome from which point ``at`` starts: the one before it or, if speeds are chosen, the nearest so
+        far."""
         if at == 0:
             return self._before
         if self._walk.speeds:

@@ -1,4 +1,4 @@
-"""What a study varies: lists of values, lists that go together, ranges that are sampled."""
+"""What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Axis:
 
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
-    """The dimensions of ``vary`` (see `lubfric.study`), each value put into the scene once to see that it fits."""
+    """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
     if not isinstance(vary, dict):
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()

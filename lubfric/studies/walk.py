@@ -1,5 +1,4 @@
-"""The unit of work of sweeps and studies: points that are solved one after the other, each started from one before
-it."""
+"""The unit of work of sweeps and studies: points that are solved in turn, each started from an earlier one."""
 
 from __future__ import annotations
 
@@ -17,7 +16,7 @@ MOST = 25  # points of a walk at most
 class Walk:
     """Points of one curve in the order in which they are solved.
 
-    ``name``: hash of all that the first point depends on; ``speeds``: entrainment speeds [m/s], none where the walk
+    ``name``: hash of all that the first point depends on; ``speeds``: entrainment speeds [m/s], none if the walk
     chooses them on its way; ``wanted``: those whose film and contact are kept; ``index``: position of the curve along
     each axis of a study.
     """
@@ -30,8 +29,8 @@ class Walk:
 
     @cached_property
     def keys(self) -> tuple[str, ...]:
-        """The key of each point: a hash of all that it depends on, the points before it too. Where speeds are chosen,
-        of as many as there can be."""
+        """The key of each point: a hash of all that it depends on, including the points before it. If speeds are
+        chosen, as many keys as there can be points."""
         if not self.speeds:
             return chosen_keys(self.marks[0])
         found, last = [], self.name
@@ -42,21 +41,21 @@ class Walk:
 
     @property
     def marks(self) -> tuple[str, ...]:
-        """The keys that a store holds when the walk has ended."""
+        """The keys that a store contains when the walk has ended."""
         return self.keys if self.speeds else (digest([self.name, "complete"]),)
 
     def ended(self, known) -> bool:
-        """Whether every point of it is among the keys ``known``."""
+        """Whether the keys ``known`` include all its points."""
         return all(mark in known for mark in self.marks)
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Walks on one height map, as they are handed out to a process.
+    """Walks on one height map, as a process receives them.
 
     ``leader`` is made ready first, unless it is given ``prepared``; the others reuse its map. ``folder``: of the store,
-    or None; ``known``: records of their points that the store holds; ``before``: the outcome that the first point of
-    each starts from, or None.
+    or None; ``known``: records of their points that the store has; ``before``: the outcome from which the first point
+    of each starts, or None.
     """
 
     leader: Scene
@@ -72,7 +71,7 @@ class Batch:
         return self.walks[0].keys[0]
 
     def with_known(self, records: dict[str, dict]) -> Batch:
-        """The batch with what ``records`` hold of the walks that have not ended."""
+        """The batch with the ``records`` of those walks that have not ended."""
         known: dict[str, dict] = {}
         for walk in self.walks:
             if walk.ended(records):
@@ -83,5 +82,5 @@ class Batch:
 
 
 def chosen_keys(mark: str) -> tuple[str, ...]:
-    """The keys of the points of a walk that chooses its speeds, by the key that marks its end."""
+    """The keys of the points of a walk that chooses its speeds, from the key that marks its end."""
     return tuple(digest([mark, at]) for at in range(MOST))

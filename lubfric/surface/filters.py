@@ -1,8 +1,8 @@
 """The areal Gaussian filter of ISO 16610-61, as S-filter (keeps what is longer) and L-filter (keeps what is shorter).
 
-The weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi). So a wave as long as the nesting index L passes by one
-half. The filter is isotropic, so it works on one axis after the other. At open ends and beside unmeasured points the
-weights that are left are scaled to sum to one (regression of order zero). A periodic axis goes around.
+The weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi). So a wave as long as the nesting index L keeps half of its
+height. The filter is isotropic, so it works on one axis after the other. At open ends and beside unmeasured points the
+remaining weights are scaled to sum to one (regression of order zero). A periodic axis wraps around.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ REACH = 6.0  # standard deviations of the weights that are summed
 
 
 def checked_index(name: str, index: float, size: tuple[float, float], spacing: tuple[float, float]) -> float:
-    """A nesting index [m] that the grid resolves and the map holds."""
+    """A nesting index [m], checked: the grid resolves it, and the map is longer."""
     return validate.number(name, index, "m", minimum=LEAST_CELLS * max(spacing), maximum=min(size))
 
 

@@ -1,4 +1,4 @@
-"""A height map with its spacing, what was measured of it, and how it came to be."""
+"""A height map with its spacing, its measured points, and the record of its making."""
 
 from __future__ import annotations
 
@@ -170,11 +170,11 @@ class Surface(FrozenArrays, Shown):
         )
 
     def periodic(self, edge: str = "mirror", *, axes: tuple[bool, bool] = (True, True)) -> Surface:
-        """Make the map continue onto itself along the chosen axes; see `prepare.close_axis`.
+        """Make the map periodic along the chosen axes; see `prepare.close_axis`.
 
-        edge "mirror": the map and its mirror image, twice as long (even number of points; heights
-        and slopes keep their statistics, the lay is reflected). edge "window": the last tenth is
-        blended over the first, one tenth shorter (no mirror image, Sq kept for independent ends).
+        edge "mirror": the map and its mirror image, twice as long (even number of points; heights and slopes keep their
+        statistics, the lay is reflected). edge "window": the last tenth is blended over the first, so the map gets one
+        tenth shorter (no mirror image, Sq kept for independent ends).
         """
         validate.choice("edge", edge, prepare.EDGES)
         new = self._filled("periodic")
@@ -242,12 +242,12 @@ class Surface(FrozenArrays, Shown):
         return self
 
     def combined(self, other: Surface) -> Surface:
-        """This map and that of the body that faces it, added into one (`lubfric.surface.pair`)."""
+        """The sum of this map and that of the body that faces it (`lubfric.surface.pair`)."""
         return pair.combined(self, other)
 
     def continued(self, length: float) -> Surface:
-        """The map made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so
-        on, and is periodic along x then."""
+        """The map, made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so on,
+        and is periodic along x then."""
         if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
         new = self.periodic("mirror", axes=(True, False))

@@ -19,7 +19,7 @@ SAME = 1e-9  # relative difference of lengths that are equal
 def combined(first, second):
     """z1(x, y) + z2(x, -y), on the finer of both spacings along each axis, over the length that both have.
 
-    Where both are periodic along an axis with the same length, the sum is periodic too. Otherwise the shorter length
+    If both are periodic along an axis with the same length, the sum is periodic too. Otherwise the shorter length
     counts, cut around the middle, and the sum is open. (A periodic map is repeated to reach the length of an open one.)
     The heights are taken about their means. Raises `InputError` for maps with unmeasured points: level and fill first.
     """
@@ -50,7 +50,7 @@ def combined(first, second):
 
 
 def _common(axis: int, first, second) -> tuple[int, bool]:
-    """(points, whether periodic) of the sum along ``axis``; both maps have one spacing by now."""
+    """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
     lengths, closed = [s.size[axis] for s in (first, second)], [s.periodic_axes[axis] for s in (first, second)]
     same = abs(lengths[0] / lengths[1] - 1) < SAME
     if all(closed) and same:

@@ -24,12 +24,12 @@ def pair(name, value) -> tuple[int, int]:
 
 
 def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
-    """Fit a polynomial to the measured points by least squares. Gives it (nx, ny) [m], its slopes [-] and its
+    """Fit a polynomial to the measured points by least squares. Returns it (nx, ny) [m], its slopes [-] and its
     curvatures [1/m] along x and y.
 
     "plane" is of first order, "quadratic" of second, with the mixed term. An axis of one point has no slope, one of two
-    no curvature. Slopes are those at the middle of the map. Where nothing is left but rounding (`FLAT` of the largest
-    height), the form is the map itself. Raises `InputError` when the points do not fix the form.
+    no curvature. Slopes are those at the middle of the map. If only rounding is left (`FLAT` of the largest height),
+    the form is the map itself. Raises `InputError` when the points do not determine the form.
     """
     order = 1 + FORMS.index(form)
     valid = np.ones(heights.shape, bool) if mask is None else mask
@@ -57,10 +57,10 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
 
 
 def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] | None:
-    """{powers: coefficient} of the weighted least squares, or None where they have no one solution.
+    """{powers: coefficient} of the weighted least squares, or None if they have no unique solution.
 
-    The normal equations are used, as their sums need no array but ``z`` itself. They are solved twice, the second time
-    for what the first solution leaves.
+    The normal equations are used, because their sums need no array but ``z`` itself. They are solved twice, the second
+    time for the remainder of the first solution.
     """
     moments = along[0].T @ weight @ along[1]
     matrix = np.array([[moments[p + r, q + s] for r, s in powers] for p, q in powers])

@@ -1,5 +1,5 @@
-"""One axis of a `lubfric.Surface` on other points: closed, resampled, cut or repeated. Every function returns a new
-map."""
+"""One axis of a `lubfric.Surface` on other points: made periodic, resampled, cut or repeated. Every function returns a
+new map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A Stribeck curve at speeds of its own choice."""
+"""A Stribeck curve at speeds that it chooses."""
 
 from __future__ import annotations
 
@@ -19,8 +19,7 @@ from .result import StribeckResult, collected
 
 
 def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
-    """A curve at speeds of its own choice. Arguments as in `lubfric.stribeck`. Where speeds failed, the result says
-    so."""
+    """A curve at speeds that it chooses. Arguments as in `lubfric.stribeck`. If speeds failed, the result says so."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
     wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
@@ -42,7 +41,7 @@ def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
 
 
 def _with_interpolation(result: StribeckResult, tolerance: float) -> Report:
-    """The report of an adaptive curve: its residual is the estimated error between the points."""
+    """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
     error = next_speed(samples_of([p for p in result.points if p is not None]), tolerance)[1]
     status = result.report.status if error <= tolerance else ITERATION_LIMIT
     residuals = {"interpolation": error, "points": result.report.residual}

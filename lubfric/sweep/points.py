@@ -1,4 +1,4 @@
-"""What curves of every kind have in common: solved points over one number, each of which may have failed."""
+"""What all kinds of curves have in common: solved points over one number, each of which may have failed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ QUANTITIES = tuple(f for f in FrictionResult.__dataclass_fields__ if f not in NO
 
 
 class Swept(NamedTuple):
-    """What a curve goes over: its symbol, its ``values`` (n,), their unit, and what several of them are called."""
+    """The quantity of a curve: its symbol, its ``values`` (n,), their unit, and what several of them are called."""
 
     symbol: str
     values: np.ndarray
@@ -49,7 +49,7 @@ class CurveResult(Shown):
         raise NotImplementedError
 
     def entries(self, index: int) -> tuple[Validity, ...]:
-        """Assumptions that do not hold at one of the points, refused or not."""
+        """The assumptions that are violated at any of the points, refused or not."""
         return entries_of(self.points[index], self.errors.get(index))
 
     @property
@@ -59,7 +59,7 @@ class CurveResult(Shown):
 
     @property
     def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that does not hold somewhere."""
+        """One sentence for each assumption that is violated somewhere."""
         _, values, unit, plural = self._swept
         return gathered([(float(v), self.entries(i)) for i, v in enumerate(values)], unit, plural)
 
@@ -97,7 +97,7 @@ def report_of(solver: str, name: str, swept: Swept, points, errors: dict[int, Ex
 
 
 def failed_points(plural: str) -> str:
-    """Where to look for the points that did not fail."""
+    """A hint where to find the points that did not fail."""
     return f"the other {plural} are in .result, the reason of each failed one in its .errors"
 
 
@@ -105,7 +105,8 @@ R = TypeVar("R", bound=CurveResult)
 
 
 def judged(result: R, raise_on_failure: bool) -> R:
-    """``result``, or the exception that says what failed in it: `ValidityError` where all that failed was refused."""
+    """``result``, or the exception that says what failed in it: `ValidityError` if all that failed was refused as
+    invalid."""
     if not raise_on_failure:
         return result
     errors = result.errors

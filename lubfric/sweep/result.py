@@ -21,8 +21,8 @@ from .points import CurveResult, Swept, columns_of, report_of
 class StribeckResult(CurveResult):
     """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
-    Every number of `FrictionResult` is an array attribute of the same name and unit. One line of the surface serves all
-    speeds, so their errors go up and down together.
+    Every number of `FrictionResult` is an array attribute of the same name and unit. All speeds use the same line of
+    the surface, so their errors go up and down together.
 
     Attributes
     ----------
@@ -87,8 +87,7 @@ class StribeckResult(CurveResult):
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None where the curve does not reach
-        it."""
+        """The speed [m/s] at which the film lifts the surfaces off each other; None if the curve does not reach it."""
         return self._interpolant.lift_off
 
     @cached_property

@@ -1,4 +1,4 @@
-"""The speeds of one curve, solved here or on an executor, from where an earlier run was cut."""
+"""The speeds of one curve, solved here or on an executor, continued from an interrupted run."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..studies.walk import Batch, Walk
 
 
 def solve_walks(prepared: Prepared, walks: list[tuple[Walk, np.ndarray]], executor, store, keep: Callable) -> None:
-    """Solve the first walk, which has one point, then the others, which start from it. Every point that ends is given
-    to ``keep(index, outcome)``, once.
+    """Solve the first walk, which has one point, and then the others, which start from it. Every point that ends is
+    given to ``keep(index, outcome)``, once.
 
     ``walks``: pairs of a `Walk` and the indices of its speeds. With a ``store``, the points found there come first.
-    Points that a process of the ``executor`` puts there are told while it goes on.
+    Points that a process of the ``executor`` puts there are reported while it goes on.
     """
     folder = None if store is None else str(store)
     journal = Journal(folder)
@@ -31,7 +31,7 @@ def solve_walks(prepared: Prepared, walks: list[tuple[Walk, np.ndarray]], execut
             keep(indices.pop(point.key), point.outcome)
 
     def look() -> dict[str, dict]:
-        """Tell what the store holds. Returns the records of all that was told."""
+        """Report what the store has. Returns the records of all that was reported."""
         known = journal.records()
         for key in list(indices):
             if point := journal.point(key, known, wanted):

@@ -83,7 +83,7 @@ def stribeck(
 
 
 def _given(speeds, motion) -> np.ndarray:
-    """Speeds [m/s] asked, one or many, or those of the scene."""
+    """The speeds [m/s] that were asked for, one or many, or those of the scene."""
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
     if isinstance(speeds, (Real, np.number)):
@@ -123,11 +123,11 @@ def _walks(prepared: Prepared, speeds, kept) -> list[tuple[Walk, np.ndarray]]:
 
 
 def _middle(scene: Scene, sq: float, speeds: np.ndarray) -> int:
-    """Number of the speed that comes first, counted from the fastest down.
+    """Number of the speed that is solved first, counted from the fastest down.
 
-    It is where the film that Moes' formula gives the whole load is about 1.3 Sq. There the contact carries half of
-    the load, and the points on both sides cost the same. For a smooth surface, and for the models that resolve the gap,
-    the fastest speed comes first: it is the easy one to begin with.
+    It is where Moes' film under the whole load is about 1.3 Sq. There the contact carries half of the load, and the
+    points on both sides cost the same. For a smooth surface, and for the models that resolve the gap, the fastest speed
+    comes first, because it is the easiest.
     """
     numerics, moving = scene.numerics, np.flatnonzero(speeds)
     if sq <= 0 or numerics.model == "deterministic" or numerics.closure == "one-way" or not moving.size:

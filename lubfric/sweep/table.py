@@ -11,14 +11,14 @@ from .points import QUANTITIES
 
 
 def csv_bytes(curve) -> bytes:
-    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading; the last
-    columns say what does not hold there, and how sure f is."""
+    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading. The last
+    columns say which assumptions are violated there, and how sure f is."""
     columns = {name: getattr(curve, name) for name in QUANTITIES}
     return curve_table(curve, columns | uncertainty_columns(curve.uncertainty))
 
 
 def curve_table(curve, columns: dict[str, np.ndarray]) -> bytes:
-    """``columns`` of a curve under their headings, what does not hold at each point, and how sure f is."""
+    """``columns`` of a curve under their headings, the violated assumptions at each point, and how sure f is."""
     named = {heading(name): values for name, values in columns.items()}
     return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
 

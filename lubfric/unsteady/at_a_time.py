@@ -1,4 +1,4 @@
-"""The scene of one moment: the values of the histories take the place of its constants. And the inlet that heats
+"""The scene of one moment, in which the values of the histories replace its constants; and the inlet that heats
 itself."""
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ def changes(scene: Scene) -> Transient:
 
 
 def scene_at(scene: Scene, time: float, before: bool = True) -> Scene:
-    """What ``scene``, whose ``transient`` says what changes, is just before ``time`` [s], or just after: with the load,
-    radius, speed, slide-roll ratio and viscosity of the moment. Its hardness is left out: the contact has it."""
+    """``scene``, whose ``transient`` says what changes, just before ``time`` [s], or just after: with the load, radius,
+    speed, slide-roll ratio and viscosity of the moment. Its hardness is left out, because the contact has it."""
     bodies, oil, motion = scene.bodies, scene.lubricant, scene.motion
     speed = _value(scene, "speed", motion.entrainment_speed, time, before)
     ratio = _ratio(sliding_at(scene, time, before), speed)
@@ -59,8 +59,8 @@ def _value(scene: Scene, name: str, constant: float, time: float, before: bool) 
 
 @dataclass(frozen=True)
 class WarmInlet(History):
-    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The
-    inlet is passed in less than b/U, so its heat is that of steady motion."""
+    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The inlet
+    is passed in less than b/U, so its heat is taken as that of steady motion."""
 
     scene: Scene
 
@@ -71,7 +71,7 @@ class WarmInlet(History):
         return _warm(scene_at(self.scene, time))
 
     def range(self, duration: float) -> tuple[float, float]:
-        """As far as `LOOKS` times and every stop show."""
+        """The range that `LOOKS` times and every stop show."""
         low, high = self._seen
         return low, high
 
@@ -82,8 +82,8 @@ class WarmInlet(History):
 
 
 def inlet_viscosity(scene: Scene) -> History:
-    """The viscosity [Pa s] that the film is solved with: that of the scene, or its history. Where the heat of the
-    inlet would thin the film by more than its share of the tolerance at some time, that of a warm inlet."""
+    """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
+    would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
     cold = changes(scene).viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold

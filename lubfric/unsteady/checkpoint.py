@@ -1,8 +1,9 @@
-"""The state of a run on disk. It is written whole after every step, so that a kill loses nothing that was computed.
+"""The state of a run on disk. It is written as a whole after every step, so that a kill loses nothing that was
+computed.
 
 The state is one file with a checksum and a fingerprint of the problem, which is replaced atomically. The outputs so far
-are records (`lubfric.store.Records`). The state knows how many there were. A resume takes these, and refuses what was
-damaged.
+are records (`lubfric.store.Records`), and the state knows how many there were. A resumed run reads these, and refuses
+damaged ones.
 """
 
 from __future__ import annotations
@@ -41,9 +42,9 @@ class Checkpoint:
         self._records.close()
 
     def load(self) -> tuple[Any, list[Output]] | None:
-        """The state and the outputs of an interrupted run of the same problem, or None where there is none.
+        """The state and the outputs of an interrupted run of the same problem, or None if there is none.
 
-        Raises `InputError` for the state of another problem, and for files that were cut or overwritten.
+        Raises `InputError` for the state of another problem, and for files that were cut off or overwritten.
         """
         path = self.folder / STATE
         if not path.is_file():
@@ -73,12 +74,12 @@ class Checkpoint:
         self._count += 1
 
     def save(self, state) -> None:
-        """Replace the state: dataclasses of this package, numbers and arrays."""
+        """Replace the state, which consists of dataclasses of this package, numbers and arrays."""
         kept = {"fingerprint": self.fingerprint, "outputs": self._count, "state": state}
         write_checked(self.folder / STATE, *encode(kept))
 
     def clear(self) -> None:
-        """Remove the files of a finished run, and the folders when nothing else is in them."""
+        """Remove the files of a finished run, and its folders if they are empty then."""
         for path in (self.folder / STATE, *self._records.folder.glob("*.jsonl"), *self.folder.glob(f"{PART}*")):
             path.unlink(missing_ok=True)
         for folder in (self._records.folder, self.folder):

@@ -27,8 +27,8 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
     """Compute and write history.csv, history.png, fields.npz (and animation.gif) and, last, result.json to ``out``.
 
     The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. An interrupted run goes on from ``out``/checkpoint. What a failed run has is written, then
-    `ConvergenceError` raised.
+    this one are there. An interrupted run continues from ``out``/checkpoint. A failed run writes what it has, and then
+    raises `ConvergenceError`.
     """
     begun, reached = time.perf_counter(), [0.0]
     failure: LubfricError | None
@@ -74,7 +74,7 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
 
 
 def plot_again(folder: Path) -> bool:
-    """Draw history.png again where there is a history.csv; says whether there was."""
+    """Draw history.png again if there is a history.csv; returns whether there was."""
     source = folder / "history.csv"
     if not source.is_file():
         return False
@@ -83,7 +83,7 @@ def plot_again(folder: Path) -> bool:
 
 
 def _name(folder: Path) -> str:
-    """Name of the scene of a run, or of its folder where the record of the run is not there or torn."""
+    """Name of the scene of a run; that of its folder if the record of the run is missing or damaged."""
     try:
         return str(json.loads((folder / "result.json").read_text(encoding="utf-8"))["scene"]["name"])
     except (OSError, ValueError, KeyError, TypeError):

@@ -19,7 +19,8 @@ from .sharing import Sharing
 
 @dataclass(frozen=True)
 class FilmNow:
-    """The pressurised film of a moment at its nodes x [m]; what `lubfric.heat.point.point_heat` asks of a film."""
+    """The pressurised film of a moment at its nodes x [m], with what `lubfric.heat.point.point_heat` needs of a
+    film."""
 
     x: np.ndarray
     pressure: np.ndarray
@@ -30,7 +31,7 @@ class FilmNow:
 
 @dataclass(frozen=True)
 class BalanceNow:
-    """Film and contact of a moment, which carries ``contact_load`` [N]."""
+    """Film and contact of a moment; the contact carries ``contact_load`` [N]."""
 
     film: FilmNow | None
     contact: ContactState
@@ -40,10 +41,10 @@ class BalanceNow:
 def film_shear(
     sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution
 ) -> tuple[ShearForce, Heat]:
-    """Forces [N] on the upper surface along +x, and the heat that is in them.
+    """Forces [N] on the upper surface along +x, and the heat that was taken into account.
 
     They are B ∫ tau dx over the pressurised film, with tau = eta (u2 - u1)/h, and B ∫ (h/2) dp/dx dx. Both leave out
-    the share of the width in contact, and have the inlet tails. ``scene``: that of the moment. Film and surfaces are
+    the share of the width in contact, and include the inlet tails. ``scene``: that of the moment. Film and surfaces are
     taken to be as hot as in steady motion at the speeds of the moment.
     """
     balance = _balance(sharing, scene, solution)
@@ -77,7 +78,8 @@ def _balance(sharing: Sharing, scene: Scene, solution: StepSolution) -> BalanceN
 
 
 def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution, stress=None):
-    """`ShearForce` by trapezes; ``stress(x, pressure, film)`` [Pa]: of the heated film (None: isothermal)."""
+    """`ShearForce` by the trapezoidal rule; ``stress(x, pressure, film)`` [Pa]: of the heated film (None:
+    isothermal)."""
     setting, t, lubricant = sharing.setting, solution.terms, scene.lubricant
     p, grid = setting.problem, setting.grid
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
@@ -135,9 +137,8 @@ def _tails(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
 
 
 def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it
-    ruptures the pressure falls to zero like a square (p = dp/dx = 0 there), which the two nodes before
-    give."""
+    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it ruptures, the
+    pressure falls to zero like a square (p = dp/dx = 0 there); the two nodes before determine where."""
     wet = pressure > 0.0
     root = np.sqrt(np.maximum(pressure, 0.0))
     part = (wet[1:] & wet[:-1]).astype(float)

@@ -1,4 +1,5 @@
-"""Is a run in time an answer? The assumptions of the steady model, and those of its own, at every output."""
+"""Whether a run in time is an answer: the assumptions of the steady model and those of a run, checked at every
+output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The line of a run in time. It is as long as the steady balance asks at the speeds that the run goes through."""
+"""The line of a run in time: as long as the steady balance needs at the speeds of the run."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 
 
 def long_enough(prepared: Prepared) -> Prepared:
-    """``prepared`` on a line as long as `lubfric.friction` takes for ``numerics.sampling_tolerance`` at the worst of
-    four speeds of the run, or as memory and map hold.
+    """``prepared`` on a line as long as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of
+    four speeds of the run, or as memory and map allow.
 
-    ``prepared`` itself where it stands on one patch, or where its line is long enough.
+    ``prepared`` itself if it is on one patch, or if its line is long enough.
     """
     lines, plan = prepared.lines, changes(prepared.scene)
     if lines is None:
@@ -42,7 +42,7 @@ def long_enough(prepared: Prepared) -> Prepared:
 
 
 def _length(prepared: Prepared, speed: float) -> float:
-    """Of the line [m] at a steady speed; 0 where there is no steady solution to tell."""
+    """Length of the line [m] at a steady speed; 0 if there is no steady solution that tells it."""
     try:
         return friction(prepared, speed, raise_on_failure=False).uncertainty.length
     except LubfricError:

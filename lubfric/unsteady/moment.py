@@ -60,7 +60,7 @@ UNITS = {
 
 
 def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
-    """One row of the result, by name in the order of ``UNITS``: the last step's."""
+    """One row of the result from the last step, by name in the order of ``UNITS``."""
     solution = now.solution
     time, in_time = now.time, sharing.prepared.scene
     scene, sliding = scene_at(in_time, time), sliding_at(in_time, time)
@@ -121,7 +121,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
 
 
 def _inlet_factor(sharing: Sharing, scene: Scene, time: float) -> float:
-    """On the film, by the heat of the inlet that it is solved with."""
+    """The factor on the film by the heat of the inlet with which it is solved."""
     if sharing.setting.contact.viscosity.before(time) == scene.lubricant.viscosity:
         return 1.0
     inlet, _ = inlet_at(scene, scene.motion.entrainment_speed)
@@ -129,9 +129,9 @@ def _inlet_factor(sharing: Sharing, scene: Scene, time: float) -> float:
 
 
 def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
-    """Lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of the
-    largest): into it, kept there; and the growth of the gap in the cavitated zone that nothing fills.
-    mass_residual: what is missing in the balance, of the larger of the flow and of ``NO_FLOW``."""
+    """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
+    the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
+    fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
     t, p = solution.terms, sharing.setting.problem
     unit = p.film_unit * p.contact.entrainment_speed
     film = t.P[1:-1] > WET * t.P.max()

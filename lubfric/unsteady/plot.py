@@ -13,7 +13,7 @@ FRAMES = 150  # at most, spread over the run
 
 
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
-    """Speed and load, film, shares of the load and friction over time, from the columns of history.csv."""
+    """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
     figure = new_figure(figsize=(7.5, 9))
@@ -41,7 +41,8 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
 
 
 def _error_band(axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Two standard errors of f to either side over the shown times ``t``, where the table has the standard error."""
+    """Two standard errors of f to either side over the times ``t`` that are drawn, if the table has the standard
+    error."""
     error = c.get("sampling_error", np.zeros(0))
     if np.any(error > 0):
         low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))

@@ -28,12 +28,12 @@ MANY = 30  # blocks less one: of a line
 class TimeAverage:
     """The mean of f over a run in time, and relative standard deviations.
 
-    - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. It is the same
-      line at all times, so a longer run does not make it smaller.
-    - ``fixed_scatter``: how averages of real lines of the contact's width differ from place to place, where the same
-      spots stay in contact.
-    - ``moving_scatter``: the same where the rough surface moves through the contact with the entrainment speed. Then
-      other spots carry the load every `TransientResult.renewal`.
+    - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. The line is the
+      same at all times, so a longer run does not make this smaller.
+    - ``fixed_scatter``: of the averages of real lines of the contact's width from place to place, if the same spots
+      stay in contact.
+    - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then other
+      spots carry the load every `TransientResult.renewal`.
     """
 
     coefficient: float
@@ -49,22 +49,21 @@ class TransientResult(Shown):
     Attributes
     ----------
     columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
-        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its
-        parts [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of
-        the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last
-        step, per unit width; time_error
-        [-], the local error of the last step over the tolerance; sampling_error [-], the relative standard error of f
-        because the line of rough surface is finite (`lubfric.sampling.moment_error`). It is the same surface at all
-        times, so that error rises and falls with f as one; inlet_film_factor [-], flash_temperature_rise and
-        film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at the speeds of the moment;
-        heat_change [-], of f by the two rises, relative; shear_error [-], estimated, of f by the sum of the film's
-        shear stress, relative
+        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its parts
+        [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the
+        pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last step,
+        per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-], the
+        relative standard error of f because the line of rough surface is finite (`lubfric.sampling.moment_error`; the
+        line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
+        flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
+        the speeds of the moment; heat_change [-], the relative change of f by the two rises; shear_error [-], the
+        estimated relative error of f by the sum of the film's shear stress
     x : (nx,) [m]
     pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
-    line_length, width, renewal : of the line of rough surface, of the contact, and how far a surface moves until other
-        spots carry the load [m]; NaN where not known
+    line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
+        surface moves until other spots carry the load [m]; NaN if not known
     """
 
     columns: dict[str, np.ndarray]
@@ -78,8 +77,8 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f), and
-        its scatter, fixed and moving."""
+        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f); its
+        error; and its scatter for fixed and for moving roughness."""
         half = 0.5 * np.diff(self.time)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         mean = float(np.average(self.coefficient, weights=weight))
@@ -159,7 +158,7 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
 
 
 def _of_the_line(prepared: Prepared) -> dict[str, float]:
-    """Length, width and renewal [m]: the Hertz strip and a correlation length along the motion."""
+    """Length, width and renewal [m]. The renewal is the Hertz strip and a correlation length along the motion."""
     bodies = prepared.scene.bodies
     known = {"line_length": prepared.surface.size[1], "width": bodies.width}
     if prepared.lines is not None:

@@ -30,16 +30,16 @@ def transient(
     """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.ehl.transient.squeeze`: Swift-Stieber complementarity, either
-    side may rupture, no entrainment needed). It is marched by variable-step BDF2 with error control (`lubfric.march`).
-    At every step film and rough contact share the load of that moment, and close the volume of Eq. (8) over A, the
-    strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
+    side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
+    (`lubfric.march`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
+    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 
     Parameters
     ----------
     scene : with a `lubfric.Transient` in ``scene.transient``; or, with ``times``, without one: then nothing changes
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
-    checkpoint : folder that receives the state after every step. An interrupted run of the same scene and times goes on
-        from there. It is removed when the run ends well
+    checkpoint : folder that receives the state after every step. An interrupted run of the same scene and times
+        continues from there. It is removed when the run ends well
     on_step : called as on_step(time, duration, row) after every step; ``row`` holds the numbers of an output, or is
         None
     raise_on_failure : False returns what was computed, with its report
@@ -52,20 +52,20 @@ def transient(
     ------
     InputError : before any work
     ConvergenceError : the shortest step failed; carries the rows so far as its result
-    ValidityError : at some time an assumption fails so badly that f means nothing, and ``numerics.accept`` is false;
-        carries the whole result
+    ValidityError : at some time an assumption is violated so badly that f means nothing, and ``numerics.accept`` is
+        false; carries the whole result
 
     Notes
     -----
     Film and surfaces are as hot as in steady motion at the speeds of the moment (``numerics.heat``).
 
-    A step stops when max(residuals of `lubfric.ehl.transient.active_set.measure`) <= 1e-7 and |gap - film|/(gap + film)
-    <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised film,
-    relative to the film, is <= transient.tolerance. The residuals of the report:
+    A step is solved when max(residuals of `lubfric.ehl.transient.active_set.measure`) <= 1e-7 and |gap - film|/(gap +
+    film) <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised
+    film, relative to the film, is <= transient.tolerance. The residuals of the report are:
 
     - step: the largest accepted local error over that tolerance
     - mass, volume: the largest at an output, relative to their tolerances
-    - grid: the discretisation error of the steady start over the film tolerance (where it starts steady)
+    - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
     sharing, start, grid_error = begin(scene)
@@ -83,7 +83,7 @@ def transient(
 
 
 def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
-    """The march with outputs at ``times`` [s]."""
+    """The plan of the run, with outputs at ``times`` [s]."""
     scene = sharing.prepared.scene
     changing = changes(scene)
     tolerance = changing.tolerance or TIME_SHARE * scene.numerics.tolerances.film
@@ -116,14 +116,14 @@ def _add(sharing: Sharing, outputs: list[Output], store, now: Progress) -> None:
 
 
 def _state(now: Progress) -> Progress:
-    """All that a resume needs: ``now``, without what the next step makes again."""
+    """All that a resumed run needs: ``now``, without what the next step computes again."""
     contact = now.payload
     bare = replace(contact, state=replace(contact.state, fields=None, y=None))
     return replace(now, payload=bare, solution=None)
 
 
 def _severe(result: TransientResult) -> tuple[Validity, ...]:
-    """What makes f mean nothing at some time, the worst of each kind."""
+    """The violated assumptions that make f meaningless at some time, the worst of each kind."""
     worst: dict[str, Validity] = {}
     for entry in (e for at_once in result.entries for e in at_once if e.severe):
         if entry.what not in worst or entry.value > worst[entry.what].value:
@@ -132,7 +132,7 @@ def _severe(result: TransientResult) -> tuple[Validity, ...]:
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
-    """The scene with what changes in it until the last output, and the output times [s]."""
+    """The scene with what changes until the last output, and the output times [s]."""
     base = scene_of(scene)
     plan = base.transient
     if times is None:

@@ -1,4 +1,4 @@
-"""From a scene to what is marched in time: histories, grid, operators and first state."""
+"""From a scene to a run in time: histories, grid, operators and first state."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ DONE = {  # what a run in time does of the options of the steady model
 
 
 def begin(scene: Scene | Prepared) -> tuple[Sharing, StepSolution, float]:
-    """Check a scene with a ``transient`` and make it ready. Returns what is marched, the state at t = 0, and the
-    relative error of the films of a steady start by the grid (NaN from another start)."""
+    """Check a scene with a ``transient`` and make it ready. Returns the `Sharing`, the state at t = 0, and the relative
+    error by the grid of the films of a steady start (NaN for another start)."""
     base = scene_of(scene)
     plan = changes(base)
     for name, allowed in DONE.items():

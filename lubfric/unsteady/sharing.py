@@ -1,4 +1,4 @@
-"""Load sharing in time: a film that remembers its past shares the load of the moment with the rough contact."""
+"""Load sharing in time: a film that remembers its past and the rough contact share the load of the moment."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ class Contact:
 
 @dataclass(frozen=True)
 class Sharing:
-    """What is marched (`lubfric.march.bdf.Solver`): film and rough contact of a scene share the load of the moment.
+    """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.march.bdf.Solver`).
 
-    ``setting``: of the film; ``to_patch`` carries H to the film [m] at the points of the patch, its ``mean_row`` to the
-    mean film over A; ``tolerance``: on the volume.
+    ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the patch from H, and its ``mean_row``
+    the mean film over A; ``tolerance``: of the volume.
     """
 
     prepared: Prepared
@@ -50,7 +50,7 @@ class Sharing:
 
     @property
     def unit(self) -> float:
-        """N per unit of film load."""
+        """Load [N] per unit of film load."""
         p = self.setting.problem
         return p.contact.e_prime * p.film_unit * self.width
 
@@ -75,9 +75,8 @@ class Sharing:
     def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
         """Film and contact at ``time`` [s]; the `Contact` is the payload of the solution.
 
-        The contact enters the film's load balance as a `Spring`; the contact is then solved at the load the
-        spring took, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film)
-        <= tolerance.
+        A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
+        spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
         """
         touch, softness, seen = past.load, past.softness, None
         total = self.total(time)
@@ -116,7 +115,7 @@ class Sharing:
         return replace(solution, status=ITERATION_LIMIT)
 
     def _close(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
-        """The contact at ``load`` [N] under ``film`` [m]; None where it cannot be solved."""
+        """The contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
         if film.min() <= 0.0 and load == 0.0:
             return None
         try:
@@ -126,7 +125,7 @@ class Sharing:
 
 
 def make_sharing(prepared: Prepared, setting: Setting) -> Sharing:
-    """The operators that join the film's grid and the patch."""
+    """The `Sharing` of a scene, with the operators between the film's grid and the patch."""
     p, patch = setting.problem, prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
@@ -137,7 +136,7 @@ def make_sharing(prepared: Prepared, setting: Setting) -> Sharing:
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:
-    """Secant of the gap over the logarithm of the load, where it says something."""
+    """Secant of the gap over the logarithm of the load, if it is meaningful."""
     if seen is None or abs(math.log(load / seen[0])) < 1e-6:
         return old
     slope = (seen[1] - found.mean_gap) / math.log(load / seen[0])

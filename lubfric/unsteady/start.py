@@ -1,4 +1,4 @@
-"""The state at t = 0: steady, at rest with the contact carrying the load, or a film without pressure."""
+"""The state at t = 0: steady, at rest with all load on the contact, or a film without pressure."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _untouched(sharing: Sharing, H: np.ndarray) -> Contact:
 
 
 def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
-    """No pressure anywhere, the gap as it is."""
+    """No pressure anywhere; the gap as given."""
     found = sharing.setting.at_rest(z)
     contact = _untouched(sharing, found.terms.H)
     if contact.state.volume_residual > 0.0:
@@ -45,8 +45,7 @@ def _flying(sharing: Sharing, z: np.ndarray) -> StepSolution:
 
 
 def _resting(sharing: Sharing) -> StepSolution:
-    """The contact carries the load under the undeformed cylinder; its gap is full of lubricant without
-    pressure."""
+    """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
     setting, patch = sharing.setting, sharing.prepared.contact
     radius = setting.contact.radius.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * radius), sharing.total(0.0))
@@ -64,7 +63,7 @@ def _resting(sharing: Sharing) -> StepSolution:
 
 
 def _steady(sharing: Sharing) -> tuple[StepSolution, float]:
-    """Balance of the steady state, then the same on the grid of the run."""
+    """The balance of the steady state, and then the same on the grid of the run."""
     setting, scene = sharing.setting, sharing.prepared.scene
     viscosity = changes(scene).viscosity
     c, speed = setting.contact, setting.contact.speed.before(0.0)

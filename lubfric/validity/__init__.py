@@ -1,4 +1,5 @@
-"""Is a result an answer? The assumptions of the model are checked on the scene before, and on the solution after."""
+"""Whether a result is an answer: the assumptions of the model, checked on the scene before and on the solution
+after."""
 
 from .entry import Validity, gathered, refused
 

@@ -1,4 +1,4 @@
-"""What can be said of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
+"""Checks of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
 
 
 def _lengths_across(surface) -> float | None:
-    """Width of the map over its correlation length across the motion. None where it has no such length: a lay along
-    the motion, or a flat map."""
+    """Width of the map over its correlation length across the motion. None if it has no such length: a lay along the
+    motion, or a flat map."""
     ny = surface.shape[1]
     if ny < 8 or surface.sq == 0:
         return None

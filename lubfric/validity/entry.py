@@ -1,4 +1,4 @@
-"""One assumption of the model that does not hold; and those of many points as a few sentences."""
+"""`Validity`: one assumption of the model that is violated; and those of many points as a few sentences."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ..errors import ValidityError
 
 @dataclass(frozen=True)
 class Validity:
-    """An assumption of the model that does not hold.
+    """An assumption of the model that is violated.
 
     Attributes
     ----------
     what : the quantity, in words
-    value, limit : where it stands and how far the model goes, both in ``unit``
+    value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
     remedy : what to change
     severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a caution
@@ -50,7 +50,7 @@ class Validity:
 
 
 def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
-    """Raise `ValidityError` with ``result`` where one of ``entries`` is severe, unless ``accept``."""
+    """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
     severe = [entry for entry in entries if entry.severe]
     if severe and not accept:
         raise ValidityError(
@@ -59,7 +59,7 @@ def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
 
 
 def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
-    """Assumptions that do not hold at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
+    """Violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     found = point if refused is None else refused
     return () if found is None else found.validity
@@ -71,8 +71,8 @@ def in_a_cell(entries: Iterable[Validity]) -> str:
 
 
 def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
-    """One sentence for each assumption that fails anywhere: at how many points, from where to where, and the worst
-    value.
+    """One sentence for each assumption that is violated anywhere: at how many points, from where to where, and the
+    worst value.
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """
@@ -92,7 +92,7 @@ def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]
 
 
 def _distance(entry: Validity) -> float:
-    """How far beyond its limit, as a ratio."""
+    """The ratio by which the value is beyond its limit."""
     if entry.limit == 0 or entry.value == 0:
         return abs(entry.value - entry.limit)
     ratio = abs(entry.value / entry.limit)

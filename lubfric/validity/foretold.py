@@ -1,4 +1,4 @@
-"""The cautions and refusals that a result will have, foretold from closed forms. Nothing is solved."""
+"""The cautions and refusals that a result will have, predicted from closed forms. Nothing is solved."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ NODES = 201
 
 
 def foretold(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
-    """Pairs (speed [m/s], entry). The speed is None where the entry is about bodies or map. Films are Moes' films
-    under the whole load."""
+    """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are Moes' films under
+    the whole load."""
     found = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
         return tuple(found)

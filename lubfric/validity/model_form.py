@@ -1,11 +1,11 @@
-"""How far load sharing itself is off, as far as it is known. The estimate was read off a study.
+"""The error of load sharing itself, as far as a study has shown it (docs/model-error.md).
 
-``python -m verification model`` solves the same rough line contact by load sharing and by one gap with one pressure
-(`lubfric.deterministic`). It takes the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90
-µm. The rms over surfaces of f/f_deterministic - 1 lies below these bounds (docs/model-error.md).
+``python -m verification model`` solves the same rough line contact by load sharing and by the deterministic model
+(`lubfric.deterministic`): the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, 0.001 to 0.3 m/s, patches of 90 µm. The
+rms over surfaces of f/f_deterministic - 1 lies below these bounds.
 
-The bounds hold for a patch. Much of that error differs from patch to patch, so a long line has less. What both models
-leave out (heat, unsteady roughness, boundary films) is not in it.
+The bounds hold for a patch. Much of that error differs from patch to patch, so a long line has less. They do not
+include what both models leave out: heat, unsteady roughness, boundary films.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
     """Relative error of f by Eq. (8).
 
     In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ = central
-    film/Sq. 0 where the contact carries everything.
+    film/Sq. 0 if the contact carries the whole load.
     """
     if contact_share >= 1:
         return 0.0
@@ -37,14 +37,15 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
 
 
 def one_way_error(contact_share: float, left_out: float) -> float:
-    """Relative error of f by ``numerics.closure = "one-way"``: 11 % in contact, 5 % for a full film. Where the contact
-    carries 0.85 of the load or more ``min(0.11, 0.03 + 7 u/h)``, with u the deflection of the bodies by the film, which
-    the closure leaves out (its rms over the Hertz strip), and h the mean gap.
+    """Relative error of f by ``numerics.closure = "one-way"``: 11 % in contact, 5 % for a full film. If the contact
+    carries 0.85 of the load or more, ``min(0.11, 0.03 + 7 u/h)``, with u the deflection of the bodies by the film,
+    which the closure leaves out (its rms over the Hertz strip), and h the mean gap.
 
-    At 5.5 N and with isotropic roughness u/h is 0.002 there and the rms below 1.1 %. A ground map across its lay has
-    0.007 and an error of 8 %: its grooves hold the fluid, which presses the bodies apart between the ridges. The 11 %
-    was met about lift-off (one surface of twenty), on that map, and at 110 N with a shear-limited oil, where the
-    closure counts as contact what the film carries."""
+    At 5.5 N with isotropic roughness u/h is 0.002 there, and the rms error is below 1.1 %. A ground map across its lay
+    has 0.007 and an error of 8 %: its grooves hold the fluid, which presses the bodies apart between the ridges. Errors
+    of 11 % occurred about lift-off (one surface of twenty), on that map, and at 110 N with a shear-limited oil, where
+    the closure counts as contact what the film carries.
+    """
     if contact_share <= 0:
         return ONE_WAY_FULL_FILM
     if contact_share < MOSTLY:

@@ -1,4 +1,4 @@
-"""What a solution shows: motion, film, shear stress and heat beyond what the model was made for."""
+"""Checks of a solution: motion, film, shear stress and heat outside the range of the model."""
 
 from __future__ import annotations
 
@@ -113,8 +113,8 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
 
 
 def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
-    """Entries for a film that is deflected by its own pressure alone, over a contact of that ``mean_gap`` [m]: what its
-    share of the load may be wrong by."""
+    """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
+    error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
@@ -137,7 +137,8 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
     """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
-    A share of the friction that no oil carries is a caution above the tolerance on f, and refused above 0.2.
+    If the share of the friction that no oil carries is above the tolerance on f, that is a caution; above 0.2 the point
+    is refused.
     """
     tolerance = scene.numerics.tolerance
     if not friction_force > 0:

@@ -1,4 +1,4 @@
-"""Newton's method for one implicit step. Each of its steps decides anew which nodes are cavitated."""
+"""Newton's method for one implicit step; every Newton step decides anew which nodes are cavitated."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class StepSolution:
 
     @property
     def film(self) -> np.ndarray:
-        """rho H, the film that the next step remembers."""
+        """rho H, which the next step remembers."""
         return self.terms.rho[0] * self.terms.H
 
 
@@ -49,9 +49,9 @@ def solve_step(
 ) -> StepSolution:
     """Solve the complementarity equations of `squeeze` from z until max(residuals) <= tolerance.
 
-    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This is a
-    primal-dual active set, which is a semismooth Newton method. Where that fails, the load is led in stages from what z
-    carries to what is asked. (Not with a spring, which needs no such help.)
+    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This
+    primal-dual active set is a semismooth Newton method. If it fails, the load is changed in stages from the load of z
+    to the one asked for. (With a spring that is not needed.)
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         solution = _iterate(grid, problem, now, memory, spring, z, tolerance, max_steps)
@@ -104,12 +104,9 @@ def _iterate(grid, problem, now, memory, spring, z, tolerance, max_steps) -> Ste
 
 
 def measure(grid: FixedGrid, now: Conditions, memory: Memory, t: StepTerms) -> dict[str, float]:
-    """Relative residuals.
-
-    They are those of the mass of the pressurised control volumes (relative to what they hold, per step or per transit
-    of their film), of tension in the cavitated ones and of lubricant made there, of the load, and of the pressure at
-    the ends.
-    """
+    """Relative residuals: of the mass in the pressurised control volumes (relative to what they contain, per step or
+    per passage of their film), of tension in the cavitated ones and of lubricant created there, of the load, and of the
+    pressure at the ends."""
     scale = t.H * (memory.rate * grid.weights + abs(now.speed)) + 1e-300
     top = max(float(t.P.max()), 1e-300)
     mass = t.r[1:-1] / scale[1:-1]

@@ -1,8 +1,8 @@
-"""A graded grid that stays where it is, and is the same on both sides of the line of centres.
+"""A graded grid that does not move, and is the same on both sides of the line of centres.
 
-Flow may reverse, and the film may rupture on either side, on both or on none. So no node hangs on a rupture point.
-Cells are smallest at the edges of the Hertz contact on both sides, over the whole range that changing loads give them.
-They grow in proportion to the distance from there.
+Flow may reverse, and the film may rupture on either side, on both or on none. So the grid cannot follow a rupture
+point. Cells are smallest at the edges of the Hertz contact on both sides, over the whole range of edges that changing
+loads give. They grow in proportion to the distance from there.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class FixedGrid:
     x : (n + 1,) nodes
     cells : (n,) lengths of the cells
     weights : (n + 1,) of the integral of pressure; also the lengths of the control volumes
-    kernel : takes pressure to film at the nodes
+    kernel : from pressure to film at the nodes
     forward, backward, centred : interpolations to the faces, see `Faces`
     """
 
@@ -47,7 +47,7 @@ class FixedGrid:
         return self.cells.size
 
     def upwind(self, speed: float) -> Faces:
-        """The interpolation that looks against the flow."""
+        """The interpolation that takes its nodes against the flow."""
         return self.forward if speed >= 0.0 else self.backward
 
 
@@ -55,8 +55,8 @@ class FixedGrid:
 class Faces:
     """Lagrange interpolation from nodes to the faces between them.
 
-    Face i takes the nodes ``columns[i]`` with the weights ``values[i]``. ``kernel`` (n, n + 1) takes pressure to film
-    at the faces.
+    Face i uses the nodes ``columns[i]`` with the weights ``values[i]``. ``kernel`` (n, n + 1): from pressure to film at
+    the faces.
     """
 
     columns: np.ndarray
@@ -99,7 +99,7 @@ def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces
 def symmetric_nodes(
     resolution: float, edges: tuple[float, float], films: tuple[float, float], reach: float = 0.0
 ) -> np.ndarray:
-    """Nodes symmetric about 0. Their number is ``resolution`` times the size of the task.
+    """Nodes symmetric about 0; their number is ``resolution`` times what the ranges demand.
 
     ``edges`` are the smallest and the largest Hertz half-width, ``films`` the smallest and the largest film, all in the
     units x and h = x²/R. The cells resolve the rise of the smallest film's pressure at every edge. The domain reaches

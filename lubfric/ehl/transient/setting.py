@@ -58,7 +58,7 @@ class ContactHistory:
         return low / self.width, high / self.width
 
     def steady(self, load: float | None = None) -> LineContact:
-        """The steady contact just before t = 0 (there must be entrainment), or the same with another load [N/m]."""
+        """The steady contact just before t = 0 (with entrainment), or the same with another load [N/m]."""
         oil = replace(self.lubricant, viscosity=self.viscosity.before(0.0))
         return LineContact(
             load or self.load_per_width(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
@@ -89,8 +89,8 @@ class Setting:
         )
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None) -> StepSolution:
-        """The step that ends at ``time`` [s] (`lubfric.march.bdf.Solver`). ``spring``: what carries the rest of the
-        load."""
+        """The step that ends at ``time`` [s] (`lubfric.march.bdf.Solver`). ``spring``: a spring that carries the rest
+        of the load."""
         memory = Memory(memory.rate * self.time_unit, memory.film)
         return solve_step(self.grid, self.problem, self.conditions(time), memory, z, spring=spring)
 
@@ -101,7 +101,7 @@ class Setting:
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
 
     def at_rest(self, z: np.ndarray) -> StepSolution:
-        """The unknowns ``z`` taken as the state at t = 0: evaluated, not solved."""
+        """The state at t = 0 with the unknowns ``z``: evaluated, not solved."""
         return solve_step(self.grid, self.problem, self.conditions(0.0), steady(self.grid), z, max_steps=0)
 
     @property
@@ -119,7 +119,7 @@ class Setting:
 
 
 def steady(grid: FixedGrid) -> Memory:
-    """The memory of a state that does not change."""
+    """The memory with which a step gives a steady state."""
     return Memory(0.0, np.zeros(grid.n + 1))
 
 
@@ -132,11 +132,10 @@ def make_setting(
     film_range: tuple[float, float] = (math.inf, 0.0),
     finer: float = 1.0,
 ) -> Setting:
-    """Units and grid that do for all that the histories ask for.
+    """Units and grid that suit the whole range of the histories.
 
-    ``shared`` says that the film carries only part of the load. The grid extends to ``reach`` [m] at least.
-    ``film_range`` [m] are films to resolve beside those of Moes' formula. ``finer`` is the factor by which there are
-    more nodes.
+    ``shared``: the film carries only part of the load. The grid extends to ``reach`` [m] at least. ``film_range`` [m]:
+    films to resolve in addition to those of Moes' formula. ``finer``: factor on the number of nodes.
     """
     problem, films = _reference(contact, film_range)
     load = contact.load_range()
@@ -180,12 +179,12 @@ def _moes(reference: LineContact, load: float, radius: float, viscosity: float, 
 
 
 def parabola(setting: Setting, film: float) -> np.ndarray:
-    """Unknowns of the undeformed gap with the smallest film [m], without pressure."""
+    """Unknowns of the undeformed gap without pressure, with the smallest film [m]."""
     return np.append(np.zeros(setting.grid.n + 1), film / setting.problem.film_unit)
 
 
 def steady_start(setting: Setting, load: float | None = None) -> StepSolution:
-    """The steady state of the conditions just before t = 0, with ``load`` [N/m] in place of the history's if it is
+    """The steady state of the conditions just before t = 0, with ``load`` [N/m] instead of the history's if it is
     given."""
     c, p, grid = setting.contact, setting.problem, setting.grid
     now = setting.conditions(0.0)
@@ -203,7 +202,7 @@ def steady_start(setting: Setting, load: float | None = None) -> StepSolution:
 
 
 def discretisation(setting: Setting, solution: StepSolution) -> float:
-    """Relative error of smallest and central film of a steady solution, judged by the grid of every other node."""
+    """Relative error of minimum and central film of a steady solution, from the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
     z = np.append(solution.z[:-1:2], solution.z[-1])
     z[-1] += solution.terms.H[setting.grid.n // 2] - (coarse.grid.kernel[coarse.grid.n // 2] @ z[:-1] + z[-1])

@@ -4,16 +4,16 @@
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
 The units are those of `lubfric.ehl.problem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
-``rate (rho H - memory)``. Any implicit formula has that shape (BDF2: `lubfric.march.bdf`), and rate = 0 is the steady
-state. The unknowns z are the pressures at all nodes and H00 in H = H00 + c X²/2 + K P.
+``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.march.bdf`), and rate = 0 gives the steady
+state. The unknowns z are the pressures at all nodes, and H00 in H = H00 + c X²/2 + K P.
 
 Mass is balanced in control volumes around the nodes. The Couette flow takes film and density by third-order upwind
 interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P
 equals the pressure of the film outside (`lubfric.ehl.transient.tail`).
 
-Every node's equation r holds in the sense ``P >= 0, r >= 0, P r = 0``. In the cavitated zone r > 0 is the rate at which
-the gap outgrows the lubricant that flows in. Where the film reforms, the zone behind the rupture is taken as full
-again: mass is conserved in the pressurised film, not through cavitation.
+The equation r of every node holds in the sense ``P >= 0, r >= 0, P r = 0``. In the cavitated zone r > 0 is the rate at
+which the gap grows beyond the lubricant that flows in. Where the film forms again, the zone behind the rupture counts
+as full: mass is conserved in the pressurised film, but not through cavitation.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Spring:
-    """A second carrier beside the film, whose load falls exponentially with the mean film ``weights`` @ H.
+    """A spring that carries load beside the film; its load falls exponentially with the mean film ``weights`` @ H.
 
     Its load is ``load`` exp((``mean`` - mean film)/``length``), and a straight line beyond one length of compression.
     """

@@ -1,8 +1,8 @@
-"""The film beyond the last node: parabolic, isoviscous, reaching to infinity.
+"""The film beyond the last node: parabolic and isoviscous, up to infinity.
 
 At the distance s > a from the line of centres the film is h = h_a + c (s² - a²)/2. The flow towards the contact is f +
 v (s - a), with f the flow at a and v = dh/dt. Reynolds' equation in the units of `lubfric.ehl.problem` is dp/ds = 6 nu
-(f + v (s - a) - U h)/h³, with U the speed towards the contact. So the pressure at a and the load behind it are linear
+(f + v (s - a) - U h)/h³, with U the speed towards the contact. So the pressure at a and the load beyond it are linear
 in U, f and v. The integrals are taken by Gauss quadrature in a/s.
 """
 

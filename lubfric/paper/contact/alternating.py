@@ -1,6 +1,6 @@
-"""The nested alternative to the single loop: solve the contact at a fixed separation, update it, repeat.
+"""The nested alternative to the single loop: solve the contact at a fixed separation, update the separation, repeat.
 
-The way of Morales-Espejel et al. as Akchurin et al. 2015 (doi:10.1007/s11249-015-0536-z, end of Sec. 2.2)
+This is the method of Morales-Espejel et al. as Akchurin et al. 2015 (doi:10.1007/s11249-015-0536-z, end of Sec. 2.2)
 describe it: "iteratively solving the system (3) and Eq. (8)", which they found to take too long.
 """
 
@@ -39,11 +39,11 @@ def alternating(
 ) -> ContactResult:
     """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 
-    update : "repeat" takes epsilon straight from Eq. (8) over the lubricated area, as described in the paper. An error
-        in epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That is
-        nothing in an elastic periodic cell, and nearly all of it under a cylinder, where the iteration creeps. "root"
-        (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with epsilon, so
-        there is exactly one.
+    update : "repeat" takes epsilon from Eq. (8) over the lubricated area, as described in the paper. An error in
+        epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That share
+        is zero in an elastic periodic cell, and nearly one under a cylinder, where the iteration hardly proceeds.
+        "root" (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with
+        epsilon, so there is exactly one.
     max_iterations : of the outer loop
 
     The other arguments, the result, its residuals and the errors raised are those of

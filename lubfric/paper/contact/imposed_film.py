@@ -1,7 +1,7 @@
-"""Contact under an imposed film: the shape of the separation h - epsilon is given, and Eq. (8) gives epsilon.
+"""Contact under an imposed film: the film gives the shape of the separation h - epsilon, and Eq. (8) gives epsilon.
 
-This is what the methods of the paper have in common: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7),
-(8), doi:10.1007/s11249-015-0536-z. In the signs of this library the gap is ``g = h - epsilon - z + K p``.
+Both methods of the paper solve this problem: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8),
+doi:10.1007/s11249-015-0536-z. With the signs of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from ...report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 class ImposedFilm:
     """A rough surface under a film of given shape.
 
-    ``problem`` holds gap0 = h - z [m], its minimum moved to zero, with operator and limits. The area A is given by
-    weights that sum to 1, and the mean film over A is in m. Offsets epsilon [m] inside this class are against that
+    ``problem`` holds gap0 = h - z [m], shifted so that its minimum is zero, with operator and limits. The area A is
+    given by weights that sum to 1; the mean film over A is in m. Offsets epsilon [m] inside this class refer to that
     gap0.
     """
 
@@ -39,11 +39,11 @@ class ImposedFilm:
 
     @property
     def separated(self) -> bool:
-        """Whether the film fits between the undeformed surfaces without a touch."""
+        """Whether the film fits between the undeformed surfaces without contact."""
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
     def lubricated_offset(self, displacement, pressure) -> float:
-        """epsilon [m] of Eq. (8) as printed: the lubricated part of A holds the volume of the film.
+        """epsilon [m] of Eq. (8) as printed: the lubricated part of A contains the volume of the film.
 
         It is NaN when the pressure leaves no cell of A free, because Eq. (8) then has no solution.
         """
@@ -53,25 +53,26 @@ class ImposedFilm:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement, overlap=0.0) -> float:
-        """epsilon [m] of Eq. (8) with the contact spots counted in, where the gap is zero. The solution is the same.
+        """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero. The solution is the
+        same.
 
-        ``overlap`` [m] is a field: the overlap of yielded cells, which holds no lubricant.
+        ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
     def scale(self, pressure, displacement) -> float:
-        """The length [m] that gaps are measured by, as in `lubfric.solve_contact`."""
+        """The length [m] to which gaps are compared, as in `lubfric.solve_contact`."""
         return length_scale(pressure, displacement, self.problem.gap0, self.problem.operator)
 
     def first_pressure(self) -> np.ndarray:
-        """A first pressure in proportion to the overlap at the offset of the undeformed surfaces, times the best
+        """A first pressure, proportional to the overlap at the offset of the undeformed surfaces, with the best
         factor."""
         overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
         stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
         return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
 
     def certify(self, state: Outcome, solver: str) -> ContactResult:
-        """The result of an iteration, with residuals computed again from the pressure alone."""
+        """The result of an iteration, with residuals computed anew from the pressure alone."""
         problem, p = self.problem, state.pressure
         u = problem.operator.apply(p)
         gap = problem.gap0 + u - state.offset
@@ -112,7 +113,7 @@ class ImposedFilm:
         )
 
     def solved(self, iterate: Iteration, solver: str, start, raise_on_failure: bool) -> ContactResult:
-        """The contact by ``iterate``, begun from ``start``: a pressure, a result, or None for a guess."""
+        """The contact by ``iterate``, started from ``start``: a pressure, a result, or None for a guess."""
         pressure = starting_pressure(self.problem, start)
         if self.separated:
             return self._touchless()
@@ -127,7 +128,7 @@ class ImposedFilm:
         return result
 
     def _touchless(self) -> ContactResult:
-        """The result where the film keeps the surfaces apart."""
+        """The result if the film keeps the surfaces apart."""
         zero = np.zeros_like(self.problem.gap0)
         state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
         return self.certify(state, "none")
@@ -135,7 +136,7 @@ class ImposedFilm:
 
 @dataclass
 class Outcome:
-    """Where an iteration stands, or where it ended."""
+    """The present state of an iteration, or its end."""
 
     pressure: np.ndarray
     offset: float

@@ -1,17 +1,17 @@
 """Appendix 2 of the paper: pressure and separation are found in one loop.
 
-The form "printed" is the algorithm as its text has it. It is the conjugate gradient of Polonsky and Keer (Wear 231
-(1999) 206-219, doi:10.1016/S0043-1648(99)00113-1) on the cells in contact. The mean of the convolved direction is taken
-off (Eq. 18), overlapping cells are corrected in a step of their own (Eq. 22), the pressure is cut at the hardness, and
-the separation follows from Eq. (8) over the lubricated area.
+The form "printed" is the algorithm as printed. It is the conjugate gradient of Polonsky and Keer (Wear 231 (1999)
+206-219, doi:10.1016/S0043-1648(99)00113-1) on the cells in contact. The mean of the convolved direction is subtracted
+(Eq. 18), overlapping cells are corrected in a step of their own (Eq. 22), the pressure is cut at the hardness, and the
+separation follows from Eq. (8) over the lubricated area.
 
-The form "consistent" (default) keeps the single loop, and changes what stands in the way of convergence:
+The form "consistent" (default) keeps the single loop, and changes what prevents convergence:
 
 - Overlapping cells, and yielded cells that have opened, join the search direction. They get no step of their own.
 - The length of the step is exact for the separation of this iteration. (Eq. 18 is right for a given *load*.)
-- Eq. (8) counts the contact spots with their gap of zero, which cannot overshoot: its right side then falls by less
-  than epsilon rises, whatever the share of contact.
-- The bulk deflection that is common to the whole contact is absorbed by epsilon at once (`bulk`).
+- Eq. (8) counts the contact spots with their gap of zero. Its right side then falls by less than epsilon rises,
+  whatever the share of contact, so the iteration cannot overshoot.
+- The bulk deflection that is common to the whole contact becomes part of epsilon at once (`bulk`).
 """
 
 from __future__ import annotations
@@ -185,8 +185,8 @@ class _Printed:
 class _Consistent:
     """One iteration of the consistent form.
 
-    The working set takes cells in and gives them up. Directions are kept (Polak-Ribiere, never negative), and epsilon
-    follows from Eq. (8) after every step.
+    Cells enter and leave the working set. Directions are kept (Polak-Ribiere, never negative), and epsilon follows from
+    Eq. (8) after every step.
     """
 
     def __init__(self, contact: ImposedFilm, pressure):
@@ -227,7 +227,8 @@ class _Consistent:
         return True
 
     def _follow(self, more) -> None:
-        """Take epsilon from Eq. (8). Yielded cells overlap as they do once epsilon has taken up the bulk deflection."""
+        """Take epsilon from Eq. (8). The overlap of yielded cells is that after epsilon has taken over the bulk
+        deflection."""
         problem = self.contact.problem
         offset = self.offset + self.bulk * more
         gap = problem.gap0 + self.displacement - offset
@@ -236,13 +237,12 @@ class _Consistent:
 
 
 def bulk(contact: ImposedFilm, pressure) -> float:
-    """The deflection [m/Pa] that one loaded cell leaves, at the least and wherever it is, everywhere in A and the
-    contact.
+    """The smallest deflection [m/Pa] that one loaded cell, wherever it is, causes anywhere in A and the contact.
 
-    It is the least deflection under a uniform pressure on the box around A and the contact. This lies below the energy
-    of any pressure in that box (equilibrium measure), so the operator less this constant stays positive there. It is
-    zero where the contact is periodic. Without it epsilon would creep, because the mean gap of a smooth cylinder hardly
-    depends on the load.
+    It is the smallest deflection under a uniform pressure on the box around A and the contact. This is less than the
+    energy of any pressure in that box (equilibrium measure), so the operator minus this constant stays positive there.
+    It is zero where the contact is periodic. Without it epsilon would hardly proceed, because the mean gap of a smooth
+    cylinder hardly depends on the load.
     """
     box = np.zeros(pressure.shape)
     rows = np.flatnonzero(((pressure > 0) | (contact.weight > 0)).any(axis=1))

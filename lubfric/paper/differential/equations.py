@@ -2,17 +2,17 @@
 
 The unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 
-* Before the rupture point mass balances at each node: the flux through face i, minus that through face i - 1, plus
-  what the film stores. Behind it P = 0, and every node may only draw more than it gets. The fluxes are those of
+- Before the rupture point, mass balances at each node: the flux through face i, minus that through face i - 1, plus
+  what the film stores. Behind it P = 0, and the outflow of a node may only exceed its inflow. The fluxes are those of
   `lubfric.ehl.reynolds`.
-* At the inlet P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
-* The second difference of the film holds at interior nodes. It cannot see a constant and a slope. These are given by
+- At the inlet P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
+- The second difference of the film holds at interior nodes. It leaves a constant and a slope open. These are given by
   the films at both ends: their difference follows from the full integral, their height from the load. The residual is
   the second difference of the film's defect against the full integral (by FFT), so that it keeps its digits.
 
 The weights of the second difference on the pressures decay like 1/k² with the distance k in nodes. Those within the
-bandwidth are implicit, and the rest is exact by FFT. It does not lag behind: GMRES adds it to each Newton step, which
-costs O(N log N + N bandwidth²).
+bandwidth are implicit. The rest is exact by FFT; GMRES adds it to each Newton step, which costs O(N log N + N
+bandwidth²), so that it does not lag behind.
 
 Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hughes, C. D. Elcoate, H. P. Evans, Proc.
 IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.
@@ -32,7 +32,8 @@ from .mesh import Mesh, convolve
 
 @dataclass(frozen=True)
 class Squeeze:
-    """What an implicit step in time adds at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units of x."""
+    """The storage term of an implicit step in time at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units
+    of x."""
 
     rate: float
     past: np.ndarray
@@ -140,8 +141,8 @@ def _film_at_faces(H: np.ndarray) -> np.ndarray:
 
 
 def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
-    """The node before rupture: pressures are positive up to it, and the node behind it would draw lubricant, not give
-    it."""
+    """The last node before rupture: pressures are positive up to it, and the balance of the next node would draw
+    lubricant in."""
     peak = int(np.argmax(P))
     last = peak + int(np.argmax(P[peak:] <= 0.0)) - 1
     while last < P.size - 2 and balance[last + 1] < 0.0:

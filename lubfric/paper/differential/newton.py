@@ -1,9 +1,8 @@
 """Newton's method on the coupled equations.
 
-The weights of near pressures are implicit. They stand in one banded factorisation, with a border for the two unknown
-films at the ends. The weights of far pressures are added by GMRES around it. So the step, and not only the answer, is
-that of the full integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as it does with the
-method's authors.
+The weights of near pressures are implicit, in one banded factorisation with a border for the two unknown films at the
+ends. GMRES around it adds the weights of far pressures. So not only the answer but also the step is that of the full
+integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as in the original method.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ class Factors:
     Attributes
     ----------
     LU : the near equations
-    border : (2N, 2) their answer to the two films at the ends
+    border : (2N, 2) their solution for the two films at the ends
     rows : (2, N) the closing equations by P
     closing : (2, 2) the closing equations by those films, condensed
     """
@@ -112,8 +111,8 @@ def _put_film(mesh: Mesh, put) -> None:
 def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int]:
     """The change (2N,) of P and H in turn, and the number of banded solves.
 
-    With A the near equations, the change z solves A z = b + f, where f = far(z) is the bend by far pressures. So z =
-    A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter for f.
+    With A the near equations, the change z solves A z = b + f, where f = far(z) is the effect of far pressures on the
+    second differences. So z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter for f.
     """
     from scipy.linalg.lapack import dgbtrs
 

@@ -18,9 +18,9 @@ STATE_CELLS = 96
 
 
 def grid_error(levels: list[Solution]) -> float:
-    """Largest relative change of smallest, central and flow film between the last two grids, or a quarter of the change
-    before that. This is some three times the error, because a rupture point that is bound to nodes makes the error
-    uneven."""
+    """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
+    before that. This is some three times the error, because the rupture point is always at a node, which makes the
+    error uneven."""
     films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf

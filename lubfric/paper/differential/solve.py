@@ -1,4 +1,4 @@
-"""`solve_differential_deflection`: the film by the method that the load-sharing model was first built on."""
+"""`solve_differential_deflection`: the film by the method on which the load-sharing model was first built."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pr
 
 @dataclass(frozen=True)
 class UniformEffort:
-    """What is asked ``on_a_grid``, the nodes (None: doubled until accurate), the most of them, and the bandwidth."""
+    """The accuracy asked ``on_a_grid``, the number of nodes (None: doubled until accurate), its largest value, and the
+    bandwidth."""
 
     on_a_grid: Effort = Effort()
     nodes: int | None = None
@@ -139,7 +140,7 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
 
 
 def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[int]:
-    """Numbers of cells of the nested grids. The coarsest resolves the rise of the pressure if the finest does."""
+    """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
     film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
     if effort.nodes is None:
@@ -176,7 +177,7 @@ def _ascend(
 
 
 def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
-    """A first guess: a semi-ellipse of the right load that ends at the expected rupture, over the expected film."""
+    """A first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
     place = (mesh.X - rupture_guess(problem)) / width

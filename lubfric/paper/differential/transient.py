@@ -45,10 +45,8 @@ class Step:
 
 @dataclass(frozen=True)
 class UniformSetting:
-    """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m].
-
-    This is what `lubfric.march` takes through time.
-    """
+    """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m] (a
+    `lubfric.march.bdf.Solver`)."""
 
     contact: LineContact  # as it is before t = 0
     load: History
