@@ -117,9 +117,10 @@ class ImposedFilm:
         pressure = starting_pressure(self.problem, start)
         if self.separated:
             return self._touchless()
-        given = pressure is not None and pressure.any()
-        result = self.certify(iterate(self, pressure if given else self.first_pressure()), solver)
-        if given and not result.report.converged:  # no start decides what can be solved
+        if pressure is not None and not pressure.any():
+            pressure = None
+        result = self.certify(iterate(self, self.first_pressure() if pressure is None else pressure), solver)
+        if pressure is not None and not result.report.converged:  # no start decides what can be solved
             again = iterate(self, self.first_pressure())
             note = f"from the start: {result.report.status}; begun again without it"
             result = self.certify(replace(again, notes=[note, *again.notes]), solver)
