@@ -47,11 +47,8 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     arrays = {"speed": np.array([p.speed for p in points])} | _map_of(prepared, "")
     solved = [(point.balance, point.line) for point in points if point.balance is not None]
     for i, (balance, line) in enumerate(solved):
-        film, contact, its = (
-            balance.film,
-            balance.contact.fields,
-            on_cells_of(prepared, None if line is None else line.cells),
-        )
+        film, contact = balance.film, balance.contact.fields
+        its = on_cells_of(prepared, None if line is None else line.cells)
         if its is not prepared:
             arrays |= _map_of(its, f"_{i}")
         if film is not None:

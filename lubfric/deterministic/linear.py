@@ -59,11 +59,12 @@ class System:
     def _rows(self, past):
         """d(equation)/dp, d/dh and d/dfill of every cell over all cells."""
         problem, at = self.problem, self.at
-        by_p, by_h, by_fill = derivatives(problem, at.balance, at.state.pressure)
+        open_ = at.state.kind != TOUCHING  # also where h is still the floor: it is about to rise
+        by_p, by_h, by_fill = derivatives(problem, at.balance, at.state.pressure, open_)
         if past is not None:
             fluid, film, fill = at.balance.fluid, at.balance.film, at.state.fill
             by_p = by_p + diags((fill * fluid.density_slope * film).ravel() / past.step)
-            by_h = by_h + diags((fill * fluid.density * at.balance.open_).ravel() / past.step)
+            by_h = by_h + diags((fill * fluid.density * open_).ravel() / past.step)
             by_fill = by_fill + diags((fluid.density * film).ravel() / past.step)
         flowing = diags(np.where(self.touching, 0.0, self.row))
         closed = diags(self.touching / self.film)

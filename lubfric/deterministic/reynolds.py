@@ -17,12 +17,11 @@ from .rheology import CellFluid, cell_fluid
 class Balance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
-    film: the gap for the flow, at least the floor [m]; open_: where it is the gap itself.
+    film: the gap for the flow, at least the floor [m].
     """
 
     residual: np.ndarray
     film: np.ndarray
-    open_: np.ndarray
     fluid: CellFluid
     along: PressureFlow
     across: PressureFlow
@@ -33,8 +32,7 @@ class Balance:
 def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
     """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny)."""
     dx, dy = problem.spacing
-    open_ = gap > problem.floor
-    film = np.where(open_, gap, problem.floor)
+    film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along = pressure_flow(problem, fluid, pressure, film, 0)
     across = pressure_flow(problem, fluid, pressure, film, 1)
@@ -47,7 +45,7 @@ def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
     residual[1:] -= along.flow
     residual /= dx
     residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
-    return Balance(residual, film, open_, fluid, along, across, couette, upstream)
+    return Balance(residual, film, fluid, along, across, couette, upstream)
 
 
 def first_film(problem: Problem, film) -> np.ndarray:
@@ -56,8 +54,9 @@ def first_film(problem: Problem, film) -> np.ndarray:
     return film[0] - x * dx / (2 * problem.radius) + dx**2 / (8 * problem.radius)
 
 
-def derivatives(problem: Problem, at: Balance, pressure) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
-    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s], sparse (n, n) over all n = nx ny cells in C order."""
+def derivatives(problem: Problem, at: Balance, pressure, open_=None) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
+    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s], sparse (n, n) over all n = nx ny cells in C order; by h of
+    ``open_`` cells (bool) (nx, ny) only (None: of all)."""
     dx, dy = problem.spacing
     shape = at.film.shape
     stencil_p, stencil_h, stencil_fill = _Stencil(shape), _Stencil(shape), _Stencil(shape)
@@ -83,7 +82,7 @@ def derivatives(problem: Problem, at: Balance, pressure) -> tuple[csr_matrix, cs
     stencil_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))
     stencil_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
     stencil_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
-    return stencil_p.matrix(), stencil_h.matrix(at.open_), stencil_fill.matrix()
+    return stencil_p.matrix(), stencil_h.matrix(open_), stencil_fill.matrix()
 
 
 class _Stencil:

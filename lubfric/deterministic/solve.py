@@ -16,6 +16,7 @@ from .state import State
 
 TOLERANCE = 1e-5
 FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
+MOST = 400  # of all ways together: of those that were solved none is known to have taken 200
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
@@ -46,8 +47,8 @@ def solve_point(
     - from higher speeds, step by step;
     - from the state that implicit steps in time reach from the dry contact.
 
-    ``report.notes`` says which one it was. Converged when the largest of `lubfric.deterministic.state.residuals` is <=
-    tolerance. Raises `ConvergenceError` with report and result.
+    Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
+    of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work()
     tried: list[tuple[str, Found]] = []
@@ -59,7 +60,8 @@ def solve_point(
     report = _report(found, tolerance, work, name)
     if not report.converged:
         ways = ", ".join(f"{way} ({at.residual:.1e})" for way, at in tried)
-        report = replace(report, advice=f"tried, with the residual left: {ways}; {ADVICE}")
+        spent = f"{work.factorisations} of {MOST} factorisations"
+        report = replace(report, advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}")
     result = assemble(problem, found.look, report)
     if raise_on_failure:
         report.raise_if_failed(result)
@@ -76,9 +78,14 @@ class Work:
     steps: int = 0
     history: list[float] = field(default_factory=list)
 
+    @property
+    def left(self) -> int:
+        """Factorisations that may still be done."""
+        return max(MOST - self.factorisations, 0)
+
     def direct(self, problem, state, tolerance, most=DIRECT) -> Found:
         """`newton`, counted."""
-        found = newton(problem, state, tolerance=tolerance, most=most)
+        found = newton(problem, state, tolerance=tolerance, most=min(most, self.left))
         self.factorisations += found.factorisations
         self.krylov += found.krylov
         self.history += found.history
@@ -101,7 +108,7 @@ class Work:
 
     def in_time(self, problem, state, tolerance) -> Found:
         """`march`, then `newton`, counted."""
-        way = march(problem, state, most=MARCHED)
+        way = march(problem, state, most=min(MARCHED, self.left))
         self.factorisations += way.factorisations
         self.krylov += way.krylov
         self.steps += way.steps

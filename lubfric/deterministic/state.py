@@ -70,7 +70,8 @@ def mass(state: State, at: Balance) -> np.ndarray:
 def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
     """``at``, with every cell given the equation that its state asks for."""
     new = look(problem, _resorted(problem, at), past)
-    closed = (new.state.kind == FLUID) & (new.gap < problem.floor)  # by a pressure that was cut to P_u
+    fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
+    closed = fluid & (new.gap < problem.floor)  # by a pressure that was cut to P_u
     kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
     return replace(new, state=replace(new.state, kind=kind))
 
