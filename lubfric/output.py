@@ -9,7 +9,7 @@ from dataclasses import asdict
 import numpy as np
 
 from .plain import plain
-from .prepared import Prepared
+from .prepared import Prepared, on_cells_of
 from .result import FrictionResult
 from .scene import Scene, scene_as_dict
 from .surface import Surface, rms_slope
@@ -40,16 +40,17 @@ def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
 
 
 def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
-    """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``."""
-    arrays = {
-        "speed": np.array([p.speed for p in points]),
-        "heights": prepared.surface.heights,
-        "spacing": np.array(prepared.surface.spacing),
-        "contact_x": prepared.contact.x,
-    }
-    balances = [point.balance for point in points if point.balance is not None]
-    for i, balance in enumerate(balances):
+    """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``.
+
+    A speed whose contact was solved on other cells than those of ``prepared`` has their map and x under its index too.
+    """
+    arrays = {"speed": np.array([p.speed for p in points])} | _map_of(prepared, "")
+    solved = [(point.balance, point.line) for point in points if point.balance is not None]
+    for i, (balance, line) in enumerate(solved):
         film, contact = balance.film, balance.contact.fields
+        its = on_cells_of(prepared, None if line is None else line.cells)
+        if its is not prepared:
+            arrays |= _map_of(its, f"_{i}")
         if film is not None:
             arrays |= {
                 f"film_x_{i}": film.x,
@@ -59,6 +60,11 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
         if contact is not None:
             arrays |= {f"contact_pressure_{i}": contact.pressure, f"gap_{i}": contact.gap}
     return npz_bytes(arrays)
+
+
+def _map_of(prepared: Prepared, end: str) -> dict[str, np.ndarray]:
+    found = (prepared.surface.heights, np.array(prepared.surface.spacing), prepared.contact.x)
+    return {f"{name}{end}": array for name, array in zip(("heights", "spacing", "contact_x"), found)}
 
 
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:

@@ -130,9 +130,9 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 def plot_contact(path: Path, prepared, point) -> None:
     """Contact pressure map; beside it film, separation and surface on a section through the highest pressure.
 
-    ``point``: a `FrictionResult` with fields. The section shows what the paper's Fig. 10 shows: the smooth film h, the
-    separation h_s = h - epsilon, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up
-    to one constant. It is chosen so that u has zero mean over the section.
+    ``point``: a `FrictionResult` with fields, on the cells of ``prepared``. The section shows what the paper's Fig. 10
+    shows: the smooth film h, the separation h_s = h - epsilon, and the rough surface, deformed (z - u) and undeformed
+    (z). epsilon and u are known up to one constant. It is chosen so that u has zero mean over the section.
     """
     x = prepared.contact.x
     heights = prepared.surface.heights - prepared.surface.heights.mean()

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from .errors import InputError
 from .film.contract import FilmLevel
 from .film.levels import LEVELS
+from .lines.cells import Cells
 from .lines.contract import Lines
 from .lines.make import lines_of, pilot, takes_line
 from .plausible import told_doubts
@@ -125,6 +126,13 @@ def on_halved_cells(prepared: Prepared) -> Prepared:
     lines = prepared.lines.halved()
     surface, contact = pilot(prepared.scene, lines)
     return replace(prepared, surface=surface, contact=contact, lines=lines)
+
+
+def on_cells_of(prepared: Prepared, cells: Cells | None) -> Prepared:
+    """``prepared`` with lines on ``cells``, which a point may have halved; itself on one patch (None)."""
+    while cells and prepared.lines and any(own > f for own, f in zip(prepared.lines.cells.factors, cells.factors)):
+        prepared = on_halved_cells(prepared)
+    return prepared
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:

@@ -18,7 +18,7 @@ from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
 from .output import curve_record, fields_bytes
 from .plot import make_ready, plot_contact, plot_stribeck
-from .prepared import prepare
+from .prepared import on_cells_of, prepare
 from .result import FrictionResult
 from .run_folder import RunFolder, drawn, run_folder
 from .sampling.uncertainty import Uncertainty, percent
@@ -78,7 +78,7 @@ def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
         counted[0] = done
         _progress(done, total, speed, outcome)
         if speed == chosen[0] and isinstance(outcome, FrictionResult) and outcome.balance is not None:
-            pictures[speed] = artist.submit(drawn, plot_contact, prepared, outcome)
+            pictures[speed] = artist.submit(_contact, prepared, outcome)
 
     def kept() -> str:
         return f"interrupted; {counted[0]} of {total} points are kept in {out}: the same command goes on from there"
@@ -183,12 +183,17 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
         points.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", fields_bytes(prepared, points))
         ready = pictures.get(points[0].speed)
-        folder.write("contact.png", ready.result() if ready else drawn(plot_contact, prepared, points[0]))
+        folder.write("contact.png", ready.result() if ready else _contact(prepared, points[0]))
     whole = [p for p in curve.points if p is not None and p.deterministic is not None]
     if whole:
         whole.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", deterministic_bytes([p.deterministic.result for p in whole]))
         folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, prepared.scene.bodies.half_width)
+
+
+def _contact(prepared, point) -> bytes:
+    """The picture of the contact of ``point``, on the cells on which it was solved."""
+    return drawn(plot_contact, on_cells_of(prepared, None if point.line is None else point.line.cells), point)
 
 
 def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:

@@ -95,11 +95,11 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
     yield from of_thickness(scene, result.central_gap)
     cut = (result.split.saturated - result.split.spots) / result.load
     if scene.lubricant.newtonian and cut > CUT:
-        consequence = "a Newtonian film there would be sheared beyond f_b p, and was cut to it"
+        consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
     if result.drawn > DRAWN:
-        consequence, remedy = "the film behind them is fed too well", "finer cells (contact.spacing)"
+        consequence, remedy = "the film behind them gets too much lubricant", "finer cells (contact.spacing)"
         yield Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
     error, tolerance = found.error, scene.numerics.tolerance
     if error is not None and error > tolerance:

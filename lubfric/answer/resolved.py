@@ -72,11 +72,11 @@ def _heat_left_out(scene: Scene, speed: float, couette: float, film: float) -> t
         return ()
     return (
         Validity(
-            "heat, by what it takes off the film or its viscosity,",
+            "loss of film or viscosity by heat",
             change,
             scene.numerics.tolerance,
             "",
-            "this model is isothermal: the film is thinner and shears more easily than it says",
+            "this model is isothermal: in truth the film is thinner and shears more easily",
             "load sharing (numerics.model = 'auto', closure = 'load') has the heat; heat = 'off' asks for none",
         ),
     )

@@ -43,7 +43,8 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
     ``"motion.slide_roll_ratio"``.
 
-    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions.
+    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
+    of which there are two at least.
     """
     coords = study.coords
     for key in (across, up):
@@ -55,7 +56,8 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
         raise InputError(f"a map needs two dimensions, this study varies {', '.join(study.dims)} as well")
     axes = [study.dims.index(d) for d in dims]
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
-    x, y = (np.asarray(coords[key][1], float) for key in (across, up))
+    x, y = (_numbers(key, coords[key][1]) for key in (across, up))
+    values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
     figure = new_figure(figsize=(7, 5))
     ax = figure.subplots()
     shown = ax.contourf(x, y, np.ma.masked_invalid(values), levels=16, cmap="viridis")
@@ -76,3 +78,10 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     figure.colorbar(shown, label="friction coefficient (-)" if quantity == "coefficient" else quantity)
     ax.set_title(title)
     figure.savefig(path, dpi=150)
+
+
+def _numbers(key: str, values: np.ndarray) -> np.ndarray:
+    """The values [SI] of a key along one axis of a map."""
+    if values.dtype.kind != "f" or np.unique(values).size < max(2, values.size):
+        raise InputError(f"{key} = {', '.join(map(str, values))}; an axis of a map takes two or more different numbers")
+    return values

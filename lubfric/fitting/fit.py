@@ -11,7 +11,7 @@ from ..prepared import scene_of
 from ..report import CONVERGED, ITERATION_LIMIT, Report
 from ..scene import Scene
 from ..studies.spread import checked_executor
-from ..validate import instance
+from ..validate import instance, number
 from .measured import SLIP, Measured
 from .parameters import Parameters, parameters_of
 from .predict import Curve, Predictor, jacobian, predictor
@@ -85,9 +85,12 @@ def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
     values = []
     for key, low, high in zip(found.keys, found.low, found.high):
         section, _, name = key.partition(".")
-        value = start.get(key, vars(getattr(scene, section)).get(name))  # a short form has no value there
-        number = isinstance(value, (int, float)) and low < value < high
-        values.append(float(value) if number else np.nan)
+        if key in start:
+            values.append(number(f"start[{key!r}]", start[key], "(of the key)", minimum=low, maximum=high))
+            continue
+        value = vars(getattr(scene, section)).get(name)  # a short form has none there
+        inside = isinstance(value, (int, float)) and low < value < high
+        values.append(float(value) if inside else np.nan)
     for key in start:
         if key not in found.keys:
             raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found.keys)}")

@@ -4,12 +4,12 @@ Two published factors, h/h_isothermal over the thermal number ``L = eta0 beta UÂ
 
 - P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster, J. B. Schrand, Tribol. Trans. 35 (1992) 269-274,
   doi:10.1080/10402009208982117: ``(1 - 13.2 (p_h/E') L^0.42)/(1 + 0.213 (1 + 2.23 S^0.83) L^0.64)``: used here;
-- W. R. D. Wilson, S. Sheu, J. Lubr. Technol. 105 (1983) 187-188, doi:10.1115/1.3254559, as used by A. V. Olver, H. A.
-  Spikes, Proc. Inst. Mech. Eng. J 212 (1998) 321-332, doi:10.1243/1350650981542137:
-  ``1/(1 + 0.1 (1 + 14.8 S^0.83) L^0.64)``.
+- W. R. D. Wilson, S. Sheu, J. Lubr. Technol. 105 (1983) 187-188, doi:10.1115/1.3254563, as used by A. V. Olver, H. A.
+  Spikes, Proc. Inst. Mech. Eng. J 212 (1998) 321-332, doi:10.1243/1350650981542137: ``1/(1 + 0.1 (1 + 14.8 S^0.83)
+  L^0.64)``. The note of Wilson and Sheu itself has 0.241 in place of 0.1, and S/2 in place of S, at the same L.
 
 In rolling they agree to some 10 %. Both were fitted near rolling. At S = 2 they differ by up to 100 % (0.47 and 0.27 at
-L = 1), and which is right is not known. Every factor comes with the difference between the two.
+L = 1; 0.21 by the note itself), and which is right is not known. Every factor comes with this difference.
 """
 
 from __future__ import annotations

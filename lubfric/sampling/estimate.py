@@ -134,9 +134,8 @@ def uncertainty_of(
     ``notes``."""
     asked, notes = scene.numerics.sampling_tolerance, [*notes]
     if sampling > asked and area_needed > 1:
-        notes.append(
-            f"the map ends before the {percent(asked)} asked: it would take about {area_needed:.2g} times its area"
-        )
+        times = float(f"{area_needed:.2g}")
+        notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")
     elif sampling > asked:
         notes.append(f"more than the {percent(asked)} asked")
     if too_few(together.participation, sampling, asked):

@@ -60,7 +60,7 @@ def too_coarse(change: float, tolerance: float) -> tuple[Validity, ...]:
             100 * change,
             100 * tolerance,
             "%",
-            "the map is too coarse for its roughness, which no interval of f includes",
+            "the map is too coarse for its roughness; the interval of f does not include that",
             "use a map on shorter cells",
         ),
     )

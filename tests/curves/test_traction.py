@@ -106,6 +106,17 @@ def test_a_map_needs_two_dimensions_and_marks_what_has_no_answer(tmp_path):
         plot_map(tmp_path / "x.png", refused, "speed", "speed")
 
 
+def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
+    smooth = lubfric.load_scene("paper").with_(surface={"sq": 0.0})
+    for name, viscosities, speeds in (("rising", [0.1, 0.2, 0.4], [1.0, 2.0]), ("mixed", [0.4, 0.1, 0.2], [2.0, 1.0])):
+        study = lubfric.study(smooth, {"lubricant.viscosity": viscosities}, speeds)
+        plot_map(tmp_path / f"{name}.png", study, "speed", "lubricant.viscosity")
+    assert (tmp_path / "rising.png").read_bytes() == (tmp_path / "mixed.png").read_bytes()
+    for vary in ({"bodies.material": ["steel", "bronze"]}, {"bodies.load": [5.0]}):
+        with pytest.raises(lubfric.InputError, match="different numbers"):
+            plot_map(tmp_path / "x.png", lubfric.study(smooth, vary, [1.0, 2.0]), "speed", *vary)
+
+
 def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
     module = sys.modules["lubfric.curves.traction"]
     real = module.friction

@@ -281,6 +281,13 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, BOUNDS)
 
 
+def test_a_start_beyond_the_bounds_is_refused():
+    measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]))
+    for value in (0.01, 2.0, "0.1", np.nan):
+        with pytest.raises(lubfric.InputError, match="start.*lubricant.viscosity"):
+            lubfric.fit(SCENE, measured, BOUNDS, start={"lubricant.viscosity": value})
+
+
 def test_a_measured_ratio_is_not_fitted():
     measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]), over="slide_roll_ratio")
     for key in ("motion.slide_roll_ratio", "motion.slip_percent"):

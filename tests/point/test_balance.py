@@ -85,6 +85,19 @@ def test_an_imposed_film_finds_the_division_where_the_load_hardly_tells_it():
     assert separation.coefficient == pytest.approx(load.coefficient, rel=0.015)
 
 
+@pytest.mark.parametrize("hardness, level, speed", [(2e9, "ehl", 0.003), (1e9, "auto", 0.04)])
+def test_the_imposed_film_finds_a_contact_whose_few_spots_yield(hardness, level, speed):
+    """A start in which all that touches has yielded leads nowhere by itself."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"hardness": hardness},
+        surface={"correlation_length": 4e-6},
+        contact={"shape": (48, 48), "spacing": 1.1e-6},
+        numerics={"sampling": "patch", "film_deflection": "auto", "film_level": level},
+    )
+    load, separation = (lubfric.friction(scene.with_(numerics={"closure": c}), speed) for c in ("load", "separation"))
+    assert separation.coefficient == pytest.approx(load.coefficient, rel=0.015)
+
+
 def test_film_share_grows_with_speed():
     shares = [shared(point(u, tolerance=1e-8)).film_load for u in np.geomspace(1e-4, 10, 30)]
     assert np.all(np.diff(shares) >= 0) and shares[0] < 1e-3 and shares[-1] == 1.0

@@ -42,7 +42,7 @@ def against_time(found: list[Deviation]) -> Figure:
         else:
             axes.loglog([d.seconds for d in mine], rms, "o", label=method)
     axes.set(xlabel="processor time of a point (s)", ylabel="rms error of f over surfaces (%)")
-    axes.legend(fontsize=8)
+    axes.legend(fontsize=8, ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))  # above: nothing crosses it
     return plotting.finish("error-against-time", canvas, "Error of the model in f against time; a point a speed")
 
 

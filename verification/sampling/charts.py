@@ -11,7 +11,7 @@ from .measure import Result
 
 
 def coverage(results: list[Result]) -> Figure:
-    """Every interval of every case over the truth. Those that miss it are red."""
+    """Every interval of every case over the truth. Those that miss it are orange."""
     canvas, grid = axes(-(-len(results) // 2), 2, 11, 2.6 * -(-len(results) // 2), squeeze=False)
     for axis, result in zip(grid.flat, results):
         order = np.argsort(result.column("f"))
@@ -28,7 +28,7 @@ def coverage(results: list[Result]) -> Figure:
         axis.set_xlabel("trials, by f")
     for axis in grid.flat[len(results) :]:
         axis.set_axis_off()
-    return finish("coverage", canvas, "Every interval over the truth; those that miss it are red", "png")
+    return finish("coverage", canvas, "Every interval over the truth; those that miss it are orange", "png")
 
 
 def bias(found: Found) -> Figure:

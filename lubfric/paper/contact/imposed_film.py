@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -117,9 +117,13 @@ class ImposedFilm:
         pressure = starting_pressure(self.problem, start)
         if self.separated:
             return self._touchless()
-        if pressure is None or not pressure.any():
-            pressure = self.first_pressure()
-        result = self.certify(iterate(self, pressure), solver)
+        if pressure is not None and not pressure.any():
+            pressure = None
+        result = self.certify(iterate(self, self.first_pressure() if pressure is None else pressure), solver)
+        if pressure is not None and not result.report.converged:  # no start decides what can be solved
+            again = iterate(self, self.first_pressure())
+            note = f"from the start: {result.report.status}; begun again without it"
+            result = self.certify(replace(again, notes=[note, *again.notes]), solver)
         if raise_on_failure:
             result.report.raise_if_failed(result)
         return result

@@ -202,6 +202,9 @@ class _Consistent:
         problem, p, hardness = self.contact.problem, self.pressure, self.contact.problem.hardness
         gap = problem.gap0 + self.displacement - self.offset
         free = ((p > 0) & (p < hardness)) | ((p <= 0) & (gap < 0)) | ((p >= hardness) & (gap > 0))
+        if not free.any():  # all that touches has yielded: epsilon alone is not that of Eq. (8) yet
+            self._follow(0.0)
+            return True
         r = np.where(free, gap, 0.0)
         d = -r
         if self.direction is not None:
