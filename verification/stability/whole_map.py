@@ -8,6 +8,7 @@ and of 1/h³ between cells.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -69,6 +70,11 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
     )
     contact = LineContact(load, RADIUS, E_PRIME, speed, OIL)
     return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
+
+
+def pressure(load: float) -> float:
+    """Largest pressure [Pa] of the smooth dry bearing under a load per width [N/m]."""
+    return math.sqrt(load * E_PRIME / (2 * math.pi * RADIUS))
 
 
 def check(problem, found) -> dict[str, float]:

@@ -16,7 +16,9 @@ from ..levels.scenes import SEED
 from ..sampling import cases, measure, quantities, verdict
 from .measured import Cells
 
-SAMPLING, LEVELS, CHARTS, MODEL = (Path("out", name) for name in ("sampling", "levels", "charts", "model"))
+SAMPLING, LEVELS, CHARTS, MODEL, STABILITY = (
+    Path("out", name) for name in ("sampling", "levels", "charts", "model", "stability")
+)
 METHODS_ERROR = 1e-5  # of the pressure
 
 
@@ -156,6 +158,28 @@ def heavy_loads() -> Cells:
     return ["load", "surfaces", "points solved", "median processor time", "longest", "not solved"], rows
 
 
+def whole_map() -> Cells:
+    """The deterministic film over 10 speeds and 4 heights of roughness, by `python -m verification stability --full
+    --only whole`."""
+    from ..stability.cell import FAILED, VERDICTS
+    from ..stability.cell import verdict as verdict_of
+    from ..stability.whole_map import LOADS, pressure
+
+    found = [Check.from_dict(row) for _, row in kept.read(STABILITY / "whole-full" / "cells.jsonl")]
+    if not found:
+        raise RuntimeError(f"{STABILITY} holds no map: run python -m verification stability --full --only whole first")
+    rows = []
+    for load in LOADS["full"]:
+        mine = [c for c in found if c.number("x") == load]
+        verdicts = [verdict_of(c) for c in mine]
+        worst = max((c.measured for c in mine if not c.refused), default=float("nan"))
+        failed = [f"{c.word('map')[7:]} at {c.number('y'):.2g} m/s" for c in mine if verdict_of(c) == FAILED]
+        row = [f"{load:g}", f"{1e-9 * pressure(load):.2g}", str(len(mine)), *(str(verdicts.count(v)) for v in VERDICTS)]
+        rows.append([*row, f"{worst:.2f}", ", ".join(failed)])
+    columns = ["load (N/m)", "Hertz pressure (GPa)", "cells", *VERDICTS, "largest deviation over the allowed one"]
+    return [*columns, "where it failed"], rows
+
+
 def held_out() -> Cells:
     """The told error of the model on surfaces it was not read off, by `python -m verification model`. Points that it
     kept are not solved again."""
@@ -168,6 +192,7 @@ def held_out() -> Cells:
 TABLES: dict[str, Callable[[], Cells]] = {
     "refinement": refinement,
     "heavy-loads": heavy_loads,
+    "whole-map": whole_map,
     "held-out": held_out,
     "model-error": model_error,
     "measured-map": measured_map,
