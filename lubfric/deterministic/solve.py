@@ -15,8 +15,8 @@ from .start import dry_contact, dry_start
 from .state import State
 
 TOLERANCE = 1e-5
-FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 250  # LU factorisations: from a state nearby, from the dry contact, in time
-MOST = 400  # of all ways together: of those that were solved none is known to have taken 200
+FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 500  # LU factorisations: from a state nearby, from the dry contact, in time
+MOST = 800  # of all ways together
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
@@ -44,8 +44,9 @@ def solve_point(
       between;
     - from the dry contact, lifted by Moes' film;
     - for a Newtonian lubricant, from the solution with a limiting shear stress;
+    - from the state that implicit steps in time reach from the first of ``starts``;
     - from higher speeds, step by step;
-    - from the state that implicit steps in time reach from the dry contact.
+    - without ``starts``, from the state that implicit steps in time reach from the dry contact.
 
     Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
     of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
@@ -116,8 +117,10 @@ class Work:
 
 
 def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+    near: State | None = None
     for start in starts:
         state = start.state()
+        near = state if near is None else near
         yield "from a neighbouring state", work.direct(problem, state, tolerance, FROM_NEIGHBOUR)
         if start.speed != problem.speed:
             yield "step by step from a neighbouring speed", work.walk(problem, state, start.speed, tolerance)
@@ -132,12 +135,15 @@ def _attempts(problem: Problem, starts, tolerance, work: Work) -> Iterator[tuple
         helped = work.direct(thin, cold, tolerance)
         if helped.residual <= tolerance:
             yield "from a fluid with a limiting stress", work.direct(problem, helped.look.state, tolerance)
+    if near is not None:
+        yield "in time from a neighbouring state", work.in_time(problem, near, tolerance)
     for times in FASTER:
         fast = problem.at_speed(times * problem.speed)
         helped = work.direct(fast, dry_start(fast, dry, fast.contact.moes_film), LOOSE)
         if helped.residual <= LOOSE:
             yield "step by step from a faster speed", work.walk(problem, helped.look.state, fast.speed, tolerance)
-    yield "in time from the dry contact", work.in_time(problem, cold, tolerance)
+    if near is None:
+        yield "in time from the dry contact", work.in_time(problem, cold, tolerance)
 
 
 def _report(found: Found, tolerance: float, work: Work, name: str) -> Report:

@@ -9,6 +9,8 @@ import pytest
 import lubfric
 from lubfric.deterministic import lay_out, solve_point
 from lubfric.deterministic.forces import forces
+from lubfric.deterministic.march import march
+from lubfric.deterministic.newton import newton
 from lubfric.deterministic.refine import estimate, solve_refined
 from lubfric.deterministic.solve import Start
 from lubfric.deterministic.start import dry_contact, dry_start
@@ -163,6 +165,17 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
     found = solve_point(lay_out(surface, line, sliding=2e-3, boundary_friction=0.1, hardness=6e9))
     assert "from the dry contact" in found.report.notes[0] and found.report.iterations <= 25
     assert found.touching.any() and found.drawn < 0.1
+
+
+def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
+    """To the same film as Newton's method from the dry contact, which shares none of the way."""
+    problem = rough(32, 18333.0, 0.01, LIMITED, hardness=4e9)
+    fast = solve_point(problem.at_speed(0.1))
+    way = march(problem, state_on(problem, fast), most=300)
+    there = newton(problem, way.state, tolerance=1e-5, most=5)
+    assert there.residual <= 1e-5 and way.steps >= 3 and way.factorisations < 300
+    cold = solve_point(problem)
+    assert np.abs(there.look.state.pressure - cold.pressure).max() < 1e-3 * cold.pressure.max()
 
 
 def test_all_ways_together_take_no_more_factorisations_than_they_may(monkeypatch):
