@@ -77,6 +77,12 @@ def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
         lubfric.plan_study(SCENE, vary, [0.1])
 
 
+def test_a_study_says_that_its_points_are_steady():
+    moving = SCENE.with_(transient=lubfric.Transient(duration=0.1))
+    assert "[transient]) is left out" in lubfric.plan_study(moving, {}, [0.1]).explain()
+    assert "[transient]" not in lubfric.plan_study(SCENE, {}, [0.1]).explain()
+
+
 def test_temperatures_are_varied_with_a_viscosity():
     keys = ("lubricant.temperature", "lubricant.viscosity")
     numbers = lubfric.plan_study(SCENE, {keys: [(313.15, 0.2), (353.15, 0.05)]}, [0.1])
