@@ -15,7 +15,7 @@ from .errors import InputError
 from .oil.oil import Oil
 from .oil.temperature import checked_temperature
 from .show.shown import Brief
-from .validate import choice, nonnegative, number, positive
+from .validate import choice, nonnegative, number, positive, python_fields
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
@@ -70,6 +70,7 @@ class Lubricant(Brief):
     oil: Oil | None = None
 
     def __post_init__(self):
+        python_fields(self)
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
         choice("density_law", self.density_law, DENSITY_LAWS)
         eta0 = positive("viscosity", self.viscosity, "Pa s")

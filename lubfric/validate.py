@@ -42,6 +42,25 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST_SHOWN else f"{text[: LONGEST_SHOWN - 4]} ..."
 
 
+def python_value(value: Any) -> Any:
+    """A number of NumPy as a Python one, an array as a tuple, also inside lists and tuples; anything else as it is."""
+    if isinstance(value, np.ma.MaskedArray):
+        return value
+    if isinstance(value, (np.generic, np.ndarray)):
+        given = value.tolist()
+        return tuple(python_value(part) for part in given) if isinstance(given, list) else given
+    if type(value) in (list, tuple):
+        return type(value)(python_value(part) for part in value)
+    return value
+
+
+def python_fields(part: Any) -> None:
+    """Make the fields of a frozen dataclass `python_value` (call it first in ``__post_init__``). A pair in an array is
+    a pair, a scene prints and is written as numbers, and nothing is computed in single precision."""
+    for name, value in list(vars(part).items()):
+        object.__setattr__(part, name, python_value(value))
+
+
 def _real(value: Any) -> float:
     """``value`` as a float. Raises TypeError if it is not one real number, OverflowError if it is too large for a
     float."""

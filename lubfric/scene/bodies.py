@@ -37,6 +37,7 @@ class Bodies(Brief):
     volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
 
     def __post_init__(self):
+        validate.python_fields(self)
         validate.positive("bodies.radius", self.radius, "m", minimum=1e-9, maximum=1e3)
         validate.positive("bodies.width", self.width, "m", minimum=1e-9, maximum=1e3)
         validate.positive("bodies.load", self.load, "N", minimum=1e-12, maximum=1e12)

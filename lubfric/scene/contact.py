@@ -42,6 +42,7 @@ class ContactDomain(Brief):
     asperity_separation: str = "volume"
 
     def __post_init__(self):
+        validate.python_fields(self)
         validate.choice("contact.model", self.model, CONTACT_MODELS)
         validate.choice("contact.asperity_separation", self.asperity_separation, ASPERITY_SEPARATIONS)
         validate.choice("contact.geometry", self.geometry, GEOMETRIES)

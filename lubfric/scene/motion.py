@@ -27,6 +27,7 @@ class Motion(Brief):
     speeds: tuple[float, ...] = ()
 
     def __post_init__(self):
+        validate.python_fields(self)
         for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", 1e6)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
             object.__setattr__(self, name, value)

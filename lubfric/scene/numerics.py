@@ -75,6 +75,7 @@ class Numerics(Brief):
     accept: bool = False
 
     def __post_init__(self):
+        validate.python_fields(self)
         for name, options in (
             ("model", MODELS),
             ("film_level", FILM_LEVELS),

@@ -6,6 +6,7 @@ for a file). It returns the plain fields of the section.
 
 from __future__ import annotations
 
+from ..validate import python_value
 from . import bodies, lubricant, motion
 from .pairs import only_one
 
@@ -23,8 +24,9 @@ def resolve(section: str, given: dict, old=None) -> dict:
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
+    given = {key: python_value(value) for key, value in given.items()}
     if section in SECTIONS:
-        return SECTIONS[section].resolve(dict(given), old)
+        return SECTIONS[section].resolve(given, old)
     names = BEFORE.get(section, {})
     for before, today in names.items():
         only_one(section, given, before, today)

@@ -166,11 +166,10 @@ def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
             raise InputError(f"vary: {', '.join(keys)} go together; give {len(keys)} values each time, not {row!r}")
-    return Axis(name, keys, tuple(tuple(_plain(value) for value in row) for row in rows))
+    return Axis(name, keys, tuple(tuple(_value(value) for value in row) for row in rows))
 
 
-def _plain(value):
-    """A number of NumPy as a Python one, a list as a tuple."""
-    if isinstance(value, np.generic):
-        return value.item()
-    return tuple(_plain(part) for part in value) if isinstance(value, (list, np.ndarray)) else value
+def _value(value: Any) -> Any:
+    """In Python's types, a list as a tuple."""
+    value = validate.python_value(value)
+    return tuple(_value(part) for part in value) if isinstance(value, list) else value

@@ -124,6 +124,10 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
         heights, own = _read_npy(path), None
+        with np.errstate(over="ignore"):
+            if heights.dtype.kind == "f" and missing_value is not None:
+                missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
+            heights = heights.astype(float)
     else:
         heights, own, notes = read_matrix(path, decimal, unit)
     if own is not None:
@@ -183,8 +187,7 @@ def _read_npy(path) -> np.ndarray:
             f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]"
         )
     checks.points(f"path = {str(path)!r}: shape", data.shape)
-    with np.errstate(over="ignore"):
-        return np.array(data, dtype=float)
+    return np.array(data)
 
 
 def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form="plane", fill=True) -> Surface:

@@ -633,6 +633,15 @@ def test_a_number_can_stand_for_not_measured(tmp_path, suffix):
         read_surface(path, **options, missing_value="-")
 
 
+def test_a_missing_value_is_found_in_the_precision_of_the_file(tmp_path):
+    heights = np.random.default_rng(1).normal(0, 1e-7, (8, 9))
+    heights[2, 3] = -99.9
+    for kind in ("<f4", ">f4", "<f8"):
+        np.save(tmp_path / "map.npy", heights.astype(kind))
+        surface = read_surface(tmp_path / "map.npy", spacing=1e-6, missing_value=-99.9, **RAW)
+        assert np.argwhere(~surface.mask).tolist() == [[2, 3]] and abs(surface.measured).max() < 1e-6
+
+
 @pytest.mark.parametrize("unit", ["um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"])
 def test_micrometres_in_each_spelling(tmp_path, unit):
     np.save(tmp_path / "map.npy", heights((8, 9)) * 1e6)

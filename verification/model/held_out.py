@@ -19,6 +19,7 @@ from .measure import REFERENCE, Point, Setting, all_points
 
 TELLING = ('Eq. (8) over "hertz"', "one-way")
 SPEEDS = (0.1, 0.06, 0.03, 0.01, 0.003)
+SLOW = (0.01, 0.003, 0.001)  # where heavy contacts carry nearly all
 COUNT = {"quick": 1, "default": 2, "full": 6}
 COLUMNS = (
     "surfaces",
@@ -36,8 +37,8 @@ def kinds(level: str) -> dict[str, list[Setting]]:
     cells = {"quick": 32, "default": 64, "full": 96}[level]
     seeds = range(101, 101 + COUNT[level])
 
-    def those(acf="gaussian", load=5.5, fluid="Newtonian", length=8e-6, sq=100e-9):
-        return [Setting(seed, acf, load, fluid, SPEEDS, cells, length, sq) for seed in seeds]
+    def those(acf="gaussian", load=5.5, fluid="Newtonian", length=8e-6, sq=100e-9, speeds=SPEEDS):
+        return [Setting(seed, acf, load, fluid, speeds, cells, length, sq) for seed in seeds]
 
     return {
         "other seeds": those(),
@@ -47,6 +48,8 @@ def kinds(level: str) -> dict[str, list[Setting]]:
         "exponential, 5 µm": those(acf="exponential", length=5e-6),
         "13.75 N, limiting stress": those(load=13.75, fluid="limiting stress"),
         "55 N, limiting stress": those(load=55.0, fluid="limiting stress"),
+        "27.5 N, slow": those(load=27.5, fluid="limiting stress", speeds=SLOW),
+        "110 N, slow": those(load=110.0, fluid="limiting stress", speeds=SLOW),
     }
 
 

@@ -1,0 +1,48 @@
+"""Numbers and arrays of NumPy in a scene are those of Python."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.scene_file import scene_from_table
+from lubfric.store import fingerprint
+
+SCENE = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+
+
+@pytest.mark.parametrize(
+    "section, given, plain",
+    [
+        ("surface", {"correlation_length": np.array([8e-6, 6e-6])}, {"correlation_length": (8e-6, 6e-6)}),
+        ("contact", {"spacing": np.array([1e-6, 2e-6])}, {"spacing": (1e-6, 2e-6)}),
+        ("contact", {"shape": np.array([96, 128])}, {"shape": (96, 128)}),
+        ("bodies", {"conductivity": np.array([46.0, 30.0])}, {"conductivity": (46.0, 30.0)}),
+        ("bodies", {"radii": np.array([0.1, 0.2])}, {"radii": (0.1, 0.2)}),
+        ("bodies", {"load": np.float64(5.0), "hardness": np.int64(10**9)}, {"load": 5.0, "hardness": 10**9}),
+        ("bodies", {"radius": np.float32(2e-3)}, {"radius": float(np.float32(2e-3))}),
+        (
+            "lubricant",
+            {"viscosity": np.float64(0.3), "eyring_stress": np.array(5e6)},
+            {"viscosity": 0.3, "eyring_stress": 5e6},
+        ),
+        ("numerics", {"tolerance": np.float64(0.02), "workers": np.int64(2)}, {"tolerance": 0.02, "workers": 2}),
+    ],
+)
+def test_a_scene_holds_the_numbers_of_python(section, given, plain):
+    scene, same = SCENE.with_(**{section: given}), SCENE.with_(**{section: plain})
+    assert scene == same and fingerprint(scene) == fingerprint(same)
+    assert scene_from_table(tomllib.loads(scene.to_toml()), Path(), "paper") == same
+    if not set(given) & {"radii"}:
+        kind = type(getattr(SCENE, section))
+        values = vars(getattr(SCENE, section))
+        assert kind(**values | given) == kind(**values | plain)
+
+
+def test_a_pair_of_lengths_in_an_array_reaches_the_map():
+    lengths = np.array([8e-6, 20e-6])
+    wide = lubfric.prepare(SCENE.with_(surface={"correlation_length": lengths}, contact={"shape": (200, 500)})).surface
+    along_x, along_y = (lubfric.surface.correlation_length(wide, axis) for axis in (0, 1))
+    assert along_y > 1.7 * along_x
