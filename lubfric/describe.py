@@ -53,7 +53,7 @@ def describe_scene(scene: Scene) -> str:
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
     lines += [
-        f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
+        f"  contact        {plan}; the coarsest grid and the shortest patch that give f within "
         f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
     ]
     if scene.numerics.model == "deterministic":
