@@ -102,6 +102,12 @@ def test_cautions_and_accepted_points_are_marked(tmp_path):
     assert [row["validity"] for row in rows] == found.validity.ravel().tolist()
 
 
+def test_keys_of_the_other_body_have_their_units(tmp_path):
+    facing = SCENE.with_(counterface={"sq": 0.0, "correlation_length": 4e-6}, surface={"sq": 0.0})
+    lubfric.study(facing, {"counterface.sq": [0.0, 1e-12]}, [1.0]).to_csv(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_text().startswith("counterface.sq [m],speed [m/s],coefficient [-]")
+
+
 def test_temperatures_are_varied_with_a_viscosity():
     keys = ("lubricant.temperature", "lubricant.viscosity")
     numbers = lubfric.plan_study(SCENE, {keys: [(313.15, 0.2), (353.15, 0.05)]}, [0.1])
