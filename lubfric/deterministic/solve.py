@@ -38,17 +38,11 @@ def solve_point(
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn until one converges:
-
-    - Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), directly and through speeds in
-      between;
-    - from the dry contact, lifted by Moes' film;
-    - for a Newtonian lubricant, from the solution with a limiting shear stress;
-    - from higher speeds, step by step;
-    - from the state that implicit steps in time reach from the dry contact.
-
-    Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
-    of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
+    These starts are tried in turn: Newton's method from each of ``starts`` (`lubfric.deterministic.transfer`), directly
+    and through speeds in between; from the dry contact, lifted by Moes' film; for a Newtonian lubricant, from the
+    solution with a limiting shear stress; from higher speeds, step by step; and from the state that implicit steps in
+    time reach from the dry contact. ``report.notes`` says which one it was. Converged when the largest of
+    `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work()
     tried: list[tuple[str, Found]] = []

@@ -87,8 +87,7 @@ def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> 
 
 
 def _loose(prepared: Prepared) -> Prepared:
-    """Solve ``prepared``, deflected by the film's own pressure, to a loose tolerance: cheap, and enough for the
-    choice."""
+    """Solve ``prepared``, deflected by the film's own pressure, to a loose tolerance that is enough for the choice."""
     return replace(prepared, scene=prepared.scene.with_(numerics=LOOSE))
 
 
