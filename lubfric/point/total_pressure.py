@@ -95,8 +95,8 @@ def notes(scene: Scene, found: Trial) -> tuple[str, ...]:
         return ()
     left_out = 100 * departure(scene, found.contact, found.contact_load / scene.bodies.width)
     return (
-        "film deflected by the total pressure; its semi-ellipse leaves out the deflection by single asperities, "
-        f"{left_out:.2g} % of the mean film",
+        "film deflected by the total pressure; single asperities bend the gap by "
+        f"{left_out:.2g} % of the mean film more, which the semi-ellipse of their pressure leaves out",
     )
 
 
