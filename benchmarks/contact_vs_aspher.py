@@ -1,15 +1,17 @@
 """Dry contact against aspher and tamaas: processor time at one measured pressure error.
 
     python benchmarks/contact_vs_aspher.py [--surfaces exponential gaussian self-affine] [--cells 816 2048]
-        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--docs docs]
+        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--json FILE] [--rows FILE ...]
+        [--docs docs]
 
 Periodic surfaces (exponential or Gaussian ACF, 1/e length 34 um, or self-affine with H = 0.8; sigma 240 nm, spacing 2
 um). Error: relative L2 distance of the pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12
 confirms. For each solver the loosest tolerance of a ladder (two a decade) whose measured error is at most the target;
 repeats interleaved on one thread each, medians of processor seconds with quartiles; a solve of more than a minute is
-timed once. ``--kept``: a file that keeps those tolerances for a later run. tamaas, whose solves take tens of minutes,
-is stopped after ``--bound`` times the time of lubfric (0: left out) and its error told: above the target, it is slower
-by more than that. Needs ``pip install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
+timed once. ``--kept``: a file that keeps those tolerances for a later run; ``--rows``: nothing is run, the table is
+made of what earlier runs wrote by ``--json``. tamaas, whose solves take tens of minutes, is stopped after ``--bound``
+times the time of lubfric (0: left out) and its error told: above the target, it is slower by more than that. Needs
+``pip install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
 """
 
 from __future__ import annotations
@@ -133,8 +135,18 @@ def main() -> None:
     parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: left out)")
     parser.add_argument("--kept", type=Path)
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--rows", type=Path, nargs="+", default=[])
     page.add_option(parser)
     options = parser.parse_args()
+    if options.rows:
+        rows = [row for path in options.rows for row in json.loads(path.read_text())]
+        page.write("contact-aspher", COLUMNS, cells_of(rows), (parser, options))
+    else:
+        run(parser, options)
+
+
+def run(parser, options) -> None:
+    """Every case, its rows written as they come."""
     rows: list[dict] = []
     kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}
     for cells in options.cells:

@@ -30,8 +30,8 @@ def command(name: str, parser: ArgumentParser, options: Namespace) -> str:
     named = [action.dest for action in parser._get_positional_actions()]
     words += [key.upper() for key in named if getattr(options, key) != parser.get_default(key)]
     for key, value in vars(options).items():
-        if key in named or value == parser.get_default(key) or isinstance(value, Path):
-            continue
         given = value if isinstance(value, list) else [value]
+        if key in named or value == parser.get_default(key) or any(isinstance(v, Path) for v in given):
+            continue
         words += [f"--{key}", *(f"{v:g}" if isinstance(v, float) else str(v) for v in given)]
     return " ".join([*words, "--docs docs"])

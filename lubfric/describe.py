@@ -7,14 +7,15 @@ import math
 from .analytic import hertz
 from .errors import InputError
 from .lines import outlook as of_lines
+from .lines.length import MOST_CELLS
 from .lines.make import lines_of, takes_line
 from .oil.describe import estimate_in_words
 from .oil.temperature import CELSIUS
 from .plausible import told_doubts
 from .point.outlook import outlook
-from .rough.height_map import contact_map
+from .rough.height_map import contact_map, measured
 from .scene import Scene
-from .surface import correlation_length, rms_slope
+from .surface import Surface, correlation_length, rms_slope
 from .validity.entry import gathered
 from .validity.foretold import foretold
 
@@ -24,7 +25,8 @@ SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a cont
 def describe_scene(scene: Scene) -> str:
     """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
     with told_doubts(scene):
-        surface = contact_map(scene)
+        first = _first_line(scene) if takes_line(scene) else None
+        surface = contact_map(scene) if first is None or measured(scene) else first
     nx, ny = surface.heights.shape
     lines = [
         f"scene {scene.name}",
@@ -53,7 +55,7 @@ def describe_scene(scene: Scene) -> str:
     else:
         plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
     lines += [
-        f"  contact        {plan}, or fewer: the coarsest grid and shortest patch for f within "
+        f"  contact        {plan}; the coarsest grid and the shortest patch that give f within "
         f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
     ]
     if scene.numerics.model == "deterministic":
@@ -62,7 +64,7 @@ def describe_scene(scene: Scene) -> str:
         f"  U = {speed:<10.4g} {outlook(scene, surface, speed)}"
         for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})
     ]
-    told = foretold(scene, surface, sorted(set(speeds)))
+    told = foretold(scene, surface if first is None else first, sorted(set(speeds)))
     lines += [f"  {entry.text}" for speed, entry in told if speed is None]
     lines += [f"  {text}" for text in gathered([(speed, (entry,)) for speed, entry in told if speed is not None])]
     lines += [f"  {note}" for note in _no_doubts(told)]
@@ -76,6 +78,13 @@ def _sampling_lines(scene: Scene, sq: float) -> list[str]:
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     some = sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)], speeds[-1]})
     return [f"  {row}" for row in of_lines.table(scene, lines_of(scene), sq, some)]
+
+
+def _first_line(scene: Scene) -> Surface:
+    """The line of the roughness that is solved first."""
+    lines = lines_of(scene)
+    longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
+    return lines.line(0, min(of_lines.pilot_length(lines), longest))
 
 
 def _no_doubts(told) -> list[str]:

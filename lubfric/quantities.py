@@ -55,6 +55,7 @@ KEYS = {  # units of the keys of a scene that are numbers
     "lubricant.nu40": ("m2/s", "kinematic viscosity at 40 °C"),
     "lubricant.nu100": ("m2/s", "kinematic viscosity at 100 °C"),
     "lubricant.density": ("kg/m3", "density of the oil at 15 °C"),
+    "lubricant.density_slope": ("kg/(m3 K)", "fall of the density with the temperature"),
     "surface.sq": ("m", "root mean square roughness"),
     "surface.correlation_length": ("m", "correlation length"),
     "surface.spacing": ("m", "cell size of the map"),
@@ -63,6 +64,11 @@ KEYS = {  # units of the keys of a scene that are numbers
     "contact.spacing": ("m", "cell size"),
     "transient.duration": ("s", "duration"),
     "transient.initial_film": ("m", "film to start from"),
+}
+KEYS |= {
+    key.replace("surface.", "counterface."): (unit, f"{text}, of the other body")
+    for key, (unit, text) in KEYS.items()
+    if key.startswith("surface.")
 }
 OF_ERRORS = {"line_length": ("m", "length of the line of rough surface")}
 
@@ -80,5 +86,5 @@ def heading(name: str) -> str:
 
 def key_unit(section: str, key: str) -> str:
     """The unit of a key of a scene, for people; "" where it has none."""
-    unit = KEYS.get(f"{section.replace('counterface', 'surface')}.{key}", ("",))[0]
+    unit = KEYS.get(f"{section}.{key}", ("",))[0]
     return "" if unit == "-" else unit

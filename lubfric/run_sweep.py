@@ -66,8 +66,7 @@ def _workers(scene: Scene, asked, given: int | None) -> int:
 
 
 def _run(scene: Scene, out: Path, speeds: tuple, more: Extras, executor) -> int:
-    """See `run_sweep`. ``speeds``: those asked for, and those whose fields are kept; ``executor``: solves them, or
-    None."""
+    """See `run_sweep`. ``speeds``: asked for, and those whose fields are kept; ``executor``: solves them (or None)."""
     asked, chosen = speeds
     begun, counted, total = time.perf_counter(), [0], "some" if asked == AUTO else len(asked)
     say(f"{scene.name}: preparing the height map and the contact")

@@ -31,6 +31,8 @@ def scene_as_toml(scene) -> str:
         keys = {field.name: getattr(part, field.name) for field in fields(part)}
         if section in ROUGH:
             keys = {field.name: keys[field.name] for field in fields(part) if keys[field.name] != field.default}
+        if keys.get("limiting_stress_coefficient", 0.0) is None:
+            del keys["limiting_stress_offset"]  # refused where it does nothing
         if keys.get("oil") is not None:
             keys = _with_oil(keys)
         if "file" in keys:

@@ -31,8 +31,7 @@ class Columns(dict):
 
 
 def read_table(path: Path) -> Columns:
-    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a table that is damaged or a different
-    one."""
+    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a damaged table or another one."""
     try:
         with Path(path).open(encoding="utf-8", newline="") as file:
             heading, *rows = list(csv.reader(file))

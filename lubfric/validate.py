@@ -183,8 +183,7 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
 
 
 def _odd_entry(value: Any, depth: int) -> str:
-    """The first entry of a list that is no number, but that NumPy would turn into one: True, False or a masked
-    value."""
+    """The first entry of a list that is no number but that NumPy would make one: True, False or a masked value."""
     if isinstance(value, (list, tuple)) and depth > 0:
         return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
     if isinstance(value, (bool, np.bool_)):

@@ -1,8 +1,8 @@
-"""Rows of a long run, kept as a line of JSON each in one file. What is found there is not solved again.
+"""Rows of a long run, saved in one file, each as a line of JSON. Rows that are there already are not solved again.
 
 The first line says which code solved the rows: lubfric's version, and a hash of its source files. Rows of other code
-are refused, unless `adopt` (``--go-on`` of every command) was asked to go on with them. Then the file says from where
-on they are of another code.
+are refused, unless `adopt` (``--go-on`` of every command) was asked to continue with them. Then the file says where the
+rows of the new code begin.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ def read(file: Path) -> list[Any]:
 
 
 def begin(file: Path) -> list[Any]:
-    """The rows of ``file``, to go on from by `append`: made where it is missing, a last line that was not written to
-    its end cut off. Raises `OtherCode` where its last rows are of other code."""
+    """The rows of ``file``, to which `append` can add. The file is made if it is missing, and a last line that was not
+    written to its end is cut off. Raises `OtherCode` if its last rows are of other code."""
     if stale(file):
         raise OtherCode(
             f"{file} holds rows of other code ({code_of(file)}; this is {code()}); allowed: another folder, or this "
@@ -44,14 +44,14 @@ def begin(file: Path) -> list[Any]:
 
 
 def append(file: Path, row: Any) -> None:
-    """Put one row behind the others of a file that `begin` made ready."""
+    """Add one row to a file that `begin` has prepared."""
     with file.open("a", encoding="utf-8") as stream:
         stream.write(json.dumps(row) + "\n")
 
 
 def each(file: Path | None, keys: Iterable[str], solve: Callable[[str], Any]) -> Iterator[Any]:
-    """``solve(key)`` in plain types (NaN as None) for every key in turn, kept as soon as it is there; for a key found
-    in ``file`` what was kept. Without a file nothing is kept."""
+    """``solve(key)`` in plain types (NaN as None) for every key in turn, saved at once. For a key that ``file`` has
+    already, the saved value. Without a file nothing is saved."""
     known = dict(begin(file)) if file is not None else {}
     for key in keys:
         if key not in known:
@@ -82,7 +82,8 @@ def stale(file: Path) -> bool:
 
 
 def adopt(file: Path) -> None:
-    """Go on with the rows of ``file``, of whatever code: a line behind them says that what follows is of this one."""
+    """Continue with the rows of ``file``, of whatever code: a line behind them says that the following rows are of this
+    one."""
     if stale(file):
         _cut_unfinished(file)
         append(file, {CODE: code()})

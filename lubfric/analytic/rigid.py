@@ -105,13 +105,11 @@ def rolling_friction(min_film, *, radius, entrainment_speed, viscosity):
 
 
 def squeeze_load(min_film, *, radius, approach_speed, viscosity):
-    """w [N/m] = 3 sqrt(2) pi eta V (R/h0)^1.5: pure normal approach at V > 0 [m/s], no
-    entrainment, full film."""
+    """w [N/m] = 3 sqrt(2) pi eta V (R/h0)^1.5: pure normal approach at V > 0 [m/s], no entrainment, full film."""
     return 3 * math.sqrt(2) * math.pi * viscosity * approach_speed * (radius / min_film) ** 1.5
 
 
 def squeeze_film(time, initial_film, *, load_per_width, radius, viscosity):
-    """h0(t) [m] sinking under a constant load [N/m]:
-    ``h0^(-1/2) = h0(0)^(-1/2) + w t / (6 sqrt(2) pi eta R^1.5)``."""
+    """h0(t) [m] sinking under a constant load [N/m]: ``h0^(-1/2) = h0(0)^(-1/2) + w t / (6 sqrt(2) pi eta R^1.5)``."""
     rate = load_per_width / (6 * math.sqrt(2) * math.pi * viscosity * radius**1.5)
     return (initial_film**-0.5 + rate * np.asarray(time)) ** -2

@@ -19,17 +19,12 @@ def length_scale(pressure, displacement, gap0, operator) -> float:
 
     ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the roughness r (rms gap0) and the deflection
     ``d = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
-    pressure.
-
-    - The load-weighted elastic deflection Σ p u / Σ p is twice the elastic energy per load. It is the indentation of
-      one touching cell, about the approach of a Hertz contact, and about the roughness height when most of it is
-      flattened.
-    - At most max(d, r): without periodicity the deflection includes the bulk, which deforms under the whole load
-      however smooth the surface.
-    - At least min(d, r): in full contact hardly any deflection is left to compare with.
-
-    L is proportional to the lengths, and does not change with E' and p together. It is never below 1e-9 d, where
-    rounding begins (flat on flat). Infinite without load.
+    pressure. The load-weighted elastic deflection Σ p u / Σ p is twice the elastic energy per load. It is the
+    indentation of one touching cell, about the approach of a Hertz contact, and about the roughness height when most of
+    it is flattened. Two bounds are needed. At most max(d, r): without periodicity the deflection includes the bulk,
+    which deforms under the whole load however smooth the surface. At least min(d, r): in full contact hardly any
+    deflection is left to compare with. L is proportional to the lengths, and does not change with E' and p together. It
+    is never below 1e-9 d, where rounding begins (flat on flat). Infinite without load.
     """
     return deflection_scale(dot(pressure, displacement), pressure.sum(), float(gap0.std()), operator)
 

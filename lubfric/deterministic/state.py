@@ -17,11 +17,9 @@ STREAK = 16  # cells along x that open at once
 @dataclass(frozen=True)
 class State:
     """The unknowns, arrays (nx, ny): pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (`FLUID`,
-    `RUPTURED` or `TOUCHING`), yielded (bool); and the approach h0 [m].
-
-    The unknown of a ruptured cell is its fill, with p = 0. All other cells are full. The unknown of a yielded cell is
-    its dent, with p = P_u. In the rest it is the pressure, with w = 0.
-    """
+    `RUPTURED` or `TOUCHING`), yielded (bool); and the approach h0 [m]. The unknown of a ruptured cell is its fill, with
+    p = 0; all other cells are full. That of a yielded cell is its dent, with p = P_u; in the rest it is the pressure,
+    with w = 0."""
 
     pressure: np.ndarray
     fill: np.ndarray

@@ -175,8 +175,7 @@ class Table(History):
 
 @dataclass(frozen=True, kw_only=True)
 class Ramp(History):
-    """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end``
-    after it."""
+    """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end`` after it."""
 
     start: float = 0.0
     end: float = 0.0

@@ -78,8 +78,7 @@ class Solved:
 
 
 def solve_one_way(problem: Problem, start: OneWay | None = None, tolerance=TOLERANCE) -> OneWay:
-    """The division of the load at which the contact and the film in its gap carry the load: |F_C + F_H - F_T| <=
-    tolerance F_T.
+    """The division of the load at which contact and film carry the load: |F_C + F_H - F_T| <= tolerance F_T.
 
     Raises `ConvergenceError` if there is none.
     """
@@ -164,8 +163,7 @@ def _before(problem: Problem, near: OneWay) -> Before:
 
 
 def on_cells(near: OneWay, x, columns: int) -> np.ndarray:
-    """Where the film of ``near`` has ruptured, on cells at ``x`` [m] with ``columns`` cells along y: as on its nearest
-    cells."""
+    """Where the film of ``near`` has ruptured, read off its nearest cells at ``x`` [m] and ``columns`` along y."""
     (nx, ny), step = near.ruptured.shape, near.x[1] - near.x[0]
     along = np.clip(np.rint((x - near.x[0]) / step).astype(int), 0, nx - 1)
     across = ((np.arange(columns) + 0.5) * ny / columns).astype(int)

@@ -47,8 +47,7 @@ class Before:
 
 
 def both_conditions(problem: Problem, unknowns, last: Trial | Before):
-    """The values of both conditions at the film's share of the load ``unknowns[0]`` and ln(film on the spots)
-    ``unknowns[1]``."""
+    """The values of both conditions at the film's share ``unknowns[0]`` and ln(film on the spots) ``unknowns[1]``."""
     split, height = float(unknowns[0]), math.exp(float(unknowns[1]))
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
@@ -71,8 +70,7 @@ def _nearer(problem: Problem, gap, kept: Kept, with_film):
 
 
 def too_much_film(problem: Problem, split: float, last: Trial | Before):
-    """ln of the load that the film should carry beside the contact, over the load that it carries; increases with the
-    film's share."""
+    """ln of the load that the film should carry beside the contact, over its load; increases with the film's share."""
     contact_load, dry, gap = _dry(problem, split, last)
     spots = spots_of(dry.pressure)
     raised = lifted(problem, gap, spots, last.spot_film or None, last.kept)

@@ -75,8 +75,7 @@ class Balance:
         return self.moved(-self.contact.volume_residual / self.slope) if self.slope and self.contact_load > 0 else self
 
     def moved(self, step: float) -> Self:
-        """The balance with its loads divided as if ``split`` were larger by ``step``; film and contact stay as they
-        are."""
+        """The loads divided as if ``split`` were larger by ``step``; film and contact stay as they are."""
         film_load, contact_load = divided(self.film_load + self.contact_load, self.split + step)
         return replace(self, film_load=film_load, contact_load=contact_load)
 

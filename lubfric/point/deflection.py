@@ -87,8 +87,7 @@ def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> 
 
 
 def _loose(prepared: Prepared) -> Prepared:
-    """Solve ``prepared``, deflected by the film's own pressure, to a loose tolerance: cheap, and enough for the
-    choice."""
+    """Solve ``prepared``, deflected by the film's own pressure, to a loose tolerance that is enough for the choice."""
     return replace(prepared, scene=prepared.scene.with_(numerics=LOOSE))
 
 
@@ -102,7 +101,7 @@ def in_words(error: float, limit: float, option: str) -> str:
     if option == "hydrodynamic":
         return f"deflection: by the film's own pressure, at most {100 * error:.2g} % of f < {100 * limit:.2g} % budget"
     if error == math.inf:
-        return "deflection: by the whole load (scaled modulus), the safer choice, because the trial solve failed"
+        return "deflection: by the whole load (scaled modulus), the safer choice: the solve that was to choose failed"
     share = f"{100 * error:.2g} %" if error < SENSIBLE else "far more"
     return (
         "deflection: by the whole load (scaled modulus); by the film's own pressure alone f may be off by "

@@ -171,7 +171,6 @@ def grid_error(changes: Sequence[float], balance: Balance, limit: float, lost: f
 
 
 def _by_chance(contact: ContactState, lost: float) -> float:
-    """Part of the volume residual by ``lost`` [m] summits that two grids may miss, however alike the contact looks on
-    them."""
+    """Part of the volume residual by ``lost`` [m] summits that two grids may miss, however alike the contact looks."""
     cells = FEW_CELLS if contact.pressure is None else np.count_nonzero(contact.pressure)
     return SEEN * lost / (2 * contact.mean_film) * min(1.0, FEW_CELLS / max(cells, 1))

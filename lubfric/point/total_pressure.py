@@ -95,15 +95,14 @@ def notes(scene: Scene, found: Trial) -> tuple[str, ...]:
         return ()
     left_out = 100 * departure(scene, found.contact, found.contact_load / scene.bodies.width)
     return (
-        "film deflected by the total pressure; its semi-ellipse leaves out the deflection by single asperities, "
-        f"{left_out:.2g} % of the mean film",
+        "film deflected by the total pressure; single asperities bend the gap by "
+        f"{left_out:.2g} % of the mean film more, which the semi-ellipse of their pressure leaves out",
     )
 
 
 def mismatch(scene, film, contact) -> float:
-    """Largest difference across the Hertz strip between two deflections, up to a constant, relative to the mean film:
-    that by the contact's pressure, and that by the pressure with which the film was solved. It is the error of h in its
-    equation."""
+    """Largest difference across the Hertz strip, up to a constant, between the deflections by the contact's pressure
+    and by the pressure with which the film was solved, relative to the mean film: the error of h in its equation."""
     if film is None or film.imposed is None or contact.pressure is None:
         return 0.0
     imposed = film.imposed
@@ -146,8 +145,7 @@ def spread_of(scene, contact, line_load: float) -> Ellipse:
 
 
 def deflection(scene, x, pressure) -> np.ndarray:
-    """Deflection across the Hertz strip, less its mean [m], by a piecewise linear pressure [Pa] on the nodes ``x``
-    [m]."""
+    """Deflection [m] across the Hertz strip, less its mean, by a piecewise linear pressure [Pa] on nodes ``x`` [m]."""
     b = scene.bodies.half_width
     found = hat_kernel(np.linspace(-1.0, 1.0, STRIP), x / b) @ pressure * (b / scene.bodies.e_prime)
     return found - found.mean()

@@ -142,8 +142,7 @@ def contact_curve(
 
 
 def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
-    """Intervals in which the interpolated gap, or the load that belongs to it, may be wrong by more than
-    ``accuracy``."""
+    """Intervals in which the interpolated gap, or the load at that gap, may be off by more than ``accuracy``."""
     log_pressure, missed = np.log(pressure), _missed(pressure, gap)
     error, middle = np.maximum(missed[1:], missed[:-1]) / 4, np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)

@@ -60,9 +60,8 @@ class ContactState:
         return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
 
     def touching(self, x) -> np.ndarray:
-        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], in
-        either direction. (The columns of the contact are finer than the cells of a film, and vary from one to the
-        next.)"""
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
+        way. (The columns of the contact are finer than the cells of a film, and vary from one to the next.)"""
         step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
         edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
         touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
@@ -94,9 +93,8 @@ class RoughContact:
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
         """The contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
 
-        ``shape`` [m] (nx,): the shape under which the surface is pressed, up to a constant, if it is not the film
-        itself; ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be
-        solved.
+        ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, if it is not the film itself;
+        ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be solved.
         """
         raise NotImplementedError
 
@@ -128,8 +126,7 @@ class RoughContact:
         return None
 
     def thinned(self, every: int) -> RoughContact | None:
-        """The same on every ``every``-th cell along each axis, with the heights of these cells; None if that is not
-        possible."""
+        """The same on every ``every``-th cell along each axis, with their own heights; None if that is not possible."""
         return None
 
     lost = 0.0  # height [m] by which its highest summits fall short of those of the grid it was coarsened from

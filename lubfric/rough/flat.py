@@ -66,8 +66,7 @@ class FlatContact(RoughContact):
         return True
 
     def again(self, scene: Scene, old: Scene) -> FlatContact:
-        """The curve under the Hertz strip of another load, which may not be heavier; nor may the tolerance be
-        tighter."""
+        """The curve under the Hertz strip of another load, if that is not heavier and the tolerance not tighter."""
         pressure, heaviest = scene.bodies.mean_hertz_pressure, float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + ROUNDING):
             raise InputError(
@@ -83,8 +82,7 @@ class FlatContact(RoughContact):
 
 
 def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
-    """The contact of ``scene``, with a curve for ``heights`` [m] (nx, ny) about their mean, periodic along both
-    axes."""
+    """The contact of ``scene``, with a curve for periodic ``heights`` [m] (nx, ny) about their mean."""
     bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
     heaviest = bodies.load / (2 * bodies.half_width * bodies.width)
     heaviest *= BEYOND if numerics.closure == "separation" else 1.0

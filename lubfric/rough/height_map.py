@@ -77,8 +77,8 @@ def whole_map(scene: Scene) -> Surface:
 
 
 def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
-    """``domain`` with a grid that covers ``surface``, with the spacing of ``domain`` or, if it has none, of the
-    surface."""
+    """``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
+    ``surface``."""
     spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
     nx, ny = (next_fast_len(math.ceil(a / d * (1 - 1e-9))) for a, d in zip(surface.size, spacing))
     return replace(domain, shape=(nx, ny), spacing=spacing)

@@ -11,8 +11,7 @@ import numpy as np
 
 
 def left_out(x, y) -> np.ndarray:
-    """Error |y - y of the cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), ascending, and ``y``
-    (n,)."""
+    """Error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), ascending, and ``y`` (n,)."""
     if x.size < 3:
         return np.zeros(0)
     step, rate = np.diff(x), np.diff(y) / np.diff(x)

@@ -42,8 +42,7 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Sample:
-    """Lines of ``prepared`` that were solved at one speed. ``first``: that of the pilot; ``anchor``: the first in
-    contact."""
+    """Lines of ``prepared``, solved at one speed. ``first``: that of the pilot; ``anchor``: the first in contact."""
 
     prepared: Prepared
     speed: float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
+from ..lubricant import Lubricant
 from ..oil import Oil, from_grade, from_index, from_table, from_viscosities, named_oil
 from ..oil.temperature import CELSIUS, checked_temperature
 from .pairs import only_one, pair, together
@@ -11,6 +12,7 @@ SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil"
 PROPERTIES = ("base", "density", "density_slope", "alpha_estimate")  # of the oil, beside alpha and conductivity
 KEYS = (*SOURCES[:-1], "temperature_celsius", *PROPERTIES)
 AT_40 = 40 + CELSIUS
+OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
 def resolve(given: dict, old) -> dict:
@@ -21,6 +23,7 @@ def resolve(given: dict, old) -> dict:
     ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
     """
     only_one("lubricant", given, "temperature", "temperature_celsius")
+    _check_limit(given, old)
     if "temperature_celsius" in given:
         given["temperature"] = _kelvin(given.pop("temperature_celsius"))
     before = getattr(old, "oil", None)
@@ -47,6 +50,16 @@ def resolve(given: dict, old) -> dict:
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
     return fields_of(oil.with_(**changed), temperature) | _own_coefficient(old) | given
+
+
+def _check_limit(given: dict, old) -> None:
+    """Raise `InputError` for an offset of a limiting stress where there is none: it would do nothing."""
+    limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
+    if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
+        raise InputError(
+            "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
+            "give both, or neither"
+        )
 
 
 def fields_of(oil: Oil, temperature: float) -> dict:

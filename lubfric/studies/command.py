@@ -33,6 +33,8 @@ def run_study(arguments) -> int:
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
     written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
+    if result.cautioned:
+        say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
     say_written(written, arguments.out, begun)
     if result.failed:
         first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))

@@ -40,6 +40,8 @@ def explain(plan, store=None) -> str:
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
         started = "each point started from the nearest of its curve"
+    if plan.scene.transient is not None:
+        lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
     known = {} if store is None else Journal(store).records()
     cells, seconds, failed = _costs(plan, known)
     lines += [

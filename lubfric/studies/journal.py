@@ -53,8 +53,7 @@ class Journal:
     """The folder of a store, as one process writes it. Without a folder (`NOWHERE`) nothing is saved and nothing found.
 
     A point is first written whole to a file of its own, its state, and then as one line to the records. So after a kill
-    at any moment there is a record for each state except, at most, the last, which is the point whose record is
-    missing.
+    at any moment each state has its record, except at most the last, which is the point whose record is missing.
     """
 
     def __init__(self, folder):

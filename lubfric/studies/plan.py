@@ -23,8 +23,7 @@ BATCH = 50  # points at least, where curves that share a map are solved by one p
 
 @dataclass(frozen=True)
 class StudyPlan:
-    """The plan of a study. ``print(plan.explain())`` says what it is and what it will cost; `lubfric.study` carries it
-    out.
+    """The plan of a study. ``print(plan.explain())`` says what it is and will cost; `lubfric.study` carries it out.
 
     The walks, and with them the starts, depend on the values and speeds alone, never on how many processes share the
     work. So every executor gives the same bits. ``speeds``: none if every curve chooses its own.

@@ -18,7 +18,7 @@ from ..show import Shown
 from ..version import __version__
 from .adaptive import AUTO, FEWEST, samples_at
 from .journal import SPEED, Journal
-from .table_row import CONVERGED, MISSING, STATUS, UNUSED, row_of
+from .table_row import CONVERGED, MISSING, STATUS, UNUSED, VALIDITY, row_of
 from .walk import chosen_keys
 
 PLAN = "study.json"
@@ -40,11 +40,14 @@ class StudyResult(Shown):
     columns : every number of a `FrictionResult` by name; NaN where a point failed
     status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
         numbers
+    validity : the assumptions that do not hold at a point, in words; "" where all hold. With ``numerics.accept`` this
+        marks the points that are no answers
     """
 
     plan: dict
     columns: dict[str, np.ndarray]
     status: np.ndarray
+    validity: np.ndarray
 
     @classmethod
     def of_rows(cls, plan: dict, rows: dict[str, dict]) -> StudyResult:
@@ -55,16 +58,20 @@ class StudyResult(Shown):
         chosen = plan["speeds"] == AUTO
         if chosen:
             columns = {SPEED: np.full(size, np.nan), **columns}
+        validity = np.full(size, "", dtype=object)
         placed, status = (_on_curves if chosen else _on_speeds)(plan, rows)
         for at, row in placed:
             for name, value in row.items():
                 if name == STATUS:
                     status[at] = value
+                elif name == VALIDITY:
+                    validity[at] = value
                 elif chosen or name != SPEED:
                     columns.setdefault(name, np.full(size, np.nan))[at] = value
         status = status.reshape(shape)
         most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=tuple(range(status.ndim - 1)))).max(initial=0))
-        return cls(plan, {k: v.reshape(shape)[..., :most] for k, v in columns.items()}, status[..., :most])
+        cut = {name: column.reshape(shape)[..., :most] for name, column in columns.items()}
+        return cls(plan, cut, status[..., :most], validity.reshape(shape)[..., :most])
 
     @property
     def chosen(self) -> bool:
@@ -96,6 +103,11 @@ class StudyResult(Shown):
         return int(np.count_nonzero(~np.isin(self.status, (MISSING, UNUSED))))
 
     @property
+    def cautioned(self) -> int:
+        """Number of points at which an assumption does not hold."""
+        return int(np.count_nonzero(self.validity != ""))
+
+    @property
     def missing(self) -> int:
         """Number of points (of curves, if speeds are chosen) that an interrupted study has not reached."""
         return int(np.count_nonzero(self.status == MISSING))
@@ -111,7 +123,8 @@ class StudyResult(Shown):
         if good.any():
             f = self["coefficient"][good]
             facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
-        return facts | {"failed": str(self.failed), "not computed": str(self.missing)}
+        counts = {"failed": self.failed, "not computed": self.missing, "with cautions": self.cautioned}
+        return facts | {name: str(count) for name, count in counts.items()}
 
     def plot(self, ax=None, **style):
         """f over speed, a line for each curve (at most 50 of them, evenly picked), on ``ax`` or new axes, which are

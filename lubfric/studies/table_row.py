@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ..store.codec import from_plain
+from ..validity.entry import in_a_cell
 from .adaptive import DECIDED
 from .journal import SPEED
 
-STATUS, CONVERGED = "status", "converged"
+STATUS, CONVERGED, VALIDITY = "status", "converged", "validity"
 MISSING = "not computed"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 
-def row_of(record: dict) -> dict:
-    """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and its status in words.
-    Nothing for the mark of a complete curve."""
+def row_of(record: dict) -> dict[str, Any]:
+    """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and in words its status and
+    the assumptions that do not hold. Nothing for the mark of a complete curve."""
     if not record:
         return {}
     if "error" in record:
@@ -22,7 +25,8 @@ def row_of(record: dict) -> dict:
     numbers = _numbers(record)
     decided = record.get("decision") or {}
     numbers |= {name: float(from_plain(decided[name])) for name in DECIDED if _is_number(decided.get(name))}
-    return {STATUS: record["report"]["status"], **numbers}
+    told = {VALIDITY: in_a_cell(from_plain(record["validity"]))} if record.get("validity") else {}
+    return {STATUS: record["report"]["status"], **told, **numbers}
 
 
 def _numbers(record: dict) -> dict[str, float]:

@@ -19,6 +19,7 @@ def to_xarray(result):
     xarray = _tool("xarray")
     data = {name: (result.dims, values, _attributes(name, result)) for name, values in result.columns.items()}
     data["status"] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
+    data["validity"] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
     coords = {key: (dim, values, described(key, KEYS)) for key, (dim, values) in result.coords.items()}
     attributes = {"title": f"friction of {result.plan['name']}", "source": f"lubfric {result.plan['lubfric']}"}
     return xarray.Dataset(data, coords, attributes)
@@ -52,15 +53,17 @@ def to_csv(result, path) -> None:
 
 
 def columns_of(result) -> dict[str, np.ndarray]:
-    """The columns of a table: the varied keys, the speed, the numbers, the status, one value for each point. Places
-    that a curve did not need have no row."""
+    """The columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
+    each point. Places that a curve did not need have no row."""
     shape, columns = result.status.shape, {}
     for key, (dim, values) in result.coords.items():
         along = [1] * len(shape)
         along[result.dims.index(dim)] = values.size
         columns[key] = np.broadcast_to(values.reshape(along), shape).ravel()
     numbers = {name: values.ravel() for name, values in result.columns.items()}
-    found, used = columns | numbers | {"status": result.status.astype(str).ravel()}, result.status.ravel() != UNUSED
+    words = {"status": result.status, "validity": result.validity}
+    found = columns | numbers | {name: values.astype(str).ravel() for name, values in words.items()}
+    used = result.status.ravel() != UNUSED
     return found if used.all() else {name: values[used] for name, values in found.items()}
 
 

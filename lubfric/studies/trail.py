@@ -102,8 +102,7 @@ class Trail:
         return self._whole[at]
 
     def _start(self, at: int):
-        """The outcome from which point ``at`` starts: the one before it or, if speeds are chosen, the nearest so
-        far."""
+        """The outcome from which point ``at`` starts: the one before it or, of chosen speeds, the nearest so far."""
         if at == 0:
             return self._before
         if self._walk.speeds:

@@ -26,8 +26,7 @@ CASE = "case"  # name of the dimension of keys that go together
 @dataclass(frozen=True)
 class Between:
     """A range [low, high] of a key, in the unit of the key. scale "linear": sampled evenly in its value; "log": in its
-    logarithm.
-    """
+    logarithm."""
 
     low: float
     high: float

@@ -105,8 +105,7 @@ R = TypeVar("R", bound=CurveResult)
 
 
 def judged(result: R, raise_on_failure: bool) -> R:
-    """``result``, or the exception that says what failed in it: `ValidityError` if all that failed was refused as
-    invalid."""
+    """``result``, or the exception that says what failed: `ValidityError` if all that failed was refused as invalid."""
     if not raise_on_failure:
         return result
     errors = result.errors

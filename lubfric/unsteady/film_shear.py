@@ -19,8 +19,7 @@ from .sharing import Sharing
 
 @dataclass(frozen=True)
 class FilmNow:
-    """The pressurised film of a moment at its nodes x [m], with what `lubfric.heat.point.point_heat` needs of a
-    film."""
+    """The pressurised film of a moment at its nodes x [m], with all that `lubfric.heat.point.point_heat` needs."""
 
     x: np.ndarray
     pressure: np.ndarray
@@ -78,8 +77,7 @@ def _balance(sharing: Sharing, scene: Scene, solution: StepSolution) -> BalanceN
 
 
 def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution, stress=None):
-    """`ShearForce` by the trapezoidal rule; ``stress(x, pressure, film)`` [Pa]: of the heated film (None:
-    isothermal)."""
+    """`ShearForce` by trapezes; ``stress(x, pressure, film)`` [Pa]: of the heated film (None: isothermal)."""
     setting, t, lubricant = sharing.setting, solution.terms, scene.lubricant
     p, grid = setting.problem, setting.grid
     x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit

@@ -1,5 +1,4 @@
-"""Whether a run in time is an answer: the assumptions of the steady model and those of a run, checked at every
-output."""
+"""Whether a run in time is an answer: the assumptions of the steady model and of a run, checked at every output."""
 
 from __future__ import annotations
 

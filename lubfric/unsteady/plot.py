@@ -41,8 +41,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
 
 
 def _error_band(axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Two standard errors of f to either side over the times ``t`` that are drawn, if the table has the standard
-    error."""
+    """Two standard errors of f to either side over the drawn times ``t``, if the table has the standard error."""
     error = c.get("sampling_error", np.zeros(0))
     if np.any(error > 0):
         low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))

@@ -165,3 +165,13 @@ def test_an_index_beside_the_viscosity_at_40_degrees_is_that_of_the_oil():
         lubricant={"nu40": 73.3e-6, "viscosity_index": 92.43, "temperature": 373.15}
     )
     assert scene.lubricant.viscosity == pytest.approx(8.86e-6 * scene.lubricant.oil.density_at(373.15), rel=1e-4)
+
+
+def test_an_offset_without_a_limit_is_refused():
+    scene = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError, match="does nothing without limiting_stress_coefficient"):
+        scene.with_(lubricant={"limiting_stress_offset": 2e6})
+    limited = scene.with_(lubricant={"limiting_stress_offset": 2e6, "limiting_stress_coefficient": 0.05})
+    assert limited.with_(lubricant={"limiting_stress_offset": 3e6}).lubricant.limiting_stress_offset == 3e6
+    free = limited.with_(lubricant={"limiting_stress_coefficient": None})
+    assert "limiting_stress" not in free.to_toml() and "limiting_stress_offset = 2000000.0" in limited.to_toml()

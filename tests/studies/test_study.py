@@ -1,5 +1,6 @@
 """Studies: the plan, the same bits on any executor and after any kill, lost workers, failures, tables."""
 
+import csv
 import json
 import os
 import signal
@@ -75,6 +76,36 @@ def test_keys_of_several_dimensions_act_together(first):
 def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
     with pytest.raises(lubfric.InputError, match=words):
         lubfric.plan_study(SCENE, vary, [0.1])
+
+
+def test_a_study_says_that_its_points_are_steady():
+    moving = SCENE.with_(transient=lubfric.Transient(duration=0.1))
+    assert "[transient]) is left out" in lubfric.plan_study(moving, {}, [0.1]).explain()
+    assert "[transient]" not in lubfric.plan_study(SCENE, {}, [0.1]).explain()
+
+
+def test_cautions_and_accepted_points_are_marked(tmp_path):
+    """A turbulent film: refused, or accepted and marked, in every table."""
+    thin = SCENE.with_(surface={"sq": 0.0}, lubricant={"viscosity": 0.005})
+    vary = {"numerics.accept": [False, True], "motion.slide_roll_ratio": [1.0, 2.0]}
+    found = lubfric.study(thin, vary, [1.0, 1000.0], store=tmp_path)
+    point = lubfric.friction(thin.with_(numerics={"accept": True}), 1000.0)
+    assert any(entry.severe for entry in point.validity)
+    assert found.status[0, 1, 1].startswith("ValidityError") and found.status[1, 1, 1] == "converged"
+    assert found.validity[1, 1, 1] == " | ".join(entry.text for entry in point.validity)
+    assert "not valid" in found.validity[1, 1, 1] and found.validity[1, 0, 0] == ""
+    assert found.cautioned == np.count_nonzero(found.validity != "") and "with cautions" in repr(found)
+    same(lubfric.open_study(tmp_path), found)
+    assert (lubfric.open_study(tmp_path).validity == found.validity).all()
+    found.to_csv(tmp_path / "t.csv")
+    rows = list(csv.DictReader((tmp_path / "t.csv").read_text().splitlines()))
+    assert [row["validity"] for row in rows] == found.validity.ravel().tolist()
+
+
+def test_keys_of_the_other_body_have_their_units(tmp_path):
+    facing = SCENE.with_(counterface={"sq": 0.0, "correlation_length": 4e-6}, surface={"sq": 0.0})
+    lubfric.study(facing, {"counterface.sq": [0.0, 1e-12]}, [1.0]).to_csv(tmp_path / "t.csv")
+    assert (tmp_path / "t.csv").read_text().startswith("counterface.sq [m],speed [m/s],coefficient [-]")
 
 
 def test_temperatures_are_varied_with_a_viscosity():

@@ -1,5 +1,5 @@
-"""The deterministic film on ever smaller cells: how far f still moves, by which order, and what it takes; and the
-seconds of a Stribeck curve."""
+"""The deterministic film on ever smaller cells: how much f still changes, with which order, and at what cost; and the
+time of a Stribeck curve."""
 
 from __future__ import annotations
 

@@ -1,8 +1,10 @@
-"""The told error of the model on surfaces, lengths, loads and autocorrelations from which it was not read off.
+"""The stated error of the model, tested on surfaces, lengths, loads and autocorrelations from which it was not read
+off.
 
-``uncertainty.model_form`` follows a study of surfaces of 8 µm and 100 nm, seeds 1 to 20, under 5.5, 27.5 and 110 N.
-Here are others, one by one: how many points lie within what their own result says, and within twice that. An error
-told as an rms holds for two points of three, twice it for nineteen of twenty if errors were Gaussian.
+``uncertainty.model_form`` follows from a study of surfaces of 8 µm and 100 nm, seeds 1 to 20, under 5.5, 27.5 and 110
+N. Here are others, one by one: how many points lie within the error that their own result states, and within twice
+that. If errors were Gaussian, a stated rms error would hold for two points of three, and twice it for nineteen of
+twenty.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Every model on a measured map that a scene of the user's names, slid along both axes of the file."""
+"""Every model on the measured map of a scene, moving along each axis of its file."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ FILE = "measured-map.jsonl"
 
 
 def measured_map(scene: Scene, cells: int, speeds: tuple[float, ...], folder: Path | None) -> Iterator[Item]:
-    """Deviations of all models over ``speeds`` [m/s], on cells as long as ``cells`` of them on 90 µm, and points that
-    the reference did not solve. Kept in ``folder``."""
+    """Deviations of all models over ``speeds`` [m/s], and the points that the reference did not solve. The cells are as
+    long as ``cells`` of them on 90 µm. Saved in ``folder``."""
     name = Path(scene.surface.file or "generated").stem
     load, motions = scene.bodies.load, [f"{name} along {axis}" for axis in AXES]
     settings = [Setting(0, motion, load, "that of the scene", speeds, cells) for motion in motions]

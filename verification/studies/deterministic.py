@@ -32,15 +32,18 @@ CASES = {  # cells over 90 µm and speeds [m/s]
 
 
 def deterministic(level: str):
-    """One pressure for film and contact, held against the smooth film, the dry contact, and finite elements.
+    """The deterministic model, compared with the smooth film, the dry contact, and finite elements.
 
-    The smooth film is that of `solve_ehl`, the dry contact that of `solve_contact`. The gap of a deterministic solution
-    is handed to a finite-element Reynolds solver on triangles, with the pressure of the spots above 100 MPa as that of
-    what one would call contact. Flow and load of the film around them must come out again. In a thin film under such
-    pressures the gap does not determine the pressure well enough to be given. The surface is its own mirror image, so
-    that half of it can be meshed. The other way round, the pressure of the fluid is handed to a finite-element contact
-    (`given_fluid`), and cells, pressure and load of the touching summits must come out again. Waves of small height at
-    rest in an elastic film are held against the linear response of full-system finite elements (`waviness`).
+    The smooth film is that of `solve_ehl`, the dry contact that of `solve_contact`. Three comparisons are with finite
+    elements:
+
+    - The gap of a deterministic solution is given to a Reynolds solver on triangles. The pressure on spots above 100
+      MPa is given too, because the gap of such thin films does not determine it well enough. The solver has to find the
+      flow and the load of the film around them again. The surface is its own mirror image, so that half of it is
+      enough.
+    - The pressure of the fluid is given to a contact solver (`given_fluid`), which has to find cells, pressure and load
+      of the touching summits again.
+    - Small waves at rest in an elastic film are compared with the linear response of a full-system solver (`waviness`).
     """
     yield from smooth()
     yield from dry()

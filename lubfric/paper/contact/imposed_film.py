@@ -53,8 +53,7 @@ class ImposedFilm:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement, overlap=0.0) -> float:
-        """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero. The solution is the
-        same.
+        """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero: the same solution.
 
         ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
         """

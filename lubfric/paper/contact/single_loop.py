@@ -227,7 +227,7 @@ class _Consistent:
         return True
 
     def _follow(self, more) -> None:
-        """Take epsilon from Eq. (8). The overlap of yielded cells is that after epsilon has taken over the bulk
+        """Take epsilon from Eq. (8), with the overlap of yielded cells after epsilon has taken over the bulk
         deflection."""
         problem = self.contact.problem
         offset = self.offset + self.bulk * more

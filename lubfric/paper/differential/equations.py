@@ -32,8 +32,7 @@ from .mesh import Mesh, convolve
 
 @dataclass(frozen=True)
 class Squeeze:
-    """The storage term of an implicit step in time at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units
-    of x."""
+    """Storage in an implicit step in time at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units of x."""
 
     rate: float
     past: np.ndarray

@@ -30,7 +30,7 @@ RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pr
 
 @dataclass(frozen=True)
 class UniformEffort:
-    """The accuracy asked ``on_a_grid``, the number of nodes (None: doubled until accurate), its largest value, and the
+    """The accuracy asked ``on_a_grid``, the nodes (None: doubled until accurate), at most how many, and the
     bandwidth."""
 
     on_a_grid: Effort = Effort()
