@@ -87,14 +87,15 @@ def test_plot_redraws_from_the_csv(run):
 def test_info_names_the_regime(capsys):
     assert main(["info", "paper"]) == 0
     text = capsys.readouterr().out
-    for word in ("half-width 4.496", "102.0 MPa", "lambda", "200 x 200", "25 speeds"):
+    for word in ("half-width 4.496", "102.0 MPa", "lambda", "on a line of the roughness", "25 speeds"):
         assert word in text, text
 
 
 def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
-    assert main(["info", "paper"]) == 0
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})  # on a line it is the line's map
+    (tmp_path / "patch.toml").write_text(scene.to_toml())
+    assert main(["info", str(tmp_path / "patch.toml")]) == 0
     text = capsys.readouterr().out
-    scene = lubfric.load_scene("paper")
     surface = lubfric.generate_surface((200, 200), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
     lengths = [lubfric.surface.correlation_length(surface, axis) / 0.45e-6 for axis in (0, 1)]
     for name, value in (
@@ -107,7 +108,8 @@ def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
         assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
     assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
     np.save(tmp_path / "flat.npy", np.zeros((64, 1)))
-    (tmp_path / "s.toml").write_text(SCENE.split("[surface]")[0] + "[surface]\nfile = 'flat.npy'\nspacing = 0.9e-6\n")
+    flat = "[surface]\nfile = 'flat.npy'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
+    (tmp_path / "s.toml").write_text(SCENE.split("[surface]")[0] + flat)
     assert main(["info", str(tmp_path / "s.toml")]) == 0
     assert "- x - cells" in capsys.readouterr().out
 
