@@ -18,11 +18,12 @@ from .at_split import at, quantities, redivided
 from .grid_pair import GridStep, mean_of
 from .influence import BlockError
 from .line_record import Pooled
-from .response import Response, touched_length
+from .response import Response
 from .sample import Anchor, Sample, lines_of_model
 
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
 LINE_BALANCE = 1.0  # of the sampling tolerance: what correcting a further line to first order may move f by
+MOST_CORRECTED = 0.05  # of f, by such a correction: what it leaves is of second order
 LOOSEST_LINE = 0.03  # volume residual of a further line
 LIGHT = 0.1  # of the load on the contact: it touches for sure
 
@@ -165,10 +166,10 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
 
 def _looseness(sample: Sample) -> float:
     """Volume residual (G - h)/(G + h) of a further line whose correction changes f by `LINE_BALANCE` of the sampling
-    tolerance."""
+    tolerance, and by `MOST_CORRECTED` at most."""
     anchor = sample.known
     moved = anchor.response.per_gap("coefficient") * 2 * anchor.point.balance.contact.mean_film  # f, per residual
-    allowed = LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance
+    allowed = min(LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance, MOST_CORRECTED)
     return min(allowed / moved, LOOSEST_LINE) if moved else LOOSEST_LINE
 
 
@@ -205,15 +206,14 @@ def _divided(sample: Sample, together: Pooled) -> Solved:
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
     point = at(sample.prepared, sample.speed, anchor.contact, balance)
-    final = redivided(point, balance, divided(scene.bodies.load, split)[1])
-    film, area = quantities(point, final)["mean_gap"], mean_of(anchor.grid, "area", 1.0)
-    columns = area * together.touched_length / touched_length(balance.contact)
+    area = mean_of(anchor.grid, "area", 1.0)
     state = replace(
         balance.contact,
-        mean_gap=film,
-        mean_film=film,
-        contact_fraction=balance.contact.contact_fraction * columns,
+        contact_fraction=together.columns * area,
         real_contact_area_fraction=together.area_fraction * area,
         plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
     )
+    final = redivided(point, replace(balance, contact=state), divided(scene.bodies.load, split)[1])
+    film = quantities(point, final)["mean_gap"]
+    state = replace(state, mean_gap=film, mean_film=film)
     return Solved(replace(final, contact=state), anchor.point.decision, anchor.contact)

@@ -32,6 +32,7 @@ class LineRecord:
     - Standard errors at given load: of its mean gap [m], its contact area fraction of A [-] and its contact area per
       length [m].
     - The loads of its short blocks, its area fractions and its contact area per length.
+    - ``columns``: the share of its length in contact at each x (nx,).
 
     A line whose film clears its summits has no spots, and no errors of its own.
     """
@@ -45,6 +46,7 @@ class LineRecord:
     area_fraction: float = 0.0
     plastic_fraction: float = 0.0
     touched_length: float = 0.0
+    columns: np.ndarray | float = 0.0
 
 
 def length_of(contact) -> float:
@@ -90,6 +92,7 @@ def record(
         state.real_contact_area_fraction,
         state.plastic_area_fraction,
         float(touched.mean()),
+        state.contact_fraction,
     )
 
 
@@ -117,6 +120,7 @@ class Pooled:
     area_fraction: float
     plastic_fraction: float
     touched_length: float
+    columns: np.ndarray
 
 
 def pooled(records) -> Pooled:
@@ -141,6 +145,7 @@ def pooled(records) -> Pooled:
         mean("area_fraction"),
         mean("plastic_fraction"),
         mean("touched_length"),
+        mean("columns"),
     )
 
 

@@ -23,6 +23,7 @@ from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.response import Response, Slopes, touched_length
 from lubfric.sampling.sample import response_of
 from lubfric.table import read_table
+from verification.hostile.soak_force import friction_force
 
 PAPER = lubfric.load_scene("paper")
 
@@ -261,3 +262,19 @@ def test_few_short_pieces_scatter_by_as_much_as_they_change():
     assert mean_error([piece(-3e-9)]) == BlockError(pytest.approx(3e-9), 1)
     assert mean_error([piece(3e-9), piece(4e-9)]) == BlockError(pytest.approx(2.5e-9), 2)
     assert mean_error([piece(1e-9), piece(2e-9), piece(3e-9)]) == BlockError(pytest.approx(1e-9 / 3**0.5), 2)
+
+
+def test_the_film_rubs_beside_the_contacts_of_all_lines():
+    """Summed anew, by code of its own, with the mean share in contact at each x: not that of the first line."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"sampling_tolerance": 0.04, "film_level": "ehl"})
+    model, found = line_friction(lubfric.prepare(scene), 0.03)
+    balance = found.point.balance.lubricated
+    states = [found.first.contact, *(line.state for line in found.used)]
+    cells = [contact.heights.shape[1] for contact in (model.contact, *(line.contact for line in found.used))]
+    mean = np.average([state.contact_fraction for state in states], axis=0, weights=cells)
+    shown = balance.contact.contact_fraction
+    assert len(states) > 1 and np.abs(mean - states[0].contact_fraction).max() > 0.1 * mean.max()
+    assert shown == pytest.approx(mean * shown.sum() / mean.sum(), rel=1e-9)
+    sides = SimpleNamespace(film=balance.film, x=balance.contact.x, touching=shown)
+    force = friction_force(scene, sides, balance.contact_load, 0.03)[0]
+    assert balance.forces.shear.total == pytest.approx(force, rel=1e-3)

@@ -86,3 +86,11 @@ def test_the_judge_of_the_soak_sees_a_wrong_answer():
     assert verdict(prepared, moved)["load"] > 1 and verdict(prepared, moved)["contact share"] > 1
     thinner = lubfric.friction(prepared, 0.7 * result.speed)
     assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
+
+
+@pytest.mark.parametrize("index", [5202, 5988])
+def test_scenes_that_the_soak_found_wrong_are_answered_right(index):
+    """Forces of film and contact that cancel, summed beside the contacts of one line only; a light contact whose
+    further lines were closed too loosely."""
+    prepared = lubfric.prepare(random_scene(np.random.default_rng((2, index))))
+    assert verdict(prepared, lubfric.friction(prepared))["friction"] < 0.6

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.prepared import Prepared
+from lubfric.prepared import Prepared, on_cells_of
 
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
@@ -135,7 +135,8 @@ class Judge:
 
 
 def judge_of(prepared: Prepared, result) -> Judge:
-    """What is needed to close ``result`` of ``prepared`` anew."""
+    """What is needed to close ``result`` of ``prepared`` anew, on the cells that its lines were solved on."""
+    prepared = on_cells_of(prepared, result.line and result.line.cells)
     scaled = result.decision.deflected_by == "scaled"
     n = prepared.surface.shape[0]
     x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
@@ -182,7 +183,7 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
         if result.line is not None and len(result.line.used):
             stated += SECOND_ORDER * result.uncertainty.sampling**2
-        allowed = stated * abs(coefficient) + open_ / ALLOWED["friction"]
+        allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
         found["friction"] = abs(result.coefficient - coefficient) / allowed
         found["contact share"] = abs(share - split) / scene.numerics.tolerance
     return {name: value / ALLOWED[name] for name, value in found.items()}
