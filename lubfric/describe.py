@@ -7,15 +7,14 @@ import math
 from .analytic import hertz
 from .errors import InputError
 from .lines import outlook as of_lines
-from .lines.length import MOST_CELLS
-from .lines.make import lines_of, takes_line
+from .lines.make import first_line, lines_of, takes_line
 from .oil.describe import estimate_in_words
 from .oil.temperature import CELSIUS
 from .plausible import told_doubts
 from .point.outlook import outlook
 from .rough.height_map import contact_map, measured
 from .scene import Scene
-from .surface import Surface, correlation_length, rms_slope
+from .surface import correlation_length, rms_slope
 from .validity.entry import gathered
 from .validity.foretold import foretold
 
@@ -25,7 +24,7 @@ SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a cont
 def describe_scene(scene: Scene) -> str:
     """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
     with told_doubts(scene):
-        first = _first_line(scene) if takes_line(scene) else None
+        first = first_line(lines_of(scene)) if takes_line(scene) else None
         surface = contact_map(scene) if first is None or measured(scene) else first
     nx, ny = surface.heights.shape
     lines = [
@@ -78,13 +77,6 @@ def _sampling_lines(scene: Scene, sq: float) -> list[str]:
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     some = sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)], speeds[-1]})
     return [f"  {row}" for row in of_lines.table(scene, lines_of(scene), sq, some)]
-
-
-def _first_line(scene: Scene) -> Surface:
-    """The line of the roughness that is solved first."""
-    lines = lines_of(scene)
-    longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
-    return lines.line(0, min(of_lines.pilot_length(lines), longest))
 
 
 def _no_doubts(told) -> list[str]:

@@ -33,8 +33,13 @@ def lines_of(scene: Scene) -> Lines:
     return found
 
 
-def pilot(scene: Scene, lines: Lines) -> tuple[Surface, HalfSpaceContact]:
-    """The first line and the contact on it. It is 180 correlation lengths long, if memory and map allow."""
+def first_line(lines: Lines) -> Surface:
+    """The line that is solved first. It is 180 correlation lengths long, if memory and map allow."""
     longest = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
-    surface = lines.line(0, min(PILOT * lines.lengths[1], longest))
+    return lines.line(0, min(PILOT * lines.lengths[1], longest))
+
+
+def pilot(scene: Scene, lines: Lines) -> tuple[Surface, HalfSpaceContact]:
+    """The first line and the contact on it."""
+    surface = first_line(lines)
     return surface, line_contact(scene, surface)
