@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..point.adapt import Solved
 from ..point.balance import Balance
 from ..point.forces import Forces
-from .grid_pair import gap_left, mean_of
+from .grid_pair import gap_left, mean_of, second_order
 from .influence import BlockError
 from .line_record import Pooled
 from .response import Response
@@ -162,6 +162,8 @@ def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a `LineFound`."""
     found = line.point.balance.forces
     rest = gap_left(line.grid)
+    if line.response is not None:
+        rest += second_order(line.grid, line.response.split)
     area = mean_of(line.grid, "area_left", 0.0) / math.sqrt(max(len(line.grid), 1))
     numerical = numerical_errors(line.point, line.first.contact.volume_residual, rest, area)
     relative = coefficient_error(numerical, found, line.response)

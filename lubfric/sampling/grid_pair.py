@@ -166,6 +166,14 @@ def gap_left(steps) -> float:
     return mean_of(steps, "rest", 0.0) + by_load
 
 
+def second_order(steps, split: float) -> float:
+    """What is left open of the gap [m] by correcting it for the cells to first order: the correction times the change
+    of ln(F_H/F_C) that it makes, with ``split`` [1/m] for `Response.split`. No more was seen, but for one of 25 scenes
+    (1.4 times that, beside a scatter of 17 %)."""
+    change = mean_of(steps, "gap", 0.0)
+    return abs(split) * change**2
+
+
 def mean_of(steps, name: str, without: float) -> float:
     """Mean of a field of `GridStep` over pieces; ``without`` if there are none."""
     return sum(getattr(g, name) for g in steps) / len(steps) if steps else without

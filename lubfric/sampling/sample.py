@@ -16,7 +16,7 @@ from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
 from .at_split import at, quantities, redivided
-from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of
+from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of, second_order
 from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import hidden_share, missed_share
@@ -110,13 +110,17 @@ class Sample:
 
     @property
     def too_coarse(self) -> bool:
-        """Whether the cells of the lines change the division of the load by more than can be corrected. That is judged
-        by the anchor or, where the film clears the summits, by the summits that the cells cut off."""
+        """Whether the cells of the lines change the division of the load by more than can be corrected, or f by more
+        than is allowed beyond first order. That is judged by the anchor or, where the film clears the summits, by the
+        summits that the cells cut off."""
         if self.lines.cells.factors == (1, 1) or self.first.balance.film is None:
             return False
         if self.anchor is None:
             return len(self.records) == 1 and self._summits_lost
-        return abs(self.anchor.response.split * mean_of(self.anchor.grid, "gap", 0.0)) > FARTHEST
+        response, grid = self.anchor.response, self.anchor.grid
+        left = response.relative("coefficient", second_order(grid, response.split))
+        allowed = budget.CONTACT_GRID * self.prepared.scene.numerics.tolerance
+        return left > allowed or abs(response.split * mean_of(grid, "gap", 0.0)) > FARTHEST
 
     @cached_property
     def _summits_lost(self) -> bool:
