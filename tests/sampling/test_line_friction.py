@@ -212,8 +212,8 @@ def test_a_contact_that_long_cells_hide_is_solved_on_shorter_ones(tmp_path):
 
 @pytest.mark.parametrize("tolerance", [0.01, 0.2])
 def test_a_correction_for_cells_is_exact_to_first_order_only(tolerance):
-    """A film thinner than a tenth of the roughness: the cells of the line, twice the scene's own, change F_C by a third.
-    Beyond first order that moves f by some per cent, which a tolerance of 1 % does not allow and one of 20 % is told."""
+    """A film thinner than a tenth of the roughness: the cells of the line, twice the scene's own, change F_C by a
+    third. Beyond first order that moves f by some per cent: too much at a tolerance of 1 %, told at one of 20 %."""
     scene = lubfric.load_scene(
         {
             "bodies": {"radius": 2.4e-3, "width": 0.01, "load": 776.0, "e_prime": 231e9}
