@@ -37,6 +37,11 @@ class Fields:
         every = ((f.name, self.__dict__[f.name]) for f in fields(Fields))
         return {name: function(values) for name, values in every if values is not None}
 
+    def without(self, mean: np.float32) -> None:
+        """Take its ``mean`` off the direction, and all of it where cells are not free."""
+        self.direction -= mean
+        self.direction *= self.weight
+
     def narrow(self, kept) -> None:
         """Keep only the positions ``kept`` from now on. Fields are cut one after the other, so that old ones are freed
         soon."""
@@ -87,5 +92,6 @@ def parts(size: int) -> list[slice]:
 
 def begun(gap, lower, upper) -> Fields:
     """The fields at the start: no change yet."""
-    rest = {name: np.zeros_like(gap) for name in ("change", "known", "direction", "weight", "residue", "before")}
-    return Fields(lower=lower, gap=gap, trial=np.empty_like(gap), upper=upper, **rest)
+    zero = {name: np.zeros(gap.size, gap.dtype) for name in ("change", "known", "direction", "before")}
+    room = {name: np.empty_like(gap) for name in ("weight", "residue", "trial")}
+    return Fields(lower=lower, gap=gap, upper=upper, **zero, **room)
