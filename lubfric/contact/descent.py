@@ -36,7 +36,6 @@ REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into t
 NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
 NEAR, WORTH = 0.7, 0.6  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
 FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
-HUGE = np.float32(1e20)  # times any pressure: beyond all others
 PATIENCE = 8  # iterations without a tenth off the best residual
 
 
@@ -232,23 +231,7 @@ class Descent:
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING
         for b in self.blocks:
-            self._move(b, answer[b.part], step)
-
-    def _move(self, b, answer, step: float) -> None:
-        """Move a block by the part ``step`` of the change, which stands in its residue. ``answer`` is the change of its
-        gap by the whole."""
-        part = b.spare[0]
-        b.known += np.multiply(b.residue, np.float32(step), out=part)
-        b.gap += np.multiply(answer, np.float32(step * self.compliance), out=part)
-        yielded = None if b.upper is None else b.trial >= b.upper
-        np.maximum(b.known, b.lower, out=b.change)
-        np.subtract(b.trial, b.lower, out=part)  # cells that the trial unloads stay so: without branches
-        part *= HUGE
-        part += b.lower
-        np.minimum(b.change, part, out=b.change)
-        if b.upper is not None:
-            np.minimum(b.change, b.upper, out=b.change)
-            np.copyto(b.change, b.upper, where=yielded)
+            b.move(answer[b.part], step, step * self.compliance)
 
     def _try(self, mean: np.float32) -> None:
         """Make the trial: the change of pressure by one pace along the direction less its ``mean``, within the limits

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 BLOCK = 16384  # cells
+HUGE = np.float32(1e20)  # times any pressure: beyond all others
 
 
 @dataclass
@@ -75,6 +76,21 @@ class Block(Fields):
         if self.upper is not None:
             np.minimum(self.trial, self.upper, out=self.trial)
         return float(self.trial.sum())
+
+    def move(self, answer, step: float, gain: float) -> None:
+        """Add the part ``step`` of the change, which stands in the residue, and ``gain`` times the ``answer`` of the
+        gap to it. What is cut to the limits stays pending."""
+        part = self.spare[0]
+        self.known += np.multiply(self.residue, np.float32(step), out=part)
+        self.gap += np.multiply(answer, np.float32(gain), out=part)
+        np.maximum(self.known, self.lower, out=self.change)
+        np.subtract(self.trial, self.lower, out=part)  # cells that the trial unloads stay so: without branches
+        part *= HUGE
+        part += self.lower
+        np.minimum(self.change, part, out=self.change)
+        if self.upper is not None:
+            np.minimum(self.change, self.upper, out=self.change)
+            np.copyto(self.change, self.upper, where=self.trial >= self.upper)
 
     def movable(self) -> int:
         """Cells whose trial is between the limits."""
