@@ -48,7 +48,7 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     solved = [(point.balance, point.line) for point in points if point.balance is not None]
     for i, (balance, line) in enumerate(solved):
         film, contact = balance.film, balance.contact.fields
-        its = on_cells_of(prepared, None if line is None else line.cells)
+        its = on_cells_of(prepared, line)
         if its is not prepared:
             arrays |= _map_of(its, f"_{i}")
         if film is not None:

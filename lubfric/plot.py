@@ -60,6 +60,13 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
+def speed_label(speed: np.ndarray) -> str:
+    """The label of a logarithmic axis of entrainment ``speed`` [m/s], which shows its magnitude."""
+    if not (speed < 0).any():
+        return "entrainment speed U (m/s)"
+    return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
+
+
 def make_ready() -> None:
     """Import matplotlib and load its fonts, which takes half a second, while something else is computed."""
     figure = new_figure(figsize=(1, 1))
@@ -104,7 +111,7 @@ def plot_stribeck(
     place = {"xytext": (2, -2 if below else 2), "textcoords": "offset points", "va": "top" if below else "bottom"}
     bottom.annotate("λ = 3", (speed[0], 3), color=GREY, **place)
     bottom.set_ylabel("λ = central film / Sq (-)")
-    bottom.set_xlabel("entrainment speed U (m/s)")
+    bottom.set_xlabel(speed_label(c["speed"]))
     for axis in (bottom.xaxis, bottom.yaxis):
         plain_ticks(axis)
     figure.savefig(path, dpi=150)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from .errors import InputError
 from .film.contract import FilmLevel
@@ -128,9 +129,16 @@ def on_halved_cells(prepared: Prepared) -> Prepared:
     return replace(prepared, surface=surface, contact=contact, lines=lines)
 
 
-def on_cells_of(prepared: Prepared, cells: Cells | None) -> Prepared:
-    """``prepared`` with lines on ``cells``, which a point may have halved; itself on one patch (None)."""
-    while cells and prepared.lines and any(own > f for own, f in zip(prepared.lines.cells.factors, cells.factors)):
+class OnCells(Protocol):
+    """What was solved on lines: their ``cells``."""
+
+    @property
+    def cells(self) -> Cells: ...
+
+
+def on_cells_of(prepared: Prepared, line: OnCells | None) -> Prepared:
+    """``prepared`` with lines on the cells of a point's ``line``, which may be halved; itself on one patch (None)."""
+    while line and prepared.lines and any(a > b for a, b in zip(prepared.lines.cells.factors, line.cells.factors)):
         prepared = on_halved_cells(prepared)
     return prepared
 

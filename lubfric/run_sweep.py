@@ -192,7 +192,7 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
 
 def _contact(prepared, point) -> bytes:
     """The picture of the contact of ``point``, on the cells on which it was solved."""
-    return drawn(plot_contact, on_cells_of(prepared, None if point.line is None else point.line.cells), point)
+    return drawn(plot_contact, on_cells_of(prepared, point.line), point)
 
 
 def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) -> None:

@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..rough.height_map import extended
 from ..scene import Scene
 from ..surface import Surface, correlation_length
-from .cells import Cells, choose_cells, reach_of
+from .cells import EVEN, Cells, choose_cells, reach_of
 
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 BLEND = 2.0  # correlation lengths along y over which one window passes into the next
@@ -152,7 +152,13 @@ def measured_lines(scene, surface: Surface, lengths: tuple[float, float] | None 
     starts = _starts(surface.shape[0], fine, step, 0)
     if len(starts) < ENOUGH:
         starts = _starts(surface.shape[0], fine, step, beyond)
-    return MeasuredLines(scene, surface, cells, lengths, tuple(starts[i] for i in spread(len(starts))))
+    found = MeasuredLines(scene, surface, cells, lengths, tuple(starts[i] for i in spread(len(starts))))
+    if found.window < EVEN * cells.coarse[1] * (1 - 1e-9):
+        raise InputError(
+            f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
+            f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
+        )
+    return found
 
 
 def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:

@@ -24,8 +24,8 @@ class ContactDomain(Brief):
     ----------
     geometry : "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2); "flat": nominally
         flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1)
-    region : area A of the volume balance, Eq. (8): "hertz", the strip |x| <= b of the total load, or "box", the whole
-        patch
+    region : area A of the volume balance, Eq. (8), under a cylinder: "hertz", the strip |x| <= b of the total load, or
+        "box", the whole patch
     shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are left out, a measured map keeps its own
         grid
     model : "half-space": every point of the surface may carry load, and deforms all others; "summits" or "patches":
@@ -47,6 +47,7 @@ class ContactDomain(Brief):
         validate.choice("contact.asperity_separation", self.asperity_separation, ASPERITY_SEPARATIONS)
         validate.choice("contact.geometry", self.geometry, GEOMETRIES)
         validate.choice("contact.region", self.region, REGIONS)
+        self._check_use()
         if self.shape is not None:
             if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
                 raise InputError(
@@ -66,3 +67,12 @@ class ContactDomain(Brief):
         if self.spacing is not None:
             pair = validate.spacing("contact.spacing", self.spacing)
             object.__setattr__(self, "spacing", pair if isinstance(self.spacing, (list, tuple)) else pair[0])
+
+    def _check_use(self) -> None:
+        """Raise `InputError` for a value that would do nothing."""
+        if self.geometry == "flat" and self.region != "hertz":
+            told = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"
+            raise InputError(told, "contact.region", "'hertz', or geometry = 'cylinder'")
+        if self.model == "half-space" and self.asperity_separation != "volume":
+            told = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"
+            raise InputError(told, "contact.asperity_separation", "'volume', or model = 'summits' or 'patches'")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREY, friction_lines, interval_band, plain_ticks
+from ..plot import BLUE, GREY, friction_lines, interval_band, plain_ticks, speed_label
 
 
 def axes_or_new(ax):
@@ -32,7 +32,7 @@ def curve_axes(curve, ax=None, **style):
         axes.plot(speed, f, "o", ms=4, color=style.get("color", BLUE))
     else:
         friction_lines(axes, speed, (f, contact / total, film / total), **{"marker": "o", "ms": 4} | style)
-    axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
+    axes.set(xscale="log", xlabel=speed_label(curve.speed[order]), ylabel="friction coefficient (-)")
     plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(f.min(initial=0.0))))
     axes.legend(frameon=False)

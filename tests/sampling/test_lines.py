@@ -78,6 +78,16 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     np.testing.assert_array_equal(whole.heights[:, 20:40], own[:, 20:40])
 
 
+@pytest.mark.parametrize("width", [1, 2, 4])
+def test_a_map_too_narrow_for_a_line_is_refused_by_its_width(tmp_path, width):
+    np.save(tmp_path / "m.npy", np.random.default_rng(0).normal(0, 1e-8, (64, width)))
+    surface = {"file": str(tmp_path / "m.npy"), "spacing": 1e-6}
+    scene = lubfric.load_scene("paper").with_(surface=surface, contact={"shape": None, "spacing": None})
+    with pytest.raises(lubfric.InputError, match=f"the map is {width} cells wide along y.*sampling = 'patch'"):
+        lubfric.prepare(scene)
+    assert lubfric.prepare(scene.with_(numerics={"sampling": "patch"})).surface.shape[1] >= width
+
+
 def test_length_follows_the_square_of_the_error():
     assert next_length(1.0, 0.015, 0.01, 100.0) == pytest.approx(1.15 * 2.25 - 1)
     assert next_length(1.0, 0.1, 0.01, 100.0) == 3.0  # no further than four times at once

@@ -222,6 +222,18 @@ def test_with_names_what_is_allowed(sections, words):
     assert len(str(caught.value)) < 300
 
 
+@pytest.mark.parametrize(
+    ("contact", "words"),
+    [
+        ({"geometry": "flat", "region": "box"}, "contact.region = 'box' does nothing.*geometry = 'cylinder'"),
+        ({"asperity_separation": "mean-plane"}, "contact.asperity_separation = 'mean-plane' does nothing.*'summits'"),
+    ],
+)
+def test_contact_keys_that_would_do_nothing_are_refused(contact, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        PAPER.with_(contact=contact)
+
+
 def test_form_and_decimal_mark_of_a_file(tmp_path):
     """The barrel of a roller is taken off before the map is cut; one line in the scene."""
     x, y = (np.arange(n) * 0.45e-6 for n in (160, 40))

@@ -93,6 +93,13 @@ def test_the_band_of_a_curve_is_that_of_its_intervals():
     assert "95 %" in ax.get_legend().get_texts()[0].get_text()
 
 
+def test_an_axis_that_shows_the_magnitude_of_the_speed_says_so(curve):
+    mixed = replace(curve, speed=curve.speed * np.array([1, -1, 1]))
+    assert "U (m/s)" in curve.plot(axes()).get_xlabel() and "|U|" not in curve.plot(axes()).get_xlabel()
+    assert mixed.plot(axes()).get_xlabel() == "entrainment speed |U| (m/s), both directions"
+    assert replace(curve, speed=-curve.speed).plot(axes()).get_xlabel() == "entrainment speed |U| (m/s), backwards"
+
+
 def test_a_history_and_its_loop_are_drawn(history):
     found = lines(history.plot(axes()))
     np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)

@@ -136,7 +136,7 @@ class Judge:
 
 def judge_of(prepared: Prepared, result) -> Judge:
     """What is needed to close ``result`` of ``prepared`` anew, on the cells that its lines were solved on."""
-    prepared = on_cells_of(prepared, result.line and result.line.cells)
+    prepared = on_cells_of(prepared, result.line)
     scaled = result.decision.deflected_by == "scaled"
     n = prepared.surface.shape[0]
     x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]

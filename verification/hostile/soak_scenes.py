@@ -91,7 +91,7 @@ def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, flat: bool
         "seed": int(rng.integers(2**31)),
     }
     grid: dict[str, Any] = {"shape": (nx, nx), "spacing": spacing}
-    grid["region"] = "box" if rng.random() < 0.1 else "hertz"
+    grid["region"] = "box" if rng.random() < 0.1 and not flat else "hertz"
     if flat and rng.random() < 0.12:
         grid |= {"model": str(rng.choice(("summits", "patches")))}
     scene = scene.with_(surface=keys, contact=grid)
