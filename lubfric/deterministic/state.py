@@ -106,8 +106,8 @@ def _opened(touching, surplus, pull) -> np.ndarray:
     """The touching cells that open: those with a ``surplus`` of inflow [m/s] above ``pull``, and those behind them that
     it reaches. It is handed on along x, and what a cell gives off is taken from it.
 
-    Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives off
-    more than it is handed would sink below the floor, and close all that were opened with it, for ever.
+    Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives
+    off more than it is handed would sink below the floor, and close all that were opened with it, for ever.
     """
     handed = np.where(touching, surplus, 0.0)
     for before, own, touches in zip(handed[:-1], handed[1:], touching[1:]):
