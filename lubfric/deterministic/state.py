@@ -11,7 +11,6 @@ from .reynolds import Balance, balance
 
 FLUID, RUPTURED, TOUCHING = 0, 1, 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
-STREAK = 16  # cells along x that open at once
 
 
 @dataclass(frozen=True)
@@ -88,7 +87,7 @@ def _resorted(problem: Problem, at: Look) -> State:
     kind[fluid & (p < 0)] = RUPTURED
     kind[fluid & (p >= 0) & (at.gap < problem.floor)] = TOUCHING
     kind[ruptured & (at.gap < problem.floor)] = TOUCHING
-    kind[_opened(touching, touching & (r < -_pull(problem)))] = FLUID
+    kind[_opened(touching, -r, _pull(problem))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
     beyond = (p > problem.hardness) & ~state.yielded
     yielded = (state.yielded & (state.dent >= 0) | beyond) & (kind != RUPTURED)
@@ -103,15 +102,17 @@ def _resorted(problem: Problem, at: Look) -> State:
     )
 
 
-def _opened(touching, pulled) -> np.ndarray:
-    """The ``pulled`` touching cells, and those that touch behind them, at most `STREAK` in a row. Along a furrow that
-    the film wets they would otherwise open one by one; cells opened in vain close again in the next step, all at once.
+def _opened(touching, surplus, pull) -> np.ndarray:
+    """The touching cells that open: those with a ``surplus`` of inflow [m/s] above ``pull``, and those behind them that
+    it reaches. It is handed on along x, and what a cell gives off is taken from it.
+
+    Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives
+    off more than it is handed would sink below the floor, and close all that were opened with it, for ever.
     """
-    found, reach = pulled.copy(), pulled
-    for cells in range(1, STREAK):
-        reach = reach[:-1] & touching[cells:]
-        found[cells:] |= reach
-    return found
+    handed = np.where(touching, surplus, 0.0)
+    for before, own, touches in zip(handed[:-1], handed[1:], touching[1:]):
+        own += np.where(touches & (before > pull), before, 0.0)
+    return touching & (handed > pull)
 
 
 def _pull(problem: Problem) -> float:

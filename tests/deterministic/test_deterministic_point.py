@@ -167,6 +167,19 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
     assert found.touching.any() and found.drawn < 0.1
 
 
+def test_cells_that_give_off_fluid_do_not_open_and_close_for_ever():
+    """1.05 GPa, Sq 100 nm, 1 mm/s: cells that were opened although they give off fluid sank below the floor, and closed
+    those that had to stay open, so that Newton's method went round in a cycle. Load, gap and signs are those of the
+    map's own judge."""
+    from verification.stability.whole_map import bearing, check
+
+    problem = bearing(1e-7, 3e5, 1e-3, across=24)
+    found = solve_point(problem)
+    assert found.report.iterations <= 80 and found.report.residual <= 1e-5  # it took 114
+    wrong = check(problem, found)
+    assert found.touching.any() and max(wrong["load"], wrong["gap"], wrong["signs"]) <= 1
+
+
 def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
     """To the same film as Newton's method from the dry contact, which shares none of the way."""
     problem = rough(32, 18333.0, 0.01, LIMITED, hardness=4e9)

@@ -10,7 +10,7 @@ from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.reynolds import balance, derivatives
 from lubfric.deterministic.rheology import mean_fluidity, thinning
-from lubfric.deterministic.state import STREAK, _opened
+from lubfric.deterministic.state import _opened
 from lubfric.halfspace import half_space
 from lubfric.line_contact import LineContact
 from lubfric.lubricant import Lubricant, shear_stress
@@ -187,11 +187,20 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0
 
 
-def test_a_touching_furrow_opens_as_one_and_only_behind_the_pull():
-    touching = np.zeros((30, 4), bool)
-    touching[5:12, 1], touching[14:16, 1], touching[2:28, 2] = True, True, True
-    pulled = np.zeros_like(touching)
-    pulled[7, 1], pulled[3, 2] = True, True
-    found = _opened(touching, pulled)
-    assert set(zip(*np.nonzero(found[:, :2]))) == {(i, 1) for i in range(7, 12)}
-    assert np.flatnonzero(found[:, 2]).tolist() == list(range(3, 3 + STREAK)) and not found[:, 3].any()
+def test_touching_cells_open_as_far_as_the_surplus_reaches():
+    """Against a furrow followed cell by cell: what enters the first cell opens the next ones until it is used up."""
+    random = np.random.default_rng(5)
+    touching = random.random((60, 8)) < 0.8
+    surplus = random.standard_normal((60, 8)) - 0.3
+    found = _opened(touching, surplus, 0.5)
+    for j in range(8):
+        handed = 0.0
+        for i in range(60):
+            handed = surplus[i, j] + handed if touching[i, j] else 0.0
+            assert found[i, j] == (handed > 0.5)
+            handed = handed if handed > 0.5 else 0.0
+    furrow = np.zeros((30, 3), bool)
+    furrow[5:20, 1] = True
+    enters = np.where(furrow, -1.0, 0.0)
+    enters[7, 1], enters[10, 1] = 2.8, 0.4  # 1.8 is left in the next cell, .8 behind it, then less than the pull
+    assert np.flatnonzero(_opened(furrow, enters, 0.5)[:, 1]).tolist() == [7, 8, 9, 10]
