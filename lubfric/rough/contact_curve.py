@@ -111,10 +111,10 @@ def contact_curve(
 
     Each node starts from its heavier neighbour. Nodes are added between the first ones until three errors are within
     about ``accuracy``: the relative error of the interpolated mean gap; that of the load at a given gap, by its effect
-    on the friction of a film that carries the rest of ``heaviest``; and that of the area that this film has. They are estimated from the errors at nodes
-    that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are needed near full contact, where
-    the gap falls by orders of magnitude, and on small maps, whose summits touch one by one. Raises what
-    `lubfric.solve_contact` raises.
+    on the friction of a film that carries the rest of ``heaviest``; and that of the area that this film has. They are
+    estimated from the errors at nodes that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are
+    needed near full contact, where the gap falls by orders of magnitude, and on small maps, whose summits touch one by
+    one. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
