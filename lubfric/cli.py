@@ -213,6 +213,11 @@ def _plot(arguments) -> int:
     from .unsteady.command import plot_again
     from .validity.entry import Validity
 
+    given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
+    if given and "measured" not in given:
+        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    if given and (arguments.folder / "history.csv").is_file():
+        raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds a run in time")
     if plot_again(arguments.folder):
         return 0
     source = arguments.folder / "stribeck.csv"

@@ -41,10 +41,11 @@ class CarefulDescent(Descent):
         f = self.fields
         return float((f.change - f.lower).sum(where=free)) + self.target - float(f.change.sum())
 
-    def _step(self) -> None:
+    def _step(self, mean: np.float32) -> None:
         """The step that is exact along the direction, then brought within the limits and to the load, on the free
         cells."""
         f = self.fields
+        f.without(mean)
         free = f.weight > 0
         curvature = dot(f.direction, self._answer(f.direction)) * self.compliance
         slope = dot(f.before, f.direction)

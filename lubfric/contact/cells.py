@@ -54,11 +54,14 @@ class Cells:
         """Copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
         flat = field[self.rows].ravel()
         values = flat.copy() if self.index is None else flat.take(self.index)
-        values *= factor
+        if factor != 1.0:
+            values *= factor
         return values.astype(dtype, copy=False)
 
     def spread(self, values) -> np.ndarray:
         """Field of the whole patch with these values, zero elsewhere."""
+        if values.size == self.whole[0] * self.whole[1]:
+            return values.reshape(self.whole)
         field = np.zeros(self.whole)
         if self.index is None:
             field[self.rows] = values.reshape(self.shape)

@@ -36,7 +36,6 @@ REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into t
 NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
 NEAR, WORTH = 0.7, 0.6  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
 FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
-HUGE = np.float32(1e20)  # times any pressure: beyond all others
 PATIENCE = 8  # iterations without a tenth off the best residual
 
 
@@ -85,7 +84,8 @@ class Descent:
         """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
         best, waiting = math.inf, 0
         while True:
-            worst = self._look()
+            self._look()
+            worst = self._worst(tolerance)
             self.history.append(worst)
             best, waiting = (worst, 0) if worst < 0.9 * best else (best, waiting + 1)
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
@@ -93,8 +93,7 @@ class Descent:
             self.iterations += 1
             if self.iterations in NARROWINGS and self._narrowed():
                 self._look()
-            self._turn()
-            self._step()
+            self._step(self._turn())
 
     def found(self, pressure) -> np.ndarray:
         """``pressure`` [Pa], the field with which the search began, with its changes."""
@@ -108,27 +107,33 @@ class Descent:
                 np.copyto(own, self.hardness, where=b.change >= b.upper)
         return self.cells.spread(values)
 
-    def _look(self) -> float:
-        """Mark the free cells, find the residue on them, and return the worst residual."""
+    def _look(self) -> None:
+        """Mark the free cells, and find the residue on them and the deepest overlap."""
         if self.fields.upper is not None and self.given:
             self._follow()
         count, height = self._mark()
         if self.fields.upper is None and self.given and count:
             self.level = height / count
-        self.count = count
-        total = misfit = overlap = 0.0
+        self.count, self.overlap = count, 0.0
         for b in self.blocks:
-            number, other, _, _ = b.spare
             np.subtract(b.gap, np.float32(self.level), out=b.residue)
             b.residue *= b.weight
-            np.subtract(b.change, b.lower, out=number)
-            total += float(number.sum())
-            misfit += dot(number, np.abs(b.residue, out=other))
-            lowest = b.residue if b.upper is None else np.multiply(b.residue, b.change < b.upper, out=other)
-            overlap = max(overlap, -float(lowest.min()))
-        self.overlap = overlap
+            lowest = b.residue if b.upper is None else np.multiply(b.residue, b.change < b.upper, out=b.spare[1])
+            self.overlap = max(self.overlap, -float(lowest.min()))
+
+    def _worst(self, tolerance: float) -> float:
+        """The worst residual on these cells. Overlap is the worst as a rule, so the others are not looked at while it
+        is above ``tolerance``."""
+        if self.overlap > tolerance:
+            return self.overlap
+        total = misfit = 0.0
+        for b in self.blocks:
+            pressure, apart, _, _ = b.spare
+            np.subtract(b.change, b.lower, out=pressure)
+            total += float(pressure.sum())
+            misfit += dot(pressure, np.abs(b.residue, out=apart))
         excess = abs(total - self.load) / self.load if self.given else 0.0
-        return max(overlap, misfit / total if total > 0 else math.inf, excess)
+        return max(self.overlap, misfit / total if total > 0 else math.inf, excess)
 
     def _follow(self) -> None:
         """The zero level of the gap where cells may yield: the mean gap in elastic contact, or a value between the
@@ -186,8 +191,9 @@ class Descent:
             own |= np.greater(b.change, b.lower, out=flag)
         return near
 
-    def _turn(self) -> None:
-        """Conjugate direction on the free cells (Polak-Ribiere, never negative)."""
+    def _turn(self) -> np.float32:
+        """Conjugate direction on the free cells (Polak-Ribiere, never negative). Returns its mean on them, which is
+        still in it: a given load does not change along a direction."""
         f = self.fields
         if self.stencil is not None:
             self.stencil.apply(f.residue, f.trial)
@@ -203,17 +209,15 @@ class Descent:
             b.direction *= keep
             b.direction -= b.trial
             lean += dot(b.direction, b.weight) if self.given else 0.0
-        mean = np.float32(lean / max(self.count, 1))
-        for b in self.blocks:
-            b.direction -= mean
-            b.direction *= b.weight
         self.power = power
         for each in (f, *self.blocks):
             each.residue, each.before = each.before, each.residue
+        return np.float32(lean / max(self.count, 1))
 
-    def _step(self) -> None:
-        """Go from the known pressure towards the trial, by the step that is exact along that change."""
-        self._try()
+    def _step(self, mean: np.float32) -> None:
+        """Go from the known pressure towards the trial, by the step that is exact along that change. ``mean``: what
+        `_turn` has left in the direction."""
+        self._try(mean)
         for b in self.blocks:
             np.subtract(b.trial, b.known, out=b.residue)
         answer = self._answer(self.fields.residue)
@@ -227,29 +231,14 @@ class Descent:
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING
         for b in self.blocks:
-            self._move(b, answer[b.part], step)
+            b.move(answer[b.part], step, step * self.compliance)
 
-    def _move(self, b, answer, step: float) -> None:
-        """Move a block by the part ``step`` of the change. ``answer`` is the change of its gap by the whole, and stands
-        in its residue."""
-        b.residue *= np.float32(step)
-        b.known += b.residue
-        b.gap += np.multiply(answer, np.float32(step * self.compliance), out=b.residue)
-        yielded = None if b.upper is None else b.trial >= b.upper
-        np.maximum(b.known, b.lower, out=b.change)
-        b.trial -= b.lower  # cells that the trial unloads stay so: without branches, of which a mask has many
-        b.trial *= HUGE
-        b.trial += b.lower
-        np.minimum(b.change, b.trial, out=b.change)
-        if b.upper is not None:
-            np.minimum(b.change, b.upper, out=b.change)
-            np.copyto(b.change, b.upper, where=yielded)
-
-    def _try(self) -> None:
-        """Make the trial: the change of pressure by one pace along the direction, within the limits and with the
-        load."""
+    def _try(self, mean: np.float32) -> None:
+        """Make the trial: the change of pressure by one pace along the direction less its ``mean``, within the limits
+        and with the load."""
         pace, carried = np.float32(self.pace), 0.0
         for b in self.blocks:
+            b.without(mean)
             np.multiply(b.direction, pace, out=b.residue)
             b.residue += b.change
             carried += b.aimed(b.residue)

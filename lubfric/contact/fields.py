@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 BLOCK = 16384  # cells
+HUGE = np.float32(1e20)  # times any pressure: beyond all others
 
 
 @dataclass
@@ -36,6 +37,11 @@ class Fields:
         """``function`` of every field, by name."""
         every = ((f.name, self.__dict__[f.name]) for f in fields(Fields))
         return {name: function(values) for name, values in every if values is not None}
+
+    def without(self, mean: np.float32) -> None:
+        """Take its ``mean`` off the direction, and all of it where cells are not free."""
+        self.direction -= mean
+        self.direction *= self.weight
 
     def narrow(self, kept) -> None:
         """Keep only the positions ``kept`` from now on. Fields are cut one after the other, so that old ones are freed
@@ -71,6 +77,21 @@ class Block(Fields):
             np.minimum(self.trial, self.upper, out=self.trial)
         return float(self.trial.sum())
 
+    def move(self, answer, step: float, gain: float) -> None:
+        """Add the part ``step`` of the change, which stands in the residue, and ``gain`` times the ``answer`` of the
+        gap to it. What is cut to the limits stays pending."""
+        part = self.spare[0]
+        self.known += np.multiply(self.residue, np.float32(step), out=part)
+        self.gap += np.multiply(answer, np.float32(gain), out=part)
+        np.maximum(self.known, self.lower, out=self.change)
+        np.subtract(self.trial, self.lower, out=part)  # cells that the trial unloads stay so: without branches
+        part *= HUGE
+        part += self.lower
+        np.minimum(self.change, part, out=self.change)
+        if self.upper is not None:
+            np.minimum(self.change, self.upper, out=self.change)
+            np.copyto(self.change, self.upper, where=self.trial >= self.upper)
+
     def movable(self) -> int:
         """Cells whose trial is between the limits."""
         flag = np.greater(self.trial, self.lower, out=self.spare[2])
@@ -87,5 +108,6 @@ def parts(size: int) -> list[slice]:
 
 def begun(gap, lower, upper) -> Fields:
     """The fields at the start: no change yet."""
-    rest = {name: np.zeros_like(gap) for name in ("change", "known", "direction", "weight", "residue", "before")}
-    return Fields(lower=lower, gap=gap, trial=np.empty_like(gap), upper=upper, **rest)
+    zero = {name: np.zeros(gap.size, gap.dtype) for name in ("change", "known", "direction", "before")}
+    room = {name: np.empty_like(gap) for name in ("weight", "residue", "trial")}
+    return Fields(lower=lower, gap=gap, upper=upper, **zero, **room)

@@ -48,9 +48,10 @@ class LongWaves:
             sums -= found.ravel().take(self.owner)
             return
         wide, whole = found.repeat(FACTOR, axis=1)[:, : field.shape[1]], sums.reshape(field.shape)
-        for k in range(FACTOR):
-            part = whole[k::FACTOR]
-            part -= wide[: part.shape[0]]
+        rows = len(whole) // FACTOR
+        together = whole[: FACTOR * rows].reshape(rows, FACTOR, -1)  # the rows of a coarse one
+        together -= wide[:rows, None]
+        whole[FACTOR * rows :] -= wide[rows:]
 
 
 def _summed(field) -> np.ndarray:

@@ -20,7 +20,7 @@ from .looked import State, look
 from .projection import rescaled
 
 MARGIN = 0.8  # of the tolerance, aimed at by the search
-FALL = 1e-5  # of the residual within a round: as far as single precision goes
+FALL = 8e-6  # of the residual within a round: as far as single precision goes
 RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
 WASTED = 4  # rounds without halving the residual
 

@@ -3,7 +3,7 @@ is too stiff for long waves, which are corrected (`lubfric.contact.long_waves`).
 
 It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. Those nine
 numbers are always a multiple of the identity less an outer product of three and three. So two passes of three points
-are enough.
+are enough. They run over values that are scaled by the middle of that product.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .fields import BLOCK, parts
+from .fields import BLOCK
 from .long_waves import LongWaves, worth
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
@@ -39,9 +39,11 @@ class Stencil:
     def __init__(self, shape, spacing, boundary, cells, factor: float):
         self.shape, self.boundary = shape, boundary
         self.padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
-        nearest = nearest_coefficients(shape, spacing)
-        self.coefficients = tuple(np.float32(factor * c) for c in nearest)
-        self.long_waves = LongWaves(shape, spacing, boundary, nearest, factor) if worth(shape) else None
+        own, along_x, along_y, across = nearest = nearest_coefficients(shape, spacing)
+        middle = factor * along_x * along_y / across if across else 1.0  # of the outer product
+        self.middle = np.float32(middle)
+        self.coefficients = tuple(np.float32(factor * c / middle) for c in nearest)
+        self.long_waves = LongWaves(shape, spacing, boundary, nearest, factor / middle) if worth(shape) else None
         self.take_on(cells)
 
     def on(self, cells) -> Stencil:
@@ -70,9 +72,9 @@ class Stencil:
         """Write the sums at the cells into ``sums``."""
         padded, width = self.padded, self.padded.shape[1]
         if self.corner is None:
-            padded[1:-1, 1:-1] = values.reshape(self.shape)
+            np.multiply(values.reshape(self.shape), self.middle, out=padded[1:-1, 1:-1])
         else:
-            padded.ravel()[width + 1 :][self.corner] = values
+            padded.ravel()[width + 1 :][self.corner] = values * self.middle
         if self.boundary[0] == "periodic":
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
@@ -80,14 +82,14 @@ class Stencil:
         if self.sparse:
             self._gathered(values, sums)
         else:
-            self._swept(values, sums)
+            self._swept(sums)
         if self.long_waves is not None:
             self.long_waves.take_off(padded[1:-1, 1:-1], sums)
 
     def _gathered(self, values, sums) -> None:
         flat, width = self.padded.ravel(), self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
-        np.multiply(values, own, out=sums)
+        np.multiply(values, own * self.middle, out=sums)
         for coefficient, offsets in (
             (along_x, (1, 2 * width + 1)),
             (along_y, (width, width + 2)),
@@ -99,11 +101,10 @@ class Stencil:
             part *= coefficient
             sums += part
 
-    def _swept(self, values, sums) -> None:
+    def _swept(self, sums) -> None:
         """The sums for all cells, some rows at a time, within the cache."""
         flat, (nx, ny), width = self.padded.ravel(), self.shape, self.padded.shape[1]
-        own, along_x, along_y, across = self.coefficients
-        outer = along_x * along_y / across
+        own, along_x, along_y, _ = self.coefficients
         rows = max(1, BLOCK // width)
         triples, nines = np.empty((rows + 2) * width, np.float32), np.empty(rows * width, np.float32)
         first = 0
@@ -112,17 +113,17 @@ class Stencil:
             points, size = flat[begin * width : (end + 2) * width], (end - begin) * width
             triple, nine = triples[: points.size - 2], nines[: size - 2]
             np.add(points[:-2], points[2:], out=triple)
-            triple *= across / along_x
+            triple *= along_y
             triple += points[1:-1]
             np.add(triple[: -2 * width], triple[2 * width :], out=nine)
-            nine *= across / along_y
+            nine *= along_x
             nine += triple[width:-width]
-            nine *= outer
+            alone = np.multiply(points[width + 1 : width + 1 + nine.size], own - 1, out=triple[: nine.size])
             if self.corner is None:
-                sums.reshape(nx, ny)[begin:end] = nines[:size].reshape(-1, width)[:, :-2]
+                left, right = (values[:size].reshape(-1, width)[:, :-2] for values in (nines, triples))
+                np.add(left, right, out=sums.reshape(nx, ny)[begin:end])
             else:
+                nine += alone
                 last = first + int(np.searchsorted(self.corner[first:], end * width))
                 nine.take(self.corner[first:last] - begin * width, out=sums[first:last], mode="clip")
                 first = last
-        for part in parts(values.size):
-            sums[part] += (own - outer) * values[part]

@@ -49,6 +49,8 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
             low, high = map(float, ends.split(":"))
         except ValueError:
             raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
+        if key.strip() in found:
+            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
         found[key.strip()] = (low, high)
     return found
 

@@ -288,6 +288,12 @@ def test_a_start_beyond_the_bounds_is_refused():
             lubfric.fit(SCENE, measured, BOUNDS, start={"lubricant.viscosity": value})
 
 
+def test_a_parameter_given_twice_is_refused(capsys):
+    twice = ["--parameter", "lubricant.viscosity=0.1:1", "--parameter", "lubricant.viscosity=0.1:2"]
+    assert main(["fit", "paper", "--measured", "m.csv", "--coefficient", "f", "--speed", "U [m/s]", *twice]) == 2
+    assert "lubricant.viscosity is given twice" in capsys.readouterr().err
+
+
 def test_a_measured_ratio_is_not_fitted():
     measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]), over="slide_roll_ratio")
     for key in ("motion.slide_roll_ratio", "motion.slip_percent"):
