@@ -16,6 +16,7 @@ from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
 from lubfric.one_way.together import together
+from lubfric.sampling.uncertainty import Uncertainty
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper").with_(
@@ -157,7 +158,7 @@ def test_a_density_that_is_left_out_is_told():
     assert [entry.value for entry in told] == [pytest.approx(0.34 * pressure / (5.9e8 + pressure))]
     constant = lubfric.friction(scene.with_(lubricant={"density_law": "constant"}), 0.01)
     assert not any(entry.what.startswith("compression") for entry in constant.validity)
-    assert "nan" not in found.uncertainty.text and "numerical not known" in lubfric.Uncertainty().short(0.1)
+    assert "nan" not in found.uncertainty.text and "numerical not known" in Uncertainty().short(0.1)
 
 
 def test_it_is_turned_with_the_speed_and_warm_starts_change_nothing():
