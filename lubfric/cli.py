@@ -156,6 +156,7 @@ def _run(arguments) -> int:
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
     if arguments.sampling_tolerance is not None:
+        _check_line(scene)
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
@@ -172,6 +173,18 @@ def _run(arguments) -> int:
 
     more = Extras(arguments.report, arguments.vtk, arguments.workers)
     return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
+
+
+def _check_line(scene) -> None:
+    """Raise `InputError` for ``--sampling-tolerance`` on a scene that is not solved on a line."""
+    from .errors import InputError
+    from .lines.make import takes_line
+
+    if not takes_line(scene):
+        raise InputError(
+            "--sampling-tolerance is for a rough cylinder on a line of its roughness (numerics.sampling = 'line'), and "
+            f"{scene.name} is solved on one patch, as it is; leave it out"
+        )
 
 
 def _check_options(arguments, in_time: bool) -> None:
@@ -213,6 +226,11 @@ def _plot(arguments) -> int:
     from .unsteady.command import plot_again
     from .validity.entry import Validity
 
+    given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
+    if given and "measured" not in given:
+        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    if given and (arguments.folder / "history.csv").is_file():
+        raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds a run in time")
     if plot_again(arguments.folder):
         return 0
     source = arguments.folder / "stribeck.csv"

@@ -165,6 +165,14 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     return a
 
 
+def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
+    """One number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
+    found = array(name, [values] if np.ndim(values) == 0 else values, unit, ndim=1).copy()
+    for value in found.tolist():
+        number(name, value, unit, minimum=-most, maximum=most)
+    return found
+
+
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)

@@ -17,7 +17,7 @@ from ..validity.solution import of_motion, of_pressure, of_thickness
 from .resolved import resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
-DRAWN, CUT = 0.1, 0.1  # flow drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
+DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
 def deterministic_answer(
@@ -99,8 +99,9 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
     if result.drawn > DRAWN:
-        consequence, remedy = "the film behind them gets too much lubricant", "finer cells (contact.spacing)"
-        yield Validity("share of the flow out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
+        consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
+        remedy = "read f to a percent or two: hardly any lubricant passes the contact"
+        yield Validity("share of the lubricant out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
     error, tolerance = found.error, scene.numerics.tolerance
     if error is not None and error > tolerance:
         consequence = "the finest grid leaves more than the tolerance"

@@ -19,9 +19,13 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
     which Moes' film of the whole load is 0.02 and 10 times Sq.
 
-    Raises `InputError` for a smooth surface without speeds, which has no such range.
+    Raises `InputError` for negative speeds, and for a smooth surface without speeds, which has no such range.
     """
-    speeds = sorted({abs(u) for u in scene.motion.speeds if u != 0})
+    if any(u < 0 for u in scene.motion.speeds):
+        raise InputError(
+            "speeds = 'auto' runs forwards, and motion.speeds backwards; give motion.speed_range, or speeds in m/s"
+        )
+    speeds = sorted({u for u in scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
     if sq <= 0:

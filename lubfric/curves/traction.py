@@ -11,7 +11,9 @@ from ..errors import LubfricError
 from ..prepared import Prepared, at_tolerance, prepare, scene_of
 from ..report import Report
 from ..sampling.uncertainty import UncertaintyCurve, curve_of
-from ..scene import Scene
+from ..scene import FASTEST, Scene
+from ..scene.motion import LARGEST_RATIO
+from ..scene.resolved_gap import check_resolved_gap, resolves_gap
 from ..steady import FrictionResult, friction
 from ..sweep.points import CurveResult, Swept, columns_of, judged, report_of
 
@@ -90,17 +92,19 @@ def traction(
     ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
     ValidityError : the same, if all points that failed were refused as invalid
     """
-    ratios = validate.array("ratios", [ratios] if np.ndim(ratios) == 0 else ratios, "(slide-roll ratio)", ndim=1)
+    ratios = validate.numbers("ratios", ratios, "(slide-roll ratio)", LARGEST_RATIO)
     own = scene_of(scene).motion.entrainment_speed
-    speed = own if speed is None else validate.number("speed", speed, "m/s")
+    speed = own if speed is None else validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_tolerance(scene, tolerance, model)
+    scenes = [prepared.scene.with_(motion={"slide_roll_ratio": ratio}) for ratio in ratios.tolist()]
+    for asked in scenes if resolves_gap(prepared.scene) else ():
+        check_resolved_gap(asked)
     points: list[FrictionResult | None] = [None] * ratios.size
     errors: dict[int, Exception] = {}
     start = None
     for done, i in enumerate(np.argsort(np.abs(ratios), kind="stable"), start=1):
-        asked = prepared.scene.with_(motion={"slide_roll_ratio": float(ratios[i])})
         try:
-            found = friction(prepare(asked, like=prepared), speed, start=start)
+            found = friction(prepare(scenes[i], like=prepared), speed, start=start)
         except LubfricError as error:
             errors[int(i)] = error
         else:

@@ -23,8 +23,8 @@ class DeterministicResult:
     - coefficient: (boundary + couette + rolling)/load. split: the load by four rules; ``split.spots`` is the one used.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over ``strip``, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
-    - drawn: flow that touching cells of the strip give off (because their floor is kept full), over U times the mean
-      gap.
+    - drawn: of the lubricant in the film, the share that touching cells of the strip give off, because their floor is
+      kept full; the rest enters from upstream.
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
@@ -98,5 +98,6 @@ def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
 
 def _drawn(problem: Problem, at: Look, strip) -> float:
     source = np.where(at.state.kind == TOUCHING, np.maximum(at.residual, 0.0), 0.0)[strip]
-    flow = float(source.sum()) * problem.spacing[0] / source.shape[1]
-    return flow / (problem.speed * float(at.balance.film[strip].mean()))
+    given = float(source.sum()) * problem.spacing[0] / source.shape[1]
+    entering = max(float(at.balance.inlet.flow.mean()), 0.0)
+    return given / (given + entering) if given > 0 else 0.0

@@ -16,7 +16,7 @@ from .state import State
 
 TOLERANCE = 1e-5
 FROM_NEIGHBOUR, DIRECT, MARCHED = 40, 50, 500  # LU factorisations: from a state nearby, from the dry contact, in time
-MOST = 800  # of all ways together
+MOST = 800  # of all ways together, unless it is said
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
 LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
@@ -34,7 +34,7 @@ class Start:
 
 
 def solve_point(
-    problem: Problem, *, starts: Iterable[Start] = (), tolerance=TOLERANCE, raise_on_failure=True
+    problem: Problem, *, starts: Iterable[Start] = (), tolerance=TOLERANCE, most=MOST, raise_on_failure=True
 ) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
@@ -48,10 +48,11 @@ def solve_point(
     - from higher speeds, step by step;
     - without ``starts``, from the state that implicit steps in time reach from the dry contact.
 
-    Together they take at most `MOST` factorisations. ``report.notes`` says which one it was. Converged when the largest
-    of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
+    Together they take at most ``most`` factorisations. ``report.notes`` says which one it was. Converged when the
+    largest of `lubfric.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
+    result.
     """
-    work = Work()
+    work = Work(most)
     tried: list[tuple[str, Found]] = []
     for attempt in _attempts(problem, starts, tolerance, work):
         tried.append(attempt)
@@ -61,7 +62,7 @@ def solve_point(
     report = _report(found, tolerance, work, name)
     if not report.converged:
         ways = ", ".join(f"{way} ({at.residual:.1e})" for way, at in tried)
-        spent = f"{work.factorisations} of {MOST} factorisations"
+        spent = f"{work.factorisations} of {most} factorisations"
         report = replace(report, advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}")
     result = assemble(problem, found.look, report)
     if raise_on_failure:
@@ -71,9 +72,10 @@ def solve_point(
 
 @dataclass
 class Work:
-    """The cost of the attempts at one point: LU factorisations, GMRES iterations, steps in time; and their
-    residuals."""
+    """The cost of the attempts at one point: LU factorisations, at ``most`` so many, GMRES iterations, steps in time;
+    and their residuals."""
 
+    most: int = MOST
     factorisations: int = 0
     krylov: int = 0
     steps: int = 0
@@ -82,7 +84,7 @@ class Work:
     @property
     def left(self) -> int:
         """Factorisations that may still be done."""
-        return max(MOST - self.factorisations, 0)
+        return max(self.most - self.factorisations, 0)
 
     def direct(self, problem, state, tolerance, most=DIRECT) -> Found:
         """`newton`, counted."""

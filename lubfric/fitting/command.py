@@ -49,6 +49,8 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
             low, high = map(float, ends.split(":"))
         except ValueError:
             raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
+        if key.strip() in found:
+            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
         found[key.strip()] = (low, high)
     return found
 
@@ -71,6 +73,7 @@ def _write(found: FitResult, folder: Path) -> list[str]:
         "covariance": found.covariance,
         "undetermined": found.undetermined,
         "at_bounds": found.at_bounds,
+        "validity": found.validity,
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,

@@ -9,6 +9,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..scene import Scene
+from ..studies.vary import check_temperature
 
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
 
@@ -69,4 +70,5 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
             raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
         for end in (low[-1], high[-1]):
             scene.with_keys({key: end})
+    check_temperature("parameters", scene, set(bounds))
     return Parameters(tuple(bounds), np.array(low), np.array(high))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .. import validate
+from ..errors import InputError
 from .kinds import History
 from .read import checked_history
 
@@ -54,6 +55,9 @@ class Transient:
         validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
         if self.initial_film is not None:
             validate.positive("transient.initial_film", self.initial_film, "m", minimum=1e-12, maximum=1.0)
+            if self.initial != "auto":
+                told = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
+                raise InputError(told, "transient.initial", "one of the two")
         if self.tolerance is not None:
             validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
         for name, unit in (("speed", "m/s"), ("sliding", "m/s"), ("load", "N"), ("radius", "m"), ("viscosity", "Pa s")):

@@ -85,6 +85,13 @@ class LineFound:
         return self.response.relative("coefficient", mean_of(self.grid, "beyond", math.nan))
 
     @property
+    def by_cells(self) -> float:
+        """Relative change of f by the cells of the lines, for which it is corrected."""
+        if self.response is None:
+            return 0.0
+        return self.response.relative("coefficient", mean_of(self.grid, "gap", 0.0))
+
+    @property
     def start(self) -> LineStart:
         """The start for a neighbouring speed."""
         return LineStart(self.first, self.cells, self.used, self.grid)

@@ -8,6 +8,7 @@ from .. import validate
 from ..show.shown import Brief
 
 FASTEST = 1e6  # m/s
+LARGEST_RATIO = 1e6  # slide-roll ratio
 
 
 @dataclass(frozen=True, repr=False)
@@ -28,7 +29,7 @@ class Motion(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", 1e6)):
+        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
             object.__setattr__(self, name, value)
         speeds = () if len(self.speeds) == 0 else validate.array("motion.speeds", self.speeds, "m/s", ndim=1)

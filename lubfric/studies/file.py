@@ -41,9 +41,9 @@ def load_study(path) -> StudyPlan:
         lists = _flat(group, "together", path.parent)
         if len({len(values) for values in lists.values()}) != 1:
             raise InputError(f"[[together]] of {path.name} needs lists of one length; found {_lengths(lists)}")
-        vary[tuple(lists)] = list(zip(*lists.values()))
+        _add(vary, {tuple(lists): list(zip(*lists.values()))})
     if "sample" in table:
-        vary |= _sampled(table["sample"], path)
+        _add(vary, _sampled(table["sample"], path))
     return plan_study(scene, vary, _speeds(table))
 
 
@@ -55,9 +55,9 @@ def _flat(table, where: str, folder: Path) -> dict[str, list]:
     found: dict[str, Any] = {}
     for key, value in table.items():
         if isinstance(value, dict):
-            found |= {f"{key}.{inner}": v for inner, v in value.items()}
+            _add(found, {f"{key}.{inner}": v for inner, v in value.items()})
         else:
-            found[key] = value
+            _add(found, {key: value})
     for key, values in found.items():
         if not isinstance(values, list):
             raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
@@ -69,6 +69,14 @@ def _flat(table, where: str, folder: Path) -> dict[str, list]:
             if isinstance(part, dict) and "file" in part:
                 part["file"] = _beside(folder, key, part["file"])
     return found
+
+
+def _add(known: dict, more: dict) -> None:
+    """Put ``more`` into ``known``. Raises `InputError` for a key that is there already, whose values would be lost."""
+    for key, value in more.items():
+        if key in known:
+            raise InputError(f"vary: {', '.join(key) if isinstance(key, tuple) else key} is given twice; give it once")
+        known[key] = value
 
 
 def _beside(folder: Path, key: str, name) -> str:
@@ -88,7 +96,7 @@ def _sampled(table, path: Path) -> dict:
     options = {key: table[key] for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
         raise InputError(f"[sample] of {path.name} needs count, the number of points")
-    ranges = {}
+    ranges: dict[str, Between] = {}
     for key, value in table.items():
         if key in SAMPLE_KEYS:
             continue
@@ -98,7 +106,7 @@ def _sampled(table, path: Path) -> dict:
                 raise InputError(
                     f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}"
                 )
-            ranges[f"{key}.{field}" if field else key] = Between(**given)
+            _add(ranges, {f"{key}.{field}" if field else key: Between(**given)})
     if len(ranges) == 1:
         ((key, only),) = ranges.items()
         return {key: [value for (value,) in sample([only], **options)]}

@@ -11,7 +11,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..prepared import scene_of
-from ..scene import Scene
+from ..scene import FASTEST, Scene
 from ..store import fingerprint
 from .adaptive import AUTO, CHOSEN
 from .cost import by_curve
@@ -105,7 +105,7 @@ def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
         return ()
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    speeds = validate.array("speeds", [speeds] if np.ndim(speeds) == 0 else speeds, "m/s", ndim=1)
+    speeds = validate.numbers("speeds", speeds, "m/s", FASTEST)
     if np.unique(speeds).size < speeds.size:
         raise InputError("speeds hold a value twice; give each once, in m/s")
     return tuple(float(u) for u in speeds)

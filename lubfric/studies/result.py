@@ -138,7 +138,7 @@ class StudyResult(Shown):
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""
         speeds = validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
-        sense = -1.0 if not self.chosen and self.coords[SPEED][1].min() < 0 else 1.0
+        sense = self._sense
         found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
         for index in np.ndindex(*found.shape[:-1]):
             curve = self.curve(index)
@@ -150,14 +150,19 @@ class StudyResult(Shown):
 
     @property
     def lift_off(self) -> np.ndarray:
-        """The speed [m/s], over the axes, at which the film lifts the surfaces off each other; NaN if a curve does not
-        reach it."""
+        """The speed [m/s], over the axes and in the direction of the curves, at which the film lifts the surfaces off
+        each other; NaN if a curve does not reach it."""
         found = np.full(self.status.shape[:-1], np.nan)
         for index in np.ndindex(*found.shape):
             curve = self.curve(index)
             if curve is not None and curve.lift_off is not None:
-                found[index] = curve.lift_off
+                found[index] = self._sense * curve.lift_off
         return found
+
+    @property
+    def _sense(self) -> float:
+        """The sign of the speeds, where they run one way."""
+        return -1.0 if not self.chosen and self.coords[SPEED][1].min() < 0 else 1.0
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, or if they

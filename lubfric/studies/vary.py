@@ -79,7 +79,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         for index in range(len(axis.values)):
             scene.with_keys(axis.at(index))
         axes.append(axis)
-    _check_temperature(scene, seen)
+    check_temperature("vary", scene, seen)
     return tuple(axes)
 
 
@@ -143,13 +143,14 @@ def _check_key(scene: Scene, key, seen: set) -> None:
     seen.add(key)
 
 
-def _check_temperature(scene: Scene, keys: set[str]) -> None:
-    """Raise `InputError` for temperatures that leave the viscosity as it is."""
+def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
+    """Raise `InputError` for temperatures that leave the viscosity as it is; ``what``: the argument that holds
+    ``keys``."""
     given = keys.intersection(("lubricant.temperature", "lubricant.temperature_celsius"))
     if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
         raise InputError(
-            f"vary: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 and "
-            "nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
+            f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 "
+            "and nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
         )
 
 

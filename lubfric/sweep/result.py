@@ -78,7 +78,7 @@ class StribeckResult(CurveResult):
         """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
         curve = self._interpolant
         known = curve.samples.speed
-        sense = 1.0 if (self.speed > 0).any() else -1.0
+        sense = self._sense
         at = sense * validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
         if at.min() < known[0] * (1 - 1e-9) or at.max() > known[-1] * (1 + 1e-9):
             low, high = sorted((sense * known[0], sense * known[-1]))
@@ -87,8 +87,15 @@ class StribeckResult(CurveResult):
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s] at which the film lifts the surfaces off each other; None if the curve does not reach it."""
-        return self._interpolant.lift_off
+        """The speed [m/s], in the direction of the curve, at which the film lifts the surfaces off each other; None if
+        the curve does not reach it."""
+        found = self._interpolant.lift_off
+        return None if found is None else self._sense * found
+
+    @property
+    def _sense(self) -> float:
+        """The sign of the speeds."""
+        return 1.0 if (self.speed > 0).any() else -1.0
 
     @cached_property
     def _interpolant(self) -> Interpolant:

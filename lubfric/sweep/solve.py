@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from numbers import Real
-
 import numpy as np
 
 from .. import validate
@@ -11,7 +9,7 @@ from ..curve.span import film_ratio
 from ..errors import InputError
 from ..prepared import Prepared, at_tolerance, scene_of
 from ..result import FrictionResult
-from ..scene import Scene
+from ..scene import FASTEST, Scene
 from ..store import fingerprint
 from ..studies.adaptive import AUTO
 from ..studies.spread import checked_executor
@@ -86,9 +84,7 @@ def _given(speeds, motion) -> np.ndarray:
     """The speeds [m/s] that were asked for, one or many, or those of the scene."""
     if speeds is None:
         speeds = motion.speeds or (motion.entrainment_speed,)
-    if isinstance(speeds, (Real, np.number)):
-        speeds = [speeds]
-    return validate.array("speeds", speeds, "m/s", ndim=1).copy()
+    return validate.numbers("speeds", speeds, "m/s", FASTEST)
 
 
 def _kept(fields, speeds: np.ndarray) -> np.ndarray:

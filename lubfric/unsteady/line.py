@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,8 +11,10 @@ from ..errors import LubfricError
 from ..history import Constant
 from ..lines.length import MOST_CELLS
 from ..lines.pieces import line_contact
-from ..prepared import Prepared
-from ..steady import friction
+from ..prepared import Prepared, on_halved_cells
+from ..sampling.estimate import of_line
+from ..sampling.line_friction import line_friction
+from ..sampling.sample import lines_of_model
 from .at_a_time import changes
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
@@ -20,20 +23,20 @@ SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 
 def long_enough(prepared: Prepared) -> Prepared:
     """``prepared`` on a line as long as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of
-    four speeds of the run, or as memory and map allow.
+    four speeds of the run, or as memory and map allow. Its cells are so short that they change f by no more than
+    ``numerics.tolerance`` at any of these speeds, or the scene's own: a run in time is not corrected for them.
 
     ``prepared`` itself if it is on one patch, or if its line is long enough.
     """
-    lines, plan = prepared.lines, changes(prepared.scene)
-    if lines is None:
+    lines, speeds = prepared.lines, _speeds(prepared)
+    if lines is None or not speeds:
         return prepared
-    low, high = (plan.speed or Constant(prepared.scene.motion.entrainment_speed)).range(plan.duration)
-    fastest = max(abs(low), abs(high))
-    if fastest == 0.0:
-        return prepared
-    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST * fastest)
-    speeds = np.unique(np.geomspace(fastest, slowest, SPEEDS)) if slowest < fastest else [fastest]
-    asked = max(_length(prepared, float(speed)) for speed in speeds)
+    needs = [_need(prepared, speed) for speed in speeds]
+    while lines.cells.factors != (1, 1) and max(n.by_cells for n in needs) > prepared.scene.numerics.tolerance:
+        prepared = on_halved_cells(prepared)
+        lines = lines_of_model(prepared)
+        needs = [_need(prepared, speed) for speed in speeds]
+    asked = max(need.length for need in needs)
     held = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
     if asked <= prepared.surface.size[1] * 1.05:
         return prepared
@@ -41,9 +44,30 @@ def long_enough(prepared: Prepared) -> Prepared:
     return replace(prepared, surface=surface, contact=line_contact(prepared.scene, surface))
 
 
-def _length(prepared: Prepared, speed: float) -> float:
-    """Length of the line [m] at a steady speed; 0 if there is no steady solution that tells it."""
+def _speeds(prepared: Prepared) -> list[float]:
+    """Speeds [m/s] at which the line is looked at; none where nothing is entrained."""
+    plan = changes(prepared.scene)
+    low, high = (plan.speed or Constant(prepared.scene.motion.entrainment_speed)).range(plan.duration)
+    fastest = max(abs(low), abs(high))
+    if fastest == 0.0:
+        return []
+    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST * fastest)
+    return np.unique(np.geomspace(fastest, slowest, SPEEDS)).tolist() if slowest < fastest else [fastest]
+
+
+@dataclass(frozen=True)
+class _Need:
+    """What a steady speed needs: the ``length`` [m] of its line; and the relative change of f ``by_cells``."""
+
+    length: float
+    by_cells: float
+
+
+def _need(prepared: Prepared, speed: float) -> _Need:
+    """The `_Need` at a steady ``speed`` [m/s]; zero if there is no steady solution that tells it."""
     try:
-        return friction(prepared, speed, raise_on_failure=False).uncertainty.length
+        chosen, line = line_friction(prepared, speed)
     except LubfricError:
-        return 0.0
+        return _Need(0.0, 0.0)
+    same = line.cells.factors == lines_of_model(prepared).cells.factors
+    return _Need(of_line(chosen.scene, line)[0].length, line.by_cells if same else math.inf)

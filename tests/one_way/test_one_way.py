@@ -16,6 +16,7 @@ from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
 from lubfric.one_way.together import together
+from lubfric.sampling.uncertainty import Uncertainty
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper").with_(
@@ -146,6 +147,18 @@ def test_it_is_near_the_deterministic_film():
     for speed, within in ((0.3, 0.03), (0.003, 0.02)):
         whole = lubfric.friction(SCENE.with_(numerics={"closure": "load", "model": "deterministic"}), speed)
         assert lubfric.friction(MODEL, speed).coefficient == pytest.approx(whole.coefficient, rel=within)
+
+
+def test_a_density_that_is_left_out_is_told():
+    """Dowson and Higginson's law did nothing, without a word. Its ratio at the film's largest pressure, written out."""
+    scene = SCENE.with_(lubricant={"density_law": "dowson-higginson"}, numerics={"accept": True})
+    found = lubfric.friction(scene, 0.01)
+    told = [entry for entry in found.validity if entry.what.startswith("compression")]
+    pressure = found.one_way[-1].film_pressure.max()
+    assert [entry.value for entry in told] == [pytest.approx(0.34 * pressure / (5.9e8 + pressure))]
+    constant = lubfric.friction(scene.with_(lubricant={"density_law": "constant"}), 0.01)
+    assert not any(entry.what.startswith("compression") for entry in constant.validity)
+    assert "nan" not in found.uncertainty.text and "numerical not known" in Uncertainty().short(0.1)
 
 
 def test_it_is_turned_with_the_speed_and_warm_starts_change_nothing():

@@ -67,6 +67,9 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
         ("[sample]\ncount = 2\nbodies.load = { low = 1.0 }\n", "low = , high ="),
         ('[vary]\nsurface.file = ["none.npy"]\n', "no such file"),
         ("speeds = [0.1\n", "not valid TOML"),
+        ('[vary]\n"bodies.load" = [1.0]\nbodies.load = [2.0]\n', "bodies.load is given twice"),
+        ("[vary]\nbodies.load = [1.0]\n[sample]\ncount = 2\nbodies.load = { low = 1.0, high = 2.0 }\n", "given twice"),
+        ("[[together]]\nbodies.load = [1.0]\n[[together]]\nbodies.load = [2.0]\n", "given twice"),
         ('speeds = "many"\n', "'auto'"),
     ],
 )

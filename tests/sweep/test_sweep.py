@@ -29,6 +29,30 @@ def curve():
     return lubfric.stribeck(prepare(SCENE), SPEEDS)
 
 
+def test_lift_off_has_the_direction_of_the_curve(curve):
+    """Forwards and backwards f is the same but for the finite patch; `at` takes what `lift_off` gives."""
+    back = lubfric.stribeck(prepare(SCENE), -SPEEDS)
+    assert back.lift_off == pytest.approx(-curve.lift_off, rel=0.02)
+    assert back.at(back.lift_off) == pytest.approx(curve.at(curve.lift_off), rel=0.02)
+    with pytest.raises(lubfric.InputError, match="runs forwards"):
+        lubfric.stribeck(SCENE.with_(motion={"speeds": (-1.0, -0.01)}), "auto")
+
+
+def test_what_is_out_of_range_is_refused_before_any_work():
+    """A slide-roll ratio beyond its range lost the ratios before it; a speed ended as a failed point."""
+    done = []
+    for call in (
+        lambda told: lubfric.stribeck(SCENE, [0.01, 1e7], on_point=told),
+        lambda told: lubfric.traction(SCENE, [0.5], speed=1e7, on_point=told),
+        lambda told: lubfric.traction(SCENE, [0.5, 1e7], on_point=told),
+        lambda told: lubfric.traction(SCENE.with_(numerics={"closure": "one-way"}), [2.0, 0.5], on_point=told),
+        lambda told: lubfric.study(SCENE, {}, [0.01, 1e7], on_progress=told),
+    ):
+        with pytest.raises(lubfric.InputError, match="1e.07|slide_roll_ratio = 0.5"):
+            call(lambda *point: done.append(point))
+    assert not done
+
+
 def test_the_curve_has_the_shape_of_stribeck(curve):
     f = curve.coefficient
     low = int(np.argmin(f))

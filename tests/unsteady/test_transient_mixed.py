@@ -178,6 +178,12 @@ def test_impossible_runs_are_refused(plan, words):
         run(plan)
 
 
+def test_two_starts_are_one_too_many():
+    """The film won, in silence."""
+    with pytest.raises(lubfric.InputError, match="transient.initial = 'steady' does nothing beside initial_film"):
+        Transient(1e-3, initial="steady", initial_film=1e-6)
+
+
 def test_a_smooth_scene_without_a_film_is_refused():
     with pytest.raises(lubfric.InputError, match="initial_film"):
         lubfric.transient(SCENE.with_(surface={"sq": 0.0}, transient=Transient(1.0, speed=Ramp(end=1.0))))

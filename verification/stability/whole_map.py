@@ -3,7 +3,7 @@
 The contact is a bearing of 10 mm radius with a shear-limited compressible oil. The judge looks at the fields alone.
 Load and elastic gap are summed anew. Pressure and gap keep their signs. The flow is the same through every section
 before the first touching cell, ruptured film and all, by second-order upwind differences and by quadratures of the laws
-and of 1/h³ between cells.
+and of 1/h³ between cells. What those quadratures leave open is estimated, and allowed.
 """
 
 from __future__ import annotations
@@ -92,32 +92,51 @@ def check(problem, found) -> dict[str, float]:
         "load": abs(load / problem.load - 1),
         "gap": float(np.ptp(offset)) / float(h[open_].mean()),
         "signs": signs,
-        "flow": flow_error(found),
     }
-    return {name: error / ALLOWED[name] for name, error in found_errors.items()}
+    return {name: error / ALLOWED[name] for name, error in found_errors.items()} | {"flow": flow_error(found)}
 
 
 def flow_error(found) -> float:
-    """Largest relative difference of the flow through sections before the first touching cell."""
-    p, h, speed, dx = found.pressure, found.gap, found.speed, found.spacing[0]
+    """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
+    allowed there: 3 %, and what the judge's own quadrature leaves open (`_pressure_flow`)."""
+    speed, dx = found.speed, found.spacing[0]
     broken = np.flatnonzero(found.touching.any(axis=1))
-    last = (broken[0] if broken.size else p.shape[0]) - 2
+    last = (broken[0] if broken.size else found.pressure.shape[0]) - 2
     if last < 3:
         return 0.0
-    grid = np.linspace(0.0, 1.0, 33)
-    left, right = p[:last, :, None], p[1 : last + 1, :, None]
-    between = left + (right - left) * grid
-    density = (5.9e8 + 1.34 * between) / (5.9e8 + between)
+    p, h, fill = found.pressure[: last + 1], found.gap[: last + 1], found.fill[: last + 1]
+    flow, open_ = _pressure_flow(p, h, speed, dx)
+    mass = _density(p) * h
+    step = np.clip(mass[1:last] - mass[: last - 1], -mass[1:last], mass[1:last])  # a film that is never negative
+    carried = speed * fill[1:last] * (mass[1:last] + 0.5 * step)  # second-order upwind
+    through = speed * found.flow_film
+    difference = np.abs((carried - flow[1:]).mean(axis=1) / through - 1)
+    allowed = ALLOWED["flow"] + open_[1:].mean(axis=1) / abs(through)
+    return float((difference / allowed).max())
+
+
+def _pressure_flow(p, h, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure flow along x between cells [m²/s], by the mean of the laws between their pressures; and what is left
+    open in it: the difference from the mean by Simpson's rule on three points. Where the pressure leaps within one
+    cell, as on the rim of a spot, the law is not nearly a parabola between two cells: there they do not resolve the
+    film."""
+    film = 0.5 * (h[:-1] + h[1:])
+    along = h[:-1, :, None] + (h[1:] - h[:-1])[:, :, None] * np.linspace(0.0, 1.0, 801)
+    by_step = (p[1:] - p[:-1]) / dx / (12 * np.trapezoid(along**-3, dx=1 / 800, axis=-1))
+    fine, three = (by_step * _mean_fluidity(p, film, speed, points) for points in (129, 3))
+    return fine, np.abs(fine - three)
+
+
+def _mean_fluidity(p, film, speed: float, points: int) -> np.ndarray:
+    """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
+    between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     index = ALPHA * 1.96e8 / (np.log(ETA) + 9.67)
     log_ratio = ALPHA * 1.96e8 / index * ((1 + between / 1.96e8) ** index - 1)
-    film = 0.5 * (h[:last] + h[1 : last + 1])
-    along = h[:last, :, None] + (h[1 : last + 1] - h[:last])[:, :, None] * np.linspace(0.0, 1.0, 801)
-    cubed = 1 / np.trapezoid(along**-3, dx=1 / 800, axis=-1)
     fluidity = np.exp(-log_ratio) / ETA + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
-    mean = np.trapezoid(density * fluidity, grid, axis=-1)
-    pressure_flow = cubed / 12 * mean * (p[1 : last + 1] - p[:last]) / dx
-    mass = (5.9e8 + 1.34 * p) / (5.9e8 + p) * h
-    step = np.clip(mass[1:last] - mass[: last - 1], -mass[1:last], mass[1:last])  # a film that is never negative
-    carried = found.fill[1:last] * (mass[1:last] + 0.5 * step)  # second-order upwind
-    flow = (speed * carried - pressure_flow[1:]).mean(axis=1)
-    return float(np.abs(flow / (speed * found.flow_film) - 1).max())
+    weights = np.ones(points)
+    weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
+    return _density(between) * fluidity @ (weights / weights.sum())
+
+
+def _density(p) -> np.ndarray:
+    return (5.9e8 + 1.34 * p) / (5.9e8 + p)
