@@ -83,7 +83,9 @@ def shear_force(
     quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
-    couette += lubricant.viscosity * sliding * inlet
+    heated = warm is not None and warm.stress is not None
+    # its own heat thins a film by the same factor at any h: upstream by as much as at the first node
+    couette += (tau[0] * h[0] if heated else lubricant.viscosity * sliding) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
     resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":

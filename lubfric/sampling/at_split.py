@@ -1,14 +1,16 @@
-"""Film and friction of a balance at another division of the load, with the contact as it is."""
+"""Film and friction of a balance at another division of the load, without solving its contact again."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from ..point.balance import Lubricated
 from ..point.forces import forces
 from ..point.operating_point import OperatingPoint, Settings, Start, Trial
 from ..prepared import Prepared
-from ..rough.contract import RoughContact
+from ..rough.contract import ContactState, RoughContact
 from ..rough.strip import weighted_mean
 
 ANY = 0.1  # tolerance of a film whose grid is given
@@ -28,6 +30,15 @@ def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -
     found = Trial(film=film, contact=balance.contact, film_load=film_load, contact_load=contact_load)
     friction = forces(point.scene, balance.level, found, balance.slope)
     return replace(balance, contact_load=contact_load, film_load=film_load, film=film, forces=friction)
+
+
+def grown(state: ContactState, factor: float) -> ContactState:
+    """``state`` with ``factor`` times its contact area, at every x up to the whole width."""
+    return replace(
+        state,
+        contact_fraction=np.minimum(state.contact_fraction * factor, 1.0),
+        real_contact_area_fraction=min(state.real_contact_area_fraction * factor, 1.0),
+    )
 
 
 def quantities(point: OperatingPoint, balance: Lubricated) -> dict[str, float]:

@@ -25,8 +25,10 @@ BY_LOAD = 2.0  # what the change of the gap itself changes by with ln of the con
 class GridStep:
     """The change when the cells of a line become finer, at the line's film and ``contact_load`` [N].
 
-    - ``gap`` [m]: change of the mean gap; ``error``: its standard error; ``rest`` [m]: estimated change still to come
-      on the scene's own cells (0: they were reached).
+    - ``gap`` [m]: change of the mean gap beyond that of the mean film, whose columns change with the cells;
+      ``error``: its standard error; ``rest`` [m]: estimated change still to come on the scene's own cells (0: they were
+      reached).
+    - ``film`` [m]: change of the mean film.
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
     - ``plastic``: to be added to the plastic area fraction.
     - ``moved``: |ln| of the load at which the change is used, over ``contact_load``.
@@ -43,6 +45,7 @@ class GridStep:
     plastic: float
     contact_load: float
     moved: float = 0.0
+    film: float = 0.0
 
     @property
     def area_left(self) -> float:
@@ -57,8 +60,8 @@ class GridStep:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Values at every place along y, on the coarsest cells: influence on the mean gap [m], share of A in contact, and
-    plastic share of A."""
+    """Values at every place along y, on the coarsest cells: influence on the mean gap beyond the mean film [m], share
+    of A in contact, and plastic share of A."""
 
     gap: np.ndarray
     touching: np.ndarray
@@ -90,7 +93,7 @@ def grid_step(
     each with its influence on the mean gap (`influence`).
     """
     scene, surface, steps = lines.scene, lines.pair(index, length), _ladder(lines.cells.factors)
-    rows, changes, rest, state = [], [], math.inf, None
+    rows, changes, films, rest, state = [], [], [], math.inf, None
     for factors in steps:
         if rest <= enough and surface.heights.size / math.prod(factors) > MOST_CELLS:
             break
@@ -98,6 +101,7 @@ def grid_step(
         thickness, under = point.film_on(contact, film)
         state = contact.close(thickness, contact_load, state, under)
         rows.append(_by_row(contact, state, gap_slope, lines.cells.factors[1] // factors[1]))
+        films.append(state.mean_film)
         if len(rows) > 1:
             changes.append(float(np.mean(rows[-1].gap) - np.mean(rows[-2].gap)))
             rest = remaining(changes)
@@ -116,6 +120,7 @@ def grid_step(
         else math.hypot(area_error, _ratio(rows[-1].touching, rows[-2].touching, step, correlation)[0] - 1),
         plastic=rows[-1].plastic - rows[0].plastic,
         contact_load=contact_load,
+        film=films[-1] - films[0],
     )
 
 
@@ -194,7 +199,7 @@ def _by_row(contact, state: ContactState, gap_slope: float, rows: int) -> _Rows:
     pressure = np.zeros(contact.heights.shape) if state.pressure is None else state.pressure
     touching = contact.weight @ (pressure > 0) / contact.weight.sum()
     return _Rows(
-        gap_influence(gap, load, gap_slope).reshape(-1, rows).mean(axis=1),
+        gap_influence(gap, load, gap_slope).reshape(-1, rows).mean(axis=1) - state.mean_film,
         touching.reshape(-1, rows).mean(axis=1),
         state.plastic_area_fraction,
     )

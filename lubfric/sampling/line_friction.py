@@ -14,7 +14,7 @@ from ..point.split import divided
 from ..prepared import Prepared, on_halved_cells
 from ..rough.contract import ContactState
 from ..rough.half_space import HalfSpaceContact
-from .at_split import at, quantities, redivided
+from .at_split import at, grown, quantities, redivided
 from .grid_pair import GridStep, mean_of
 from .influence import BlockError
 from .line_record import Pooled
@@ -215,14 +215,17 @@ def _divided(sample: Sample, together: Pooled) -> Solved:
     whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
     point = at(sample.prepared, sample.speed, anchor.contact, balance)
-    area = mean_of(anchor.grid, "area", 1.0)
+    load = divided(scene.bodies.load, split)[1]
+    more, slopes = load - together.contact_load, anchor.response.slopes
     state = replace(
         balance.contact,
-        contact_fraction=together.columns * area,
-        real_contact_area_fraction=together.area_fraction * area,
+        contact_fraction=together.columns,
+        real_contact_area_fraction=together.area_fraction,
         plastic_area_fraction=max(together.plastic_fraction + mean_of(anchor.grid, "plastic", 0.0), 0.0),
     )
-    final = redivided(point, replace(balance, contact=state), divided(scene.bodies.load, split)[1])
-    film = quantities(point, final)["mean_gap"]
+    by_load = slopes.area_factor(more, scene.bodies.width, together.area_fraction)
+    state = grown(state, mean_of(anchor.grid, "area", 1.0) * by_load)
+    final = redivided(point, replace(balance, contact=state), load)
+    film = quantities(point, final)["mean_gap"] + mean_of(anchor.grid, "film", 0.0)
     state = replace(state, mean_gap=film, mean_film=film)
     return Solved(replace(final, contact=state), anchor.point.decision, anchor.contact)

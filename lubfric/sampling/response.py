@@ -25,6 +25,10 @@ class Slopes:
     area: float
     touched: float
 
+    def area_factor(self, more: float, width: float, area: float) -> float:
+        """By which factor a contact area fraction grows under ``more`` load [N] on the ``width`` [m]."""
+        return max(1 + self.area * more / (width * area), 0.0) if area else 1.0
+
 
 @dataclass(frozen=True)
 class Response:

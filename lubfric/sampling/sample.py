@@ -15,7 +15,7 @@ from ..point.balance import Balance
 from ..point.split import divided
 from ..prepared import Prepared
 from ..rough.half_space import HalfSpaceContact
-from .at_split import at, quantities, redivided
+from .at_split import at, grown, quantities, redivided
 from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of, second_order
 from .influence import BlockError, add_errors
 from .line_record import LineRecord, Pooled, length_of, pooled, record
@@ -199,7 +199,9 @@ def response_of(prepared, speed: float, contact, balance: Balance) -> Response:
         return Response(slopes)
 
     def at_split(split):
-        return quantities(point, redivided(point, wet, divided(scene.bodies.load, split)[1]))
+        load = divided(scene.bodies.load, split)[1]
+        area = slopes.area_factor(load - wet.contact_load, scene.bodies.width, wet.contact.real_contact_area_fraction)
+        return quantities(point, redivided(point, replace(wet, contact=grown(wet.contact, area)), load))
 
     return respond(scene.bodies.width, balance, slopes, at_split)
 

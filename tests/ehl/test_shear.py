@@ -110,3 +110,30 @@ def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
     assert share @ np.diff(nodes) == pytest.approx(closure.contact_fraction.sum())
     assert share[2] == pytest.approx(0.9)
     np.testing.assert_allclose(closure.touching(nodes[::-1]), share[::-1])
+
+
+def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
+    """A parabolic gap without pressure, whose own heat takes a fifth of its viscosity: the part upstream of the first
+    node is as thin as that between the nodes."""
+    from types import SimpleNamespace
+
+    radius, sliding, found = 0.03, 2.0, []
+    oil = Lubricant(0.1, 1e-8)
+    warm = SimpleNamespace(stress=lambda x, p, h: 0.8 * 0.1 * sliding / h, inlet_viscosity=0.1)
+    for first in (-4e-3, -1e-3):
+        x = np.linspace(first, 0.0, 4001)
+        film = SimpleNamespace(
+            x=x,
+            pressure=np.zeros(x.size),
+            film_thickness=2e-6 + x**2 / (2 * radius),
+            entrainment_speed=4.0,
+            radius=radius,
+            rupture=0.0,
+            flow_film=2e-6,
+        )
+        sheared = shear_force(
+            film, oil, slide_roll_ratio=0.5, width=0.01, contact_fraction=lambda at: np.zeros(at.size - 1), warm=warm
+        )
+        found.append(sheared.couette)
+    exact = 0.01 * 0.8 * 0.1 * sliding * np.sqrt(2 * radius / 2e-6) * np.pi / 2  # B eta U ∫ dx/h from -∞ to 0
+    np.testing.assert_allclose(found, exact, rtol=1e-4)

@@ -21,22 +21,19 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[flo
     size [N] of the parts of the film's share (of which f may be a small difference), and how much less [N] its stress
     sums to on half of the nodes, which tells a pressure spike that they do not hold.
     """
-    bodies, oil, ratio, film = scene.bodies, scene.lubricant, scene.motion.slide_roll_ratio, sides.film
+    bodies, ratio, film = scene.bodies, scene.motion.slide_roll_ratio, sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
     x, p, h = film.x[order] * sign, film.pressure[order], film.film_thickness[order]
     wet = x <= sign * film.rupture + 1e-12 * film.half_width
     x, p, h = x[wet], p[wet], h[wet]
-    slide = abs(ratio * speed)
     cells = 1 - _touched(sign * x, sides)
     if scene.contact.geometry == "flat":
         cells = 1 - sides.touching[0] * _inside(x, bodies.half_width)
     free = np.concatenate([cells[:1], 0.5 * (cells[1:] + cells[:-1]), cells[-1:]])
     couette = 0.0
     if ratio:
-        couette = _couette(scene, x, p, h, free, contact_load, speed) + oil.viscosity * slide * 2 * bodies.radius / abs(
-            x[0]
-        )
+        couette = _couette(scene, x, p, h, free, contact_load, speed)
     rolling = np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.diff(p)) / 2
     rolling += _rolling_upstream(film, x[0], h[0], bodies.radius, inlet_viscosity(scene, speed) * abs(speed))
     parts = couette + np.sum(0.5 * cells * (h[1:] + h[:-1]) * np.abs(np.diff(p))) / 2
@@ -46,6 +43,12 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[flo
     spike = abs(_couette(scene, x, p, h, free, contact_load, speed, hot=False) - coarse)
     force, parts, spike = (bodies.width * v for v in (couette + sense * rolling, parts, spike))
     return float(boundary + force), float(parts), float(spike)
+
+
+def _upstream(x0, h0, radius) -> float:
+    """∫dx/h before the first node [-], where h is a parabola."""
+    share = np.linspace(0, 1, 4001)[1:]  # x0/x
+    return float(np.trapezoid(abs(x0) / share**2 / (h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)), share))
 
 
 def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
@@ -72,8 +75,10 @@ def _inside(x, half) -> np.ndarray:
 
 
 def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
-    """Couette force over the film per width [N/m]. That of a film that heats itself is taken from fewer nodes."""
+    """Couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
+    as at its first node. That of a film that heats itself is taken from fewer nodes."""
     oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
+    upstream = oil.viscosity * slide * _upstream(x[0], h[0], scene.bodies.radius) if slide else 0.0
     log_ratio = viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
     eta = oil.viscosity * np.exp(log_ratio)
     tau = eta * slide / h
@@ -90,8 +95,9 @@ def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
         x, p, h, log_ratio, free, tau = (a[some] for a in (x, p, h, log_ratio, free, tau))
         heated = free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed)
         hot, cold = np.trapezoid(heated, x), np.trapezoid(free * tau, x)
-        return float(hot if hot < MOSTLY * cold else force + hot - cold)
-    return force
+        upstream *= heated[0] / (free[0] * tau[0])
+        return float(hot if hot < MOSTLY * cold else force + hot - cold) + upstream
+    return force + upstream
 
 
 def _where_it_varies(tau) -> np.ndarray:
