@@ -156,6 +156,7 @@ def _run(arguments) -> int:
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
     if arguments.sampling_tolerance is not None:
+        _check_line(scene)
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
     if arguments.accept:
         scene = scene.with_(numerics={"accept": True})
@@ -172,6 +173,18 @@ def _run(arguments) -> int:
 
     more = Extras(arguments.report, arguments.vtk, arguments.workers)
     return run_sweep(scene, arguments.out, arguments.speeds, arguments.fields, more)
+
+
+def _check_line(scene) -> None:
+    """Raise `InputError` for ``--sampling-tolerance`` on a scene that is not solved on a line."""
+    from .errors import InputError
+    from .lines.make import takes_line
+
+    if not takes_line(scene):
+        raise InputError(
+            "--sampling-tolerance is for a rough cylinder on a line of its roughness (numerics.sampling = 'line'), and "
+            f"{scene.name} is solved on one patch, as it is; leave it out"
+        )
 
 
 def _check_options(arguments, in_time: bool) -> None:

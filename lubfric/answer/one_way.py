@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from ..deterministic.refine import estimate
 from ..film.shear import ShearForce
+from ..lubricant import density_ratio
 from ..one_way.point import OneWay
 from ..one_way.refine import one_way_point
 from ..point.decision import Decision
 from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
+from ..scene import Scene
+from ..validity.entry import Validity
 from ..validity.model_form import one_way_error
 from ..validity.solution import of_motion, of_shear
 from .resolved import resolved_result
@@ -38,6 +42,7 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
     per_width, numbers = _per_width(one), _numbers(prepared, one)
     entries = (
         *prepared.known,
+        *_density_left_out(scene, one),
         *of_motion(scene, speed, numbers["central_film"]),
         *of_shear(
             scene,
@@ -48,6 +53,20 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
     )
     result = resolved_result(prepared, speed, begun, decision, one.report, entries, per_width, numbers)
     return replace(result, one_way=found, uncertainty=uncertainty, errors=field_errors_of({}, NOT_KNOWN))
+
+
+def _density_left_out(scene: Scene, one: OneWay) -> Iterator[Validity]:
+    """A caution if the film, whose density counts as constant, would be compressed by more than the tolerance."""
+    change = float(density_ratio(scene.lubricant, one.film_pressure.max())[0]) - 1
+    if change > scene.numerics.tolerance:
+        yield Validity(
+            "compression of the film where its pressure is largest",
+            change,
+            scene.numerics.tolerance,
+            "",
+            f"lubricant.density_law = {scene.lubricant.density_law!r} is left out: in truth the film there is thinner",
+            "numerics.model = 'deterministic', or closure = 'load', has the density",
+        )
 
 
 def _words(one: OneWay, error: float | None) -> str:

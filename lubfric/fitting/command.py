@@ -73,6 +73,7 @@ def _write(found: FitResult, folder: Path) -> list[str]:
         "covariance": found.covariance,
         "undetermined": found.undetermined,
         "at_bounds": found.at_bounds,
+        "validity": found.validity,
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,

@@ -76,7 +76,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
         gtol=1e-12,
         max_nfev=MOST,
     )
-    result = _result(predict, scale, search)
+    result = _result(predict, scale, search, walk.at(search.x))
     result.report.raise_if_failed(result)
     return result
 
@@ -133,8 +133,9 @@ class Walk:
         return self._slopes
 
 
-def _result(predict: Predictor, scale, search) -> FitResult:
-    """The result of a ``search`` whose derivatives were computed where it ended, or near by."""
+def _result(predict: Predictor, scale, search, curve: Curve) -> FitResult:
+    """The result of a ``search`` whose derivatives were computed where it ended, or near by. ``curve``: where it
+    ended."""
     residuals, slopes = search.fun, search.jac * scale[:, None]
     f, unit = residuals * scale + predict.measured.coefficient, np.clip(search.x, 0.0, 1.0)
     n, p = slopes.shape
@@ -148,4 +149,5 @@ def _result(predict: Predictor, scale, search) -> FitResult:
     advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
     squared = {"sum of squares": squares}
     report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, squared, advice=advice)
-    return FitResult(predict.scene, predict.measured, predict.parameters, unit, covariance, f, slopes, scale, report)
+    known, entries = predict.parameters, tuple(point.validity for point in curve.points)
+    return FitResult(predict.scene, predict.measured, known, unit, covariance, f, slopes, scale, report, entries)

@@ -41,7 +41,7 @@ class Measured:
         for name, value in values.items():
             if value.size != x.size:
                 raise InputError(f"{name} has {value.size} values for {x.size} of x; give as many")
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, value.copy())
         if self.deviation is not None and np.any(self.deviation <= 0):
             raise InputError("deviation holds values that are not positive; give positive ones, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):

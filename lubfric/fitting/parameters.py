@@ -9,6 +9,7 @@ import numpy as np
 from .. import validate
 from ..errors import InputError
 from ..scene import Scene
+from ..studies.vary import check_temperature
 
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
 
@@ -56,6 +57,7 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
     """The `Parameters` of {"section.key": (low, high)}, the scene checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
+    check_temperature("parameters", scene, set(bounds))
     low, high = [], []
     for key, pair in bounds.items():
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..plot import BLUE, GREY, RED, plain_ticks
+from ..plot import BLUE, GREY, RED, plain_ticks, speed_label
 from ..show.axes import axes_or_new
 from .measured import SPEED, Measured
 
@@ -38,7 +38,7 @@ def plot_residuals(result, ax=None):
 
 def x_label(measured: Measured) -> str:
     """The label of the x axis of a measured curve."""
-    return "entrainment speed U (m/s)" if measured.over == SPEED else "slide-roll ratio (-)"
+    return speed_label(measured.x) if measured.over == SPEED else "slide-roll ratio (-)"
 
 
 def _finish(axes, result, label: str) -> None:

@@ -10,7 +10,8 @@ import numpy as np
 from ..report import Report
 from ..scene import Scene
 from ..show.shown import table
-from .measured import Measured
+from ..validity.entry import Validity, gathered
+from .measured import SPEED, Measured
 from .parameters import Parameters
 
 LEVEL = 0.95
@@ -33,6 +34,8 @@ class FitResult:
     unit : the parameters as positions between their bounds, 0 to 1, (p,)
     unit_covariance : covariance of ``unit``, (p, p)
     slopes : df/d(unit) at the measured points, (n, p)
+    entries : the assumptions that do not hold at each of the points (`lubfric.Validity`). A severe one is there only
+        where it was accepted; ``validity`` gathers them
     """
 
     base: Scene
@@ -44,6 +47,7 @@ class FitResult:
     slopes: np.ndarray
     scale: np.ndarray
     report: Report
+    entries: tuple[tuple[Validity, ...], ...] = ()
 
     @property
     def values(self) -> dict[str, float]:
@@ -82,6 +86,12 @@ class FitResult:
         return tuple(key for key, r in zip(self.parameters.keys, reach) if not 2 * r < 1.0)
 
     @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold at some of the points."""
+        unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("(slide-roll ratio)", "ratios")
+        return gathered(list(zip(self.measured.x.tolist(), self.entries)), unit, name)
+
+    @property
     def at_bounds(self) -> tuple[str, ...]:
         """Parameters that ended on a bound: a value beyond it would fit the data better."""
         edge = np.minimum(self.unit, 1.0 - self.unit) < AT_BOUND
@@ -108,7 +118,8 @@ class FitResult:
         return bool(distance <= f.ppf(LEVEL, p, n - p))
 
     def explain(self) -> str:
-        """Values, intervals, correlations, and the parameters that the data cannot determine."""
+        """Values, intervals, correlations, the parameters that the data cannot determine, and the assumptions that do
+        not hold."""
         lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
         for key, (low, high) in self.intervals.items():
             told = " - the data cannot tell it" if key in self.undetermined else ""
@@ -120,7 +131,8 @@ class FitResult:
                 if abs(correlation[i, j]) > 0.9:
                     lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
         scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f"])
+        cautions = [f"  {text}" for text in self.validity]
+        return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
 
     def __repr__(self) -> str:
         found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())

@@ -28,7 +28,8 @@ class ContactCurve(FieldsOnly):
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
     touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
-    1,): estimated error of the gap interpolated between two nodes; empty if there is no interpolation error.
+    1,) and area_error [-] (n - 1,): estimated errors of the gap and of the contact area interpolated between two nodes;
+    empty if there is no interpolation error.
     """
 
     mean_pressure: np.ndarray
@@ -38,15 +39,25 @@ class ContactCurve(FieldsOnly):
     touching_gap: float
     evaluations: int
     gap_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    area_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     def error_at(self, mean_pressure: float) -> float:
         """Estimated error [m] of the gap read at a mean pressure [Pa]."""
-        if not self.gap_error.size:
+        return self._between(self.gap_error, self.touching_gap - float(self.mean_gap[-1]), mean_pressure)
+
+    def area_error_at(self, mean_pressure: float) -> float:
+        """Estimated error [-] of the contact area fraction read at a mean pressure [Pa]."""
+        return self._between(self.area_error, float(self.contact_area_fraction[-1]), mean_pressure)
+
+    def _between(self, errors, below: float, mean_pressure: float) -> float:
+        """The one of ``errors`` between two nodes. Below the lightest node what is read and what is right lie between
+        its value and that of first touch, which are ``below`` apart."""
+        if not errors.size:
             return 0.0
-        if mean_pressure < self.mean_pressure[-1]:  # what is read is between these two, and so is what is right
-            return self.touching_gap - float(self.mean_gap[-1])
+        if mean_pressure < self.mean_pressure[-1]:
+            return below
         lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
-        return float(self.gap_error[lighter - 1]) if lighter > 0 else 0.0
+        return float(errors[lighter - 1]) if lighter > 0 else 0.0
 
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
@@ -98,12 +109,12 @@ def contact_curve(
 ) -> ContactCurve:
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
-    Each node starts from its heavier neighbour. Nodes are added between the first ones until two errors are within
-    about ``accuracy``: the relative error of the interpolated mean gap, and that of the load at a given gap, by its
-    effect on the friction of a film that carries the rest of ``heaviest``. They are estimated from the errors at nodes
-    that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are needed near full contact, where
-    the gap falls by orders of magnitude, and on small maps, whose summits touch one by one. Raises what
-    `lubfric.solve_contact` raises.
+    Each node starts from its heavier neighbour. Nodes are added between the first ones until three errors are within
+    about ``accuracy``: the relative error of the interpolated mean gap; that of the load at a given gap, by its effect
+    on the friction of a film that carries the rest of ``heaviest``; and that of the area that this film has. They are
+    estimated from the errors at nodes that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are
+    needed near full contact, where the gap falls by orders of magnitude, and on small maps, whose summits touch one by
+    one. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
@@ -132,8 +143,8 @@ def contact_curve(
         pressure /= math.sqrt(SPACING) if one_by_one else SPACING
     for _ in range(ROUNDS):
         pressures = sorted(solved, reverse=True)
-        gap = np.array([solved[p].mean_gap for p in pressures])
-        wide = _inaccurate(np.array(pressures), gap, accuracy)
+        gap, area = np.array([(solved[p].mean_gap, solved[p].contact_area_fraction) for p in pressures]).T
+        wide = _inaccurate(np.array(pressures), gap, area, accuracy)
         for heavier, lighter in zip(np.array(pressures)[:-1][wide], np.array(pressures)[1:][wide]):
             add(float(np.sqrt(heavier * lighter)), solved[heavier])
         if not wide.any():
@@ -141,29 +152,31 @@ def contact_curve(
     return _curve(solved, touching_gap)
 
 
-def _inaccurate(pressure, gap, accuracy) -> np.ndarray:
-    """Intervals in which the interpolated gap, or the load at that gap, may be off by more than ``accuracy``."""
-    log_pressure, missed = np.log(pressure), _missed(pressure, gap)
-    error, middle = np.maximum(missed[1:], missed[:-1]) / 4, np.sqrt(gap[1:] * gap[:-1])
-    rate = -np.diff(gap) / np.diff(log_pressure)
+def _inaccurate(pressure, gap, area, accuracy) -> np.ndarray:
+    """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
+    more than ``accuracy``."""
+    log_pressure = np.log(pressure)
+    error, of_area = (np.maximum(missed[1:], missed[:-1]) / 4 for missed in (_missed(pressure, v) for v in (gap, area)))
+    middle, rate = np.sqrt(gap[1:] * gap[:-1]), -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
     allowed = np.minimum(middle, rate / np.maximum(felt, NOTHING))
     deep = middle <= NOTHING * gap[-1]
-    return (error > accuracy * allowed) & ~deep & (-np.diff(log_pressure) > FINEST)
+    off = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
+    return off & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
-def _missed(pressure, gap) -> np.ndarray:
-    """Error [m] of the interpolated gap at each node when that node is left out."""
+def _missed(pressure, values) -> np.ndarray:
+    """Error of the interpolated ``values`` at each node when that node is left out."""
     missed = np.zeros(pressure.size)
-    missed[1:-1] = left_out(np.log(pressure[::-1]), gap[::-1])[::-1]
+    missed[1:-1] = left_out(np.log(pressure[::-1]), values[::-1])[::-1]
     return missed
 
 
-def _gap_error(pressure, gap) -> np.ndarray:
-    """Estimated error of the gap between neighbouring nodes: the largest error at the four nodes around when each is
+def _error(pressure, values) -> np.ndarray:
+    """Estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around when each is
     left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
-    missed = _missed(pressure, gap)
+    missed = _missed(pressure, values)
     near = np.maximum(missed[1:], missed[:-1])
     return np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
 
@@ -175,4 +188,6 @@ def _curve(solved: dict, touching_gap: float) -> ContactCurve:
         [(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations) for r in results]
     ).T
     nodes = np.array(pressures)
-    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), _gap_error(nodes, gap))
+    return ContactCurve(
+        nodes, gap, area, plastic, touching_gap, int(work.sum()), _error(nodes, gap), _error(nodes, area)
+    )

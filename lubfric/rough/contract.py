@@ -27,6 +27,8 @@ class ContactState:
     - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
       (ny,): of their cells.
     - ``pressure`` [Pa] (nx, ny): from which a neighbour may start.
+    - ``gap_error`` [m], ``area_error`` [-]: estimated errors of ``mean_gap`` and ``real_contact_area_fraction`` where
+      they are interpolated.
     """
 
     mean_gap: float
@@ -39,6 +41,7 @@ class ContactState:
     pressure: np.ndarray | None = field(default=None, repr=False)
     y: np.ndarray | None = field(default=None, repr=False)
     gap_error: float = 0.0
+    area_error: float = 0.0
 
     @property
     def volume_residual(self) -> float:

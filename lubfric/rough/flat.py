@@ -49,6 +49,7 @@ class FlatContact(RoughContact):
             real_contact_area_fraction=touching,
             plastic_area_fraction=plastic,
             gap_error=self.curve.error_at(pressure),
+            area_error=self.curve.area_error_at(pressure),
         )
 
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:

@@ -24,6 +24,7 @@ from .sample import Anchor, Sample, lines_of_model
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
 LINE_BALANCE = 1.0  # of the sampling tolerance: what correcting a further line to first order may move f by
 MOST_CORRECTED = 0.05  # of f, by such a correction: what it leaves is of second order
+FARTHEST = 0.1  # of ln(F_H/F_C), by such a correction: a light contact follows it exponentially
 LOOSEST_LINE = 0.03  # volume residual of a further line
 LIGHT = 0.1  # of the load on the contact: it touches for sure
 
@@ -173,11 +174,12 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
 
 def _looseness(sample: Sample) -> float:
     """Volume residual (G - h)/(G + h) of a further line whose correction changes f by `LINE_BALANCE` of the sampling
-    tolerance, and by `MOST_CORRECTED` at most."""
-    anchor = sample.known
-    moved = anchor.response.per_gap("coefficient") * 2 * anchor.point.balance.contact.mean_film  # f, per residual
+    tolerance, and by `MOST_CORRECTED` at most, and ln(F_H/F_C) by `FARTHEST`."""
+    response, film = sample.known.response, sample.known.point.balance.contact.mean_film
+    moved = response.per_gap("coefficient") * 2 * film  # f, per residual
     allowed = min(LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance, MOST_CORRECTED)
-    return min(allowed / moved, LOOSEST_LINE) if moved else LOOSEST_LINE
+    nearer = min(FARTHEST / abs(response.split * 2 * film), LOOSEST_LINE)
+    return min(allowed / moved, nearer) if moved else nearer
 
 
 def _found(sample: Sample) -> LineFound:

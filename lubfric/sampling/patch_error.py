@@ -10,6 +10,7 @@ import numpy as np
 from ..lines.generated import lengths_of
 from ..lines.windows import length_or_half
 from ..point.adapt import Solved
+from ..point.balance import Balance
 from ..rough.height_map import measured, rough_bodies
 from .estimate import (
     AREAS,
@@ -104,7 +105,8 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
 
 
 def _numerical(point: Solved, response: Response | None) -> Numerical:
-    """Errors of f by the grid, turned into errors of the gap. The same response turns them back."""
+    """Errors of f by the grid, turned into errors of the gap. The same response turns them back. An interpolated area
+    counts by the film's shear stress on what it leaves open."""
     balance, decision = point.balance, point.decision
     if response is None:
         return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
@@ -112,9 +114,18 @@ def _numerical(point: Solved, response: Response | None) -> Numerical:
     per_gap = response.per_gap("coefficient")
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
     area = 0.0 if decision.grid_error is None else math.nan
-    return Numerical(
-        film_error(point), volume + grid + balance.contact.gap_error, point.balance.forces.quadrature, area
-    )
+    gap, shear = volume + grid + balance.contact.gap_error, balance.forces.quadrature + _by_area(balance)
+    return Numerical(film_error(point), gap, shear, area)
+
+
+def _by_area(balance: Balance) -> float:
+    """Relative error of f by the error of an interpolated contact area, beside which the film is sheared."""
+    error, found = balance.contact.area_error, balance.forces
+    total = abs(found.boundary + found.shear.total)
+    if not error or not total:
+        return 0.0
+    open_ = max(1 - balance.contact.real_contact_area_fraction, error)
+    return error / open_ * (abs(found.shear.couette) + max(abs(found.shear.rolling), found.shear.rolling_parts)) / total
 
 
 def _from_slope(point: Solved) -> Response:

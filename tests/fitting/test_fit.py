@@ -271,6 +271,7 @@ def test_bad_files(tmp_path, text, names, words):
         ({"numerics.tolerance": (0.1, 0.2)}, "a number of"),
         ({"motion.entrainment_speed": (0.1, 0.2)}, "measured, not fitted"),
         ({"bodies.load": (-1.0, 2.0)}, "bodies.load"),
+        ({"lubricant.temperature": (300.0, 350.0)}, "moves no viscosity"),
     ],
 )
 def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
@@ -286,6 +287,28 @@ def test_a_start_beyond_the_bounds_is_refused():
     for value in (0.01, 2.0, "0.1", np.nan):
         with pytest.raises(lubfric.InputError, match="start.*lubricant.viscosity"):
             lubfric.fit(SCENE, measured, BOUNDS, start={"lubricant.viscosity": value})
+
+
+def test_cautions_of_the_fitted_curve_are_told():
+    """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
+    scene = SCENE.with_(
+        bodies={"load": 60.0},
+        lubricant={"eyring_stress": None},
+        contact={"shape": (72, 48)},
+        numerics={"accept": True},
+    )
+    speeds = np.array([0.01, 0.03, 0.1])
+    curve = lubfric.stribeck(scene, speeds)
+    found = lubfric.fit(scene, lubfric.Measured(speeds, curve.coefficient), {"lubricant.viscosity": (0.3, 0.4)})
+    assert [bool(told) for told in found.entries] == [bool(curve.entries(i)) for i in range(3)]
+    assert any(entry.severe for entry in found.entries[2]) and "not valid" in found.explain()
+
+
+def test_a_measured_curve_keeps_no_hold_of_the_arrays_of_its_caller():
+    x, f = np.array([0.1, 0.2]), np.array([0.1, 0.1])
+    measured = lubfric.Measured(x, f, f)
+    x[0] = f[0] = 9.0
+    assert measured.x[0] == measured.coefficient[0] == measured.deviation[0] == 0.1
 
 
 def test_a_parameter_given_twice_is_refused(capsys):

@@ -96,3 +96,17 @@ def test_a_start_shifted_to_less_load_saves_work(monkeypatch):
     share = np.array([0.5, 0.1, 1e-3])
     gaps = np.array([[curve.at(HEAVIEST * p)[0] for p in share] for curve in curves])
     assert gaps[0] == pytest.approx(gaps[1], rel=1e-3)
+
+
+def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels():
+    """A small map, whose summits touch a few at a time: the area read against that of the contact solved there."""
+    surface = lubfric.generate_surface((28, 28), 7.14e-6, sq=23e-9, correlation_length=16e-6, acf="gaussian", seed=1)
+    curve = contact_curve(surface.heights, 7.14e-6, 231e9, heaviest=2e8, hardness=8e9)
+    told, found = [], []
+    for pressure in np.geomspace(2e6, 1.2e8, 24):
+        solved = lubfric.solve_contact(-surface.heights, 7.14e-6, 231e9, mean_pressure=pressure, hardness=8e9)
+        found.append(abs(curve.at(pressure)[1] - solved.contact_area_fraction) / (1 - solved.contact_area_fraction))
+        told.append(curve.area_error_at(pressure) / (1 - solved.contact_area_fraction))
+    assert np.all(np.array(found) <= 1.3 * np.array(told))
+    assert max(found) < 3 * 3e-3
+    assert curve.area_error_at(curve.mean_pressure[-1] / 2) == curve.contact_area_fraction[-1]

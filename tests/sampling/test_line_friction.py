@@ -235,6 +235,30 @@ def test_a_correction_for_cells_is_exact_to_first_order_only(tolerance):
     assert found.uncertainty.numerical < 0.01 or off > 0.01 < tolerance
 
 
+def test_a_heavier_line_beside_one_that_hardly_touches():
+    """The first line carries 0.0002 of the load. The next one, much shorter, carries a hundred times as much, which the
+    response of the first cannot foretell. Many long lines are the judge."""
+    scene = lubfric.load_scene(
+        {
+            "bodies": {"radius": 3.846963518245387e-3, "width": 0.01, "load": 10.099738211958645, "e_prime": 231e9}
+            | {"boundary_friction_coefficient": 0.1158, "hardness": 7.66e9},
+            "lubricant": {"viscosity": 0.18791353974723812, "pressure_viscosity_coefficient": 9.648931557368267e-9}
+            | {"density_law": "dowson-higginson", "limiting_stress_coefficient": 0.06}
+            | {"limiting_stress_offset": 2e6},
+            "motion": {"entrainment_speed": -0.007651616926494489, "slide_roll_ratio": 1.264692380833466},
+            "surface": {"sq": 1.229592676736491e-8, "correlation_length": 3.153854461261238e-6, "seed": 178932683},
+            "contact": {"shape": [28, 28], "spacing": 1.40239830633039e-6},
+            "numerics": {"tolerance": 0.01, "sampling_tolerance": 0.2},
+        }
+    )
+    found = lubfric.friction(scene)
+    first = found.line.first
+    assert 0 < first.contact_load < 5e-4 * scene.bodies.load and len(found.line.used) > 0
+    judge = lubfric.friction(scene.with_(numerics={"sampling_tolerance": 0.03}))
+    low, high = found.uncertainty.interval
+    assert low < judge.coefficient < high
+
+
 @pytest.mark.parametrize("odds", [0.3, 1.0, 30.0])
 def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(odds):
     """F_C = F/(1 + e^s) in closed form, s moved by the error of the gap; to first order where little changes."""

@@ -146,6 +146,7 @@ def test_a_map_where_a_gap_is_expected_is_told_apart():
         (["info", "nothing.toml"], "nothing.toml"),
         (["run", "paper", "--speeds", "a,b"], "speeds"),
         (["plot", "nowhere"], "stribeck.csv"),
+        (["run", "flat", "--sampling-tolerance", "0.01"], "flat is solved on one patch"),
         (["plot", "nowhere", "--speed", "U [m/s]"], "give --measured as well"),
     ],
 )
