@@ -55,8 +55,7 @@ def friction(
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)
-    if speed is None:
-        speed = prepared.scene.motion.entrainment_speed
+    speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
         validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
