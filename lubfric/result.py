@@ -117,13 +117,16 @@ class FrictionResult(Shown):
     @property
     def shows_contact(self) -> bool:
         """Whether `pressure` and `gap` are available."""
-        return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
+        whole = self.deterministic is not None or bool(self.one_way)
+        return whole or (self.balance is not None and self.balance.contact.fields is not None)
 
     @property
     def x(self) -> np.ndarray:
         """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
         if self.deterministic is not None:
             return self.deterministic.result.x
+        if self.one_way:
+            return self.one_way[-1].x
         return self._kept("x", None if self.balance is None else self.balance.contact.x)
 
     @property
@@ -132,6 +135,9 @@ class FrictionResult(Shown):
         if self.deterministic is not None:
             whole = self.deterministic.result
             return np.arange(whole.pressure.shape[1]) * whole.spacing[1]
+        if self.one_way:
+            count = self.one_way[-1].gap.shape[1]
+            return np.arange(count) * self.uncertainty.length / count
         return self._kept("y", None if self.balance is None else self.balance.contact.y)
 
     @property
@@ -139,6 +145,8 @@ class FrictionResult(Shown):
         """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
         if self.deterministic is not None:
             return self.deterministic.result.pressure
+        if self.one_way:
+            return self.one_way[-1].contact_pressure
         return self._fields("pressure").pressure
 
     @property
@@ -146,6 +154,8 @@ class FrictionResult(Shown):
         """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
         if self.deterministic is not None:
             return self.deterministic.result.gap
+        if self.one_way:
+            return self.one_way[-1].gap
         return self._fields("gap").gap
 
     def plot_contact(self, ax=None):

@@ -16,7 +16,8 @@ from .console import keeping, say, say_written
 from .deterministic.output import deterministic_bytes, plot_deterministic
 from .errors import ConvergenceError, InputError, ValidityError
 from .lines.make import takes_line
-from .output import curve_record, fields_bytes
+from .one_way.output import one_way_arrays, plot_one_way
+from .output import curve_record, fields_bytes, npz_bytes
 from .plot import make_ready, plot_contact, plot_stribeck
 from .prepared import on_cells_of, prepare
 from .result import FrictionResult
@@ -188,6 +189,9 @@ def _write(folder: RunFolder, prepared, curve, chosen, pictures: dict[float, Fut
         whole.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", deterministic_bytes([p.deterministic.result for p in whole]))
         folder.draw("contact.png", plot_deterministic, whole[0].deterministic.result, prepared.scene.bodies.half_width)
+    if one_way := sorted((p for p in curve.points if p and p.one_way), key=lambda p: chosen.index(p.speed)):
+        folder.write("fields.npz", npz_bytes(one_way_arrays(one_way)))
+        folder.draw("contact.png", plot_one_way, one_way[0])
 
 
 def _contact(prepared, point) -> bytes:

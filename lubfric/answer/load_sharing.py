@@ -17,8 +17,11 @@ from ..sampling.line_friction import line_friction
 from ..sampling.other_cells import by_half_cells, too_coarse
 from ..sampling.patch_area import areas_on_own_cells
 from ..sampling.patch_error import of_patch
+from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..scene import Scene
 from ..validity.model_form import load_sharing_error
+
+NO_FILM = "what the film would carry, which numerics.film_level = 'none' leaves out, is not known"
 
 
 def load_sharing_answer(
@@ -45,7 +48,11 @@ def load_sharing_answer(
         change = by_half_cells(chosen, speed, point)
     cautions = too_coarse(change, prepared.scene.numerics.tolerance)
     result = replace(result, validity=(*result.validity, *cautions))
-    uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
+    if speed != 0 and chosen.scene.numerics.film_level == "none":
+        uncertainty = not_sampled(None, chosen.scene, chosen.surface.size[1], NO_FILM)
+        errors = field_errors_of({}, NO_FILM)
+    else:
+        uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
     report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
     return replace(result, uncertainty=uncertainty, errors=errors, report=report)
 

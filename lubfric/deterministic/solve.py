@@ -105,7 +105,7 @@ class Work:
             if found.residual <= goal:
                 left, state, step = to, found.look.state, LONGER * step
             else:
-                step /= 2
+                step = (left - to) / 2
             if left == 0 or abs(step) < SHORTEST:
                 return found
 

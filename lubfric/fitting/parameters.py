@@ -57,6 +57,7 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
     """The `Parameters` of {"section.key": (low, high)}, the scene checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
+    check_temperature("parameters", scene, set(bounds))
     low, high = [], []
     for key, pair in bounds.items():
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
@@ -70,5 +71,4 @@ def parameters_of(scene: Scene, bounds) -> Parameters:
             raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
         for end in (low[-1], high[-1]):
             scene.with_keys({key: end})
-    check_temperature("parameters", scene, set(bounds))
     return Parameters(tuple(bounds), np.array(low), np.array(high))

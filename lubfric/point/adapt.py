@@ -27,6 +27,7 @@ from .tolerances import (
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 LIGHTLY = 0.3  # volume residual of a film with the whole load, up to which the contact carries little
+LEFT_OUT = "the film is left out (numerics.film_level = 'none'): all contact"
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
     """
     numerics = prepared.scene.numerics
     if speed == 0 or numerics.film_level == "none":
-        return _dry(prepared)
+        return _dry(prepared, speed)
     if numerics.contact_level == "none":
         return _film_alone(prepared, speed, start)
     notes: tuple[str, ...] = ()
@@ -68,8 +69,9 @@ def solved(prepared: Prepared, speed: float, start: Balance | None = None, *, gi
     return replace(found, decision=replace(found.decision, notes=(*notes, *found.decision.notes)))
 
 
-def _dry(prepared: Prepared) -> Solved:
-    """The point without film: the contact carries the whole load under the undeformed cylinder."""
+def _dry(prepared: Prepared, speed: float) -> Solved:
+    """The point without film: the contact carries the whole load under the undeformed cylinder. At a ``speed`` other
+    than 0 the film is left out."""
     scene, contact = prepared.scene, prepared.contact
     state = contact.close(contact.x**2 / (2 * scene.bodies.radius), scene.bodies.load)
     contact.check(state)
@@ -80,10 +82,10 @@ def _dry(prepared: Prepared) -> Solved:
         0.0,
         scene.numerics.tolerances.balance,
         residuals={"volume": 0.0, "load": 0.0},
-        notes=("no entrainment: all contact",),
+        notes=("no entrainment: all contact" if speed == 0 else LEFT_OUT,),
     )
     balance = Balance(0.0, scene.bodies.load, None, state, report, dry_forces(scene), None)
-    return Solved(balance, dry(prepared), contact)
+    return Solved(balance, dry(prepared, speed), contact)
 
 
 def _certainly_touching(prepared: Prepared, speed: float) -> bool:

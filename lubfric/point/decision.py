@@ -63,7 +63,7 @@ class Decision:
         """The part of ``text`` about the film."""
         text = f"film: {self.film_words}"
         if self.film == "none":
-            return f"{text}, no entrainment"
+            return text
         if self.film_tolerance > 0:
             text += f", tolerance {_percent(self.film_tolerance)}"
         elif self.left_out.total > 0:
@@ -102,11 +102,12 @@ def _percent(value: float) -> str:
     return f"{100 * value:.2g} %"
 
 
-def dry(prepared: Prepared) -> Decision:
-    """The decision for a contact without film, on its own grid."""
+def dry(prepared: Prepared, speed: float) -> Decision:
+    """The decision for a contact without film, on its own grid: at a ``speed`` other than 0 the film is left out."""
     grid, numerics = prepared.contact.grid, prepared.scene.numerics
     return Decision(
         film="none",
+        film_words="none, no entrainment" if speed == 0 else "none, left out (forced)",
         contact=prepared.contact.name,
         tolerance=numerics.tolerance,
         shape=None if grid is None else grid.cells,

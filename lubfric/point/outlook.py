@@ -19,7 +19,8 @@ def outlook(scene: Scene, surface: Surface, speed: float) -> str:
     """
     numerics = scene.numerics
     if speed == 0 or numerics.film_level == "none":
-        return "film: none, no entrainment; contact: carries everything"
+        why = "no entrainment" if speed == 0 else "left out (forced)"
+        return f"film: none, {why}; contact: carries everything"
     line = scene.line_contact(speed)
     level, left_out = given_level(LEVELS, numerics), LeftOut()
     allowed = budget.FILM_LEVEL * numerics.tolerance

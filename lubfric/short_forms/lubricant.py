@@ -29,6 +29,7 @@ def resolve(given: dict, old) -> dict:
     before = getattr(old, "oil", None)
     if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
         if before is None:
+            _check_temperature(given, old)
             return given
         if "viscosity" in given:
             return {"oil": None} | given
@@ -60,6 +61,18 @@ def _check_limit(given: dict, old) -> None:
             "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
             "give both, or neither"
         )
+
+
+def _check_temperature(given: dict, old) -> None:
+    """Raise `InputError` for a new temperature that would leave the viscosity, a number, as it is."""
+    if old is None or "viscosity" in given or given.get("temperature") in (None, old.temperature):
+        return
+    if old.temperature is None and given.get("temperature_coefficient", old.temperature_coefficient):
+        return  # from now on the heat of the film can be found
+    raise InputError(
+        "[lubricant] temperature moves no viscosity that is given as a number; give the viscosity there as well, or an "
+        "oil (grade, nu40 and nu100, oil, viscosity_table) in place of it"
+    )
 
 
 def fields_of(oil: Oil, temperature: float) -> dict:

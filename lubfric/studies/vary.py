@@ -19,6 +19,7 @@ SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
 MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
 SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
+TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 CASE = "case"  # name of the dimension of keys that go together
 
@@ -76,8 +77,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         cases += len(keys) > 1
         name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
         axis = _listed(name, keys, values)
-        for index in range(len(axis.values)):
-            scene.with_keys(axis.at(index))
+        for index in range(0 if TEMPERATURES.intersection(keys) else len(axis.values)):
+            scene.with_keys(axis.at(index))  # a temperature is checked together with the oil that may be varied too
         axes.append(axis)
     check_temperature("vary", scene, seen)
     return tuple(axes)
@@ -146,7 +147,7 @@ def _check_key(scene: Scene, key, seen: set) -> None:
 def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
     """Raise `InputError` for temperatures that leave the viscosity as it is; ``what``: the argument that holds
     ``keys``."""
-    given = keys.intersection(("lubricant.temperature", "lubricant.temperature_celsius"))
+    given = keys & TEMPERATURES
     if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
         raise InputError(
             f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 "

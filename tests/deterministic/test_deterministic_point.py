@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from lubfric.deterministic.forces import forces
 from lubfric.deterministic.march import march
 from lubfric.deterministic.newton import newton
 from lubfric.deterministic.refine import estimate, solve_refined
-from lubfric.deterministic.solve import Start
+from lubfric.deterministic.solve import Start, Work
 from lubfric.deterministic.start import dry_contact, dry_start
 from lubfric.deterministic.state import FLUID, RUPTURED, look, residuals
 from lubfric.deterministic.transfer import refined_start, state_on
@@ -201,6 +202,20 @@ def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
     assert there.residual <= 1e-5 and way.steps >= 3 and way.factorisations < 300
     cold = solve_point(problem)
     assert np.abs(there.look.state.pressure - cold.pressure).max() < 1e-3 * cold.pressure.max()
+
+
+def test_no_speed_is_tried_twice_from_the_same_state(monkeypatch):
+    """On the way to another speed, where a step is too long, the next one is half of what was tried."""
+    tried: list[tuple[float, float]] = []
+
+    def solved_if_near(self, problem, state, tolerance, most=0):
+        tried.append((state, problem.speed))
+        near = problem.speed > (0.5 if problem.speed > 0.0105 else 0.9) * state  # at the end only short steps
+        return SimpleNamespace(residual=0.0 if near else 1.0, look=SimpleNamespace(state=problem.speed))
+
+    monkeypatch.setattr(Work, "direct", solved_if_near)
+    assert Work().walk(rough(16, 917.0, 0.01), 0.1, 0.1, 1e-5).look.state == pytest.approx(0.01)
+    assert len(set(tried)) == len(tried) and tried[-1][1] == pytest.approx(0.01)
 
 
 def test_all_ways_together_take_no_more_factorisations_than_they_may():

@@ -6,6 +6,7 @@ from scipy.optimize import brentq
 
 import lubfric
 from lubfric.analytic import rigid
+from lubfric.cli import main
 from lubfric.deterministic import lay_out
 from lubfric.deterministic.point import layer
 from lubfric.deterministic.start import dry_contact
@@ -18,6 +19,7 @@ from lubfric.one_way.point import solve_one_way
 from lubfric.one_way.together import together
 from lubfric.sampling.uncertainty import Uncertainty
 from lubfric.surface import Surface
+from lubfric.vtk import vtk_bytes
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"closure": "one-way", "grid": "given"}
@@ -147,6 +149,31 @@ def test_it_is_near_the_deterministic_film():
     for speed, within in ((0.3, 0.03), (0.003, 0.02)):
         whole = lubfric.friction(SCENE.with_(numerics={"closure": "load", "model": "deterministic"}), speed)
         assert lubfric.friction(MODEL, speed).coefficient == pytest.approx(whole.coefficient, rel=within)
+
+
+def test_its_fields_are_where_those_of_other_models_are():
+    """``fields=True`` kept them, and `pressure` said to solve it with ``fields=True``."""
+    found = lubfric.friction(MODEL, 0.003, fields=True)
+    (nx, ny), one = found.gap.shape, found.one_way[-1]
+    assert found.x.shape == (nx,) and found.y.shape == (ny,) and found.pressure.shape == (nx, ny)
+    assert found.y[1] * ny == pytest.approx(MODEL.surface.size[1])
+    step = found.x[1] - found.x[0]
+    load = found.pressure.mean(axis=1).sum() * step * SCENE.bodies.width
+    assert load == pytest.approx(found.contact_load, rel=0.01) and found.gap[one.closed].max() < found.gap.max()
+    vtk = vtk_bytes(MODEL, found)
+    assert b"contact_pressure" in vtk and b"gap" in vtk
+
+
+def test_the_command_writes_its_fields_and_picture(tmp_path):
+    """Neither was written, whatever --fields said."""
+    (tmp_path / "s.toml").write_text(SCENE.to_toml())
+    arguments = ["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--speeds", "0.003,0.3"]
+    assert main([*arguments, "--fields", "0.3,0.003"]) == 0
+    fields = np.load(tmp_path / "o" / "fields.npz")
+    found = lubfric.friction(MODEL, 0.003)
+    assert fields["speed"].tolist() == [0.3, 0.003] and fields["gap_1"].shape == found.gap.shape
+    assert fields["contact_pressure_1"].max() == pytest.approx(found.pressure.max(), rel=0.02)
+    assert (tmp_path / "o" / "contact.png").stat().st_size > 10_000
 
 
 def test_a_density_that_is_left_out_is_told():

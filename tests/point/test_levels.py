@@ -146,6 +146,9 @@ def test_other_levels_can_be_forced():
     assert none.contact_load == 0 and none.decision.contact == "none" and none.decision.clearance < 0
     dry = lubfric.friction(PAPER.with_(numerics={"film_level": "none"}), 1e-3)
     assert dry.film_load == 0 and dry.coefficient == pytest.approx(0.09)
+    assert not np.isfinite(dry.uncertainty.interval).any() and "left out" in dry.report.notes[0]  # was 0.09 .. 0.09
+    still = lubfric.friction(PAPER.with_(numerics={"film_level": "none"}), 0.0)
+    assert still.uncertainty.interval == pytest.approx((0.09, 0.09)) and "no entrainment" in still.report.notes[0]
     flat = lubfric.friction(
         PAPER.with_(
             numerics={"contact_level": "flat"}, contact={"shape": (96, 96)}, surface={"correlation_length": 4e-6}

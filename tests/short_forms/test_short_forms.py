@@ -175,3 +175,18 @@ def test_an_offset_without_a_limit_is_refused():
     assert limited.with_(lubricant={"limiting_stress_offset": 3e6}).lubricant.limiting_stress_offset == 3e6
     free = limited.with_(lubricant={"limiting_stress_coefficient": None})
     assert "limiting_stress" not in free.to_toml() and "limiting_stress_offset = 2000000.0" in limited.to_toml()
+
+
+def test_a_temperature_beside_a_viscosity_that_is_a_number_is_refused():
+    """A loop over temperatures gave the same f at all of them, without a word."""
+    scene = lubfric.load_scene("paper")
+    for given in ({"temperature_celsius": 90}, {"temperature": 350.0, "temperature_coefficient": None}):
+        with pytest.raises(lubfric.InputError, match="temperature moves no viscosity"):
+            scene.with_(lubricant=given)
+    warm = scene.with_(lubricant={"temperature": 330.0, "temperature_coefficient": 0.03})
+    with pytest.raises(lubfric.InputError, match="temperature moves no viscosity"):
+        warm.with_(lubricant={"temperature": 350.0})
+    assert warm.with_(lubricant={"temperature": 330.0, "eyring_stress": 5e6}).lubricant.heats
+    assert warm.with_(lubricant={"temperature": 350.0, "viscosity": 0.2}).lubricant.temperature == 350.0
+    vary = {"lubricant.oil": ["mineral-100", "mineral-220"], "lubricant.temperature": [330.0, 350.0]}
+    assert lubfric.plan_study(warm, vary, [0.1]).points == 4
