@@ -39,7 +39,7 @@ def friction(
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    start : a result at a neighbouring speed of the same map
+    start : a result at a neighbouring speed of the same map. One without fields or film (at rest) is not used
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
     fields : True: ``result.balance`` has film and contact on the scene's own contact grid (on a long line: its cells)
@@ -55,11 +55,11 @@ def friction(
     """
     begun = time.perf_counter()
     prepared = at_tolerance(scene, tolerance, model)
-    if speed is None:
-        speed = prepared.scene.motion.entrainment_speed
+    speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
         validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
+        start = start if start.starts else None
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
         if numerics.model == "deterministic" and speed != 0:

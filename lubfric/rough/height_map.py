@@ -31,6 +31,9 @@ def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
     if surface is None:
         surface = _of_the_scene(scene)
     validate.instance("surface", surface, Surface, "a lubfric.Surface")
+    if not np.isfinite(surface.heights).all():
+        missing = f"{100 * surface.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
+        raise InputError(f"surface: {missing}; call level() and fill() first")
     check_grid(scene, surface)
     if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
         surface = surface.periodic("mirror", axes=(True, False))

@@ -13,6 +13,7 @@ from ..lines.length import MOST_CELLS
 from ..lines.pieces import line_contact
 from ..prepared import Prepared, on_halved_cells
 from ..sampling.estimate import of_line
+from ..sampling.grid_pair import mean_of
 from ..sampling.line_friction import line_friction
 from ..sampling.sample import lines_of_model
 from .at_a_time import changes
@@ -21,16 +22,19 @@ SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 
 
-def long_enough(prepared: Prepared) -> Prepared:
+def long_enough(prepared: Prepared) -> tuple[Prepared, float]:
     """``prepared`` on a line as long as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of
     four speeds of the run, or as memory and map allow. Its cells are so short that they change f by no more than
     ``numerics.tolerance`` at any of these speeds, or the scene's own: a run in time is not corrected for them.
 
-    ``prepared`` itself if it is on one patch, or if its line is long enough.
+    ``prepared`` itself if it is on one patch, or if its line is long enough. Beside it the factor by which contact
+    areas on these cells are those on the scene's own, mean over the speeds (NaN: not known).
     """
     lines, speeds = prepared.lines, _speeds(prepared)
-    if lines is None or not speeds:
-        return prepared
+    if lines is None:
+        return prepared, 1.0
+    if not speeds:
+        return prepared, 1.0 if lines.cells.factors == (1, 1) else math.nan
     needs = [_need(prepared, speed) for speed in speeds]
     while lines.cells.factors != (1, 1) and max(n.by_cells for n in needs) > prepared.scene.numerics.tolerance:
         prepared = on_halved_cells(prepared)
@@ -38,10 +42,12 @@ def long_enough(prepared: Prepared) -> Prepared:
         needs = [_need(prepared, speed) for speed in speeds]
     asked = max(need.length for need in needs)
     held = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
+    known = [need.area for need in needs if math.isfinite(need.area)]
+    area = sum(known) / len(known) if known else math.nan
     if asked <= prepared.surface.size[1] * 1.05:
-        return prepared
+        return prepared, area
     surface = lines.line(0, min(asked, held, lines.available))
-    return replace(prepared, surface=surface, contact=line_contact(prepared.scene, surface))
+    return replace(prepared, surface=surface, contact=line_contact(prepared.scene, surface)), area
 
 
 def _speeds(prepared: Prepared) -> list[float]:
@@ -57,10 +63,12 @@ def _speeds(prepared: Prepared) -> list[float]:
 
 @dataclass(frozen=True)
 class _Need:
-    """What a steady speed needs: the ``length`` [m] of its line; and the relative change of f ``by_cells``."""
+    """What a steady speed needs: the ``length`` [m] of its line. What its cells do: the relative change of f
+    ``by_cells``, and the factor on the contact ``area`` (NaN: not known)."""
 
-    length: float
-    by_cells: float
+    length: float = 0.0
+    by_cells: float = 0.0
+    area: float = math.nan
 
 
 def _need(prepared: Prepared, speed: float) -> _Need:
@@ -68,6 +76,8 @@ def _need(prepared: Prepared, speed: float) -> _Need:
     try:
         chosen, line = line_friction(prepared, speed)
     except LubfricError:
-        return _Need(0.0, 0.0)
-    same = line.cells.factors == lines_of_model(prepared).cells.factors
-    return _Need(of_line(chosen.scene, line)[0].length, line.by_cells if same else math.inf)
+        return _Need()
+    factors = lines_of_model(prepared).cells.factors
+    area = 1.0 if factors == (1, 1) else mean_of(line.grid, "area", math.nan)
+    by_cells = line.by_cells if line.cells.factors == factors else math.inf
+    return _Need(of_line(chosen.scene, line)[0].length, by_cells, area)

@@ -93,7 +93,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         "max_pressure": float(t.P.max()) * p.pressure_unit,
         "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
         "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        "real_contact_area_fraction": state.real_contact_area_fraction,
+        "real_contact_area_fraction": sharing.area * state.real_contact_area_fraction if contact.load > 0.0 else 0.0,
         "plastic_area_fraction": state.plastic_area_fraction,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,

@@ -39,7 +39,8 @@ class Sharing:
     """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.march.bdf.Solver`).
 
     ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the patch from H, and its ``mean_row``
-    the mean film over A; ``tolerance``: of the volume.
+    the mean film over A; ``tolerance``: of the volume; ``area``: factor by which contact areas on the cells of the
+    patch are those on the scene's own (NaN: not known).
     """
 
     prepared: Prepared
@@ -47,6 +48,7 @@ class Sharing:
     to_patch: np.ndarray
     mean_row: np.ndarray
     tolerance: float
+    area: float
 
     @property
     def unit(self) -> float:
@@ -124,15 +126,15 @@ class Sharing:
             return None
 
 
-def make_sharing(prepared: Prepared, setting: Setting) -> Sharing:
-    """The `Sharing` of a scene, with the operators between the film's grid and the patch."""
+def make_sharing(prepared: Prepared, setting: Setting, area: float) -> Sharing:
+    """The `Sharing` of a scene, with the operators between the film's grid and the patch. ``area``: `Sharing.area`."""
     p, patch = setting.problem, prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
     weight = patch.weight
     tolerance = min(prepared.scene.numerics.tolerances.balance, LOOSEST)
-    return Sharing(prepared, setting, to_patch, weight @ to_patch / weight.sum(), tolerance)
+    return Sharing(prepared, setting, to_patch, weight @ to_patch / weight.sum(), tolerance, area)
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:

@@ -60,8 +60,18 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
         transient=Transient(1e-3, outputs=1),
     )
     coarse = lubfric.prepare(scene)
-    fine = long_enough(coarse)
+    fine, _ = long_enough(coarse)
     by_cells = [line_friction(prepared, 0.1)[1].by_cells for prepared in (coarse, fine)]
     assert by_cells[0] > 0.015 and by_cells[1] <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
-    assert long_enough(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).lines.cells == coarse.lines.cells
+    kept, _ = long_enough(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1})))
+    assert kept.lines.cells == coarse.lines.cells
+
+
+def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
+    """On the cells of the line, four times as long, the second was 1.9 times too large."""
+    scene = HELD.with_(surface={"acf": "exponential"}, motion={"entrainment_speed": 1e-3}, numerics={"tolerance": 0.05})
+    rough = lubfric.transient(scene)
+    for run, steady in ((held, lubfric.friction(HELD)), (rough, lubfric.friction(scene))):
+        found = run.real_contact_area_fraction[-1]
+        assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)

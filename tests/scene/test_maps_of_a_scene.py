@@ -133,6 +133,13 @@ def test_keys_that_do_not_apply_are_refused(maps, text, words):
         assert word in str(caught.value)
 
 
+def test_a_given_map_with_unmeasured_points_is_refused_as_one():
+    heights = np.where(np.eye(64) > 0, np.nan, 1e-9)
+    surface = lubfric.Surface(heights, 1e-6, mask=np.isfinite(heights))
+    with pytest.raises(lubfric.InputError, match=r"1.56 % of the heights are unmeasured.*level\(\) and fill\(\) first"):
+        lubfric.prepare(lubfric.load_scene("paper"), surface)
+
+
 def test_the_same_by_call():
     with pytest.raises(lubfric.InputError, match="surface.seed"):
         Roughness(file="a.npy", seed=3)

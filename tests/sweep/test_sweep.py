@@ -38,6 +38,14 @@ def test_lift_off_has_the_direction_of_the_curve(curve):
         lubfric.stribeck(SCENE.with_(motion={"speeds": (-1.0, -0.01)}), "auto")
 
 
+@pytest.mark.parametrize("model", ["half-space", "summits"])
+def test_a_point_at_rest_is_no_start_and_does_no_harm(model):
+    """Its film, of no load, was 1e10 m thick: an error about gap0, or a `ValueError`."""
+    prepared = prepare(SCENE.with_(contact={"model": model}))
+    rest = lubfric.friction(prepared, 0.0, fields=True)
+    assert lubfric.friction(prepared, 0.02, start=rest).coefficient == lubfric.friction(prepared, 0.02).coefficient
+
+
 def test_what_is_out_of_range_is_refused_before_any_work():
     """A slide-roll ratio beyond its range lost the ratios before it; a speed ended as a failed point."""
     done = []
