@@ -69,10 +69,10 @@ def shear_force(
 
     resistance, parts, off = _rolling(p, h, wet, rolling)
 
+    heated = None if warm is None else warm.stress
+
     def stress(at, pressure, thickness):
-        if warm is not None and warm.stress is not None:
-            return warm.stress(at, pressure, thickness)
-        return shear_stress(lubricant, pressure, sliding / thickness)
+        return heated(at, pressure, thickness) if heated else shear_stress(lubricant, pressure, sliding / thickness)
 
     tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
@@ -83,7 +83,6 @@ def shear_force(
     quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
-    heated = warm is not None and warm.stress is not None
     # its own heat thins a film by the same factor at any h: upstream by as much as at the first node
     couette += (tau[0] * h[0] if heated else lubricant.viscosity * sliding) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
