@@ -54,11 +54,11 @@ def shear_force(
 
     ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
     the width in contact, which carries no fluid shear, averaged over each of the n - 1 cells between them. The Couette
-    term reaches from far upstream (the parabola is followed to -infinity in closed form) to the rupture.
-    cavitated="striated" adds the streamers behind it, which fill the fraction h_rupture/h of the width. The lubricant's
-    shear law (Newtonian by default) acts on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of
-    the heated film and the viscosity that it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes
-    as the film knows it; None: it is summed.
+    term reaches from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own
+    heat as the first node: at any h that is the same factor) to the rupture. cavitated="striated" adds the streamers
+    behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
+    on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that
+    it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: summed.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -83,7 +83,6 @@ def shear_force(
     quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
-    # its own heat thins a film by the same factor at any h: upstream by as much as at the first node
     couette += (tau[0] * h[0] if heated else lubricant.viscosity * sliding) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
     resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
