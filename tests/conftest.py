@@ -1,5 +1,5 @@
-"""What all tests share: hypothesis judges answers, not the time that a loaded machine takes; Ctrl-C interrupts; what
-is slow."""
+"""What all tests share: hypothesis judges answers, not the time that a loaded machine takes, on the same examples
+every time; Ctrl-C interrupts; what is slow."""
 
 import signal
 from pathlib import Path
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-settings.register_profile("lubfric", deadline=None)
+settings.register_profile("lubfric", deadline=None, derandomize=True)
 settings.load_profile("lubfric")
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in a background job of a shell, and in all that it starts
     signal.signal(signal.SIGINT, signal.default_int_handler)
