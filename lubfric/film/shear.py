@@ -38,6 +38,11 @@ class ShearForce:
         """F_sh [N]."""
         return self.couette + self.rolling
 
+    @property
+    def felt(self) -> float:
+        """Sum of the parts without sign [N], by which an error of the film is felt in the force."""
+        return abs(self.couette) + max(abs(self.rolling), self.rolling_parts)
+
 
 def shear_force(
     film,

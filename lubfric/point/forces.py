@@ -56,13 +56,12 @@ def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = N
         shear = _shear(scene, level, found, warm)
     boundary = _boundary(scene, found.contact_load)
     total = abs(boundary + shear.total)
-    viscous = abs(shear.couette) + max(abs(shear.rolling), shear.rolling_parts)
-    moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + viscous
+    moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + shear.felt
     gain, by_load, known = 1.0, math.inf, 0 < total < math.inf
     if slope and found.contact_load > 0:
         gain = 0.5 * found.contact_load / (scene.bodies.load * slope)
         thickening = float(log_viscosity_ratio(scene.lubricant, found.film.pressure.max())[0])
-        moved_by_load = moved + 0.5 * thickening * viscous
+        moved_by_load = moved + 0.5 * thickening * shear.felt
         by_load, gain = gain * moved_by_load / total if known else math.inf, max(1.0, gain)
     return Forces(
         (boundary + shear.total) / scene.bodies.load,

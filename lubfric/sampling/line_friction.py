@@ -24,7 +24,7 @@ from .sample import Anchor, Sample, lines_of_model
 SHORTER = 1.5  # times shorter than wanted: a line solved before is still taken
 LINE_BALANCE = 1.0  # of the sampling tolerance: what correcting a further line to first order may move f by
 MOST_CORRECTED = 0.05  # of f, by such a correction: what it leaves is of second order
-FARTHEST = 0.1  # of ln(F_H/F_C), by such a correction: a light contact follows it exponentially
+MOST_MOVED = 0.1  # of ln(F_H/F_C), by such a correction: a light contact follows it exponentially
 LOOSEST_LINE = 0.03  # volume residual of a further line
 LIGHT = 0.1  # of the load on the contact: it touches for sure
 
@@ -174,11 +174,11 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
 
 def _looseness(sample: Sample) -> float:
     """Volume residual (G - h)/(G + h) of a further line whose correction changes f by `LINE_BALANCE` of the sampling
-    tolerance, and by `MOST_CORRECTED` at most, and ln(F_H/F_C) by `FARTHEST`."""
+    tolerance, and by `MOST_CORRECTED` at most, and ln(F_H/F_C) by `MOST_MOVED`."""
     response, film = sample.known.response, sample.known.point.balance.contact.mean_film
     moved = response.per_gap("coefficient") * 2 * film  # f, per residual
     allowed = min(LINE_BALANCE * sample.prepared.scene.numerics.sampling_tolerance, MOST_CORRECTED)
-    nearer = min(FARTHEST / abs(response.split * 2 * film), LOOSEST_LINE)
+    nearer = min(MOST_MOVED / abs(response.split * 2 * film), LOOSEST_LINE)
     return min(allowed / moved, nearer) if moved else nearer
 
 

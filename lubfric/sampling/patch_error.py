@@ -125,7 +125,7 @@ def _by_area(balance: Balance) -> float:
     if not error or not total:
         return 0.0
     open_ = max(1 - balance.contact.real_contact_area_fraction, error)
-    return error / open_ * (abs(found.shear.couette) + max(abs(found.shear.rolling), found.shear.rolling_parts)) / total
+    return error / open_ * found.shear.felt / total
 
 
 def _from_slope(point: Solved) -> Response:
