@@ -13,7 +13,7 @@ from ..prepared import Prepared
 from ..result import FrictionResult
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..validity.entry import Validity
-from ..validity.solution import of_motion, of_pressure, of_thickness
+from ..validity.solution import of_error, of_motion, of_pressure, of_thickness
 from .resolved import resolved_result
 
 NO_PLACES = "not estimated for one pressure of film and contact"
@@ -102,8 +102,4 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
         remedy = "read f to a percent or two: hardly any lubricant passes the contact"
         yield Validity("share of the lubricant out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
-    error, tolerance = found.error, scene.numerics.tolerance
-    if error is not None and error > tolerance:
-        consequence = "the finest grid leaves more than the tolerance"
-        remedy = "a finer contact.spacing, a larger tolerance"
-        yield Validity("estimated error of the grid in f", error, tolerance, "", consequence, remedy)
+    yield from of_error(found.error, scene.numerics.tolerance, "a finer contact.spacing, a larger tolerance")

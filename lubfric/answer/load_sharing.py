@@ -20,8 +20,10 @@ from ..sampling.patch_error import of_patch
 from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..scene import Scene
 from ..validity.model_form import load_sharing_error
+from ..validity.solution import of_error
 
 NO_FILM = "what the film would carry, which numerics.film_level = 'none' leaves out, is not known"
+CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 
 
 def load_sharing_answer(
@@ -46,15 +48,16 @@ def load_sharing_answer(
         result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point, areas)
         result = replace(result, **{name: value for name, (value, _) in areas.items()})  # type: ignore[arg-type]
         change = by_half_cells(chosen, speed, point)
-    cautions = too_coarse(change, prepared.scene.numerics.tolerance)
-    result = replace(result, validity=(*result.validity, *cautions))
     if speed != 0 and chosen.scene.numerics.film_level == "none":
         uncertainty = not_sampled(None, chosen.scene, chosen.surface.size[1], NO_FILM)
         errors = field_errors_of({}, NO_FILM)
     else:
         uncertainty = replace(uncertainty, model_form=_model_form(prepared.scene, result))
+    tolerance = prepared.scene.numerics.tolerance
+    cautions = (*too_coarse(change, tolerance), *of_error(uncertainty.numerical, tolerance, CLOSER))
     report = replace(result.report, notes=(*result.report.notes, *(c.text for c in cautions), uncertainty.text))
-    return replace(result, uncertainty=uncertainty, errors=errors, report=report)
+    validity = (*result.validity, *cautions)
+    return replace(result, uncertainty=uncertainty, errors=errors, report=report, validity=validity)
 
 
 def foretell_ends(prepared: Prepared, speed: float) -> None:

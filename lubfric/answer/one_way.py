@@ -20,7 +20,7 @@ from ..sampling.uncertainty import field_errors_of, not_sampled
 from ..scene import Scene
 from ..validity.entry import Validity
 from ..validity.model_form import one_way_error
-from ..validity.solution import of_motion, of_shear
+from ..validity.solution import of_error, of_motion, of_shear
 from .resolved import resolved_result
 
 NOT_KNOWN = "not estimated for the one-way closure: one patch, as it is"
@@ -50,6 +50,7 @@ def one_way_answer(prepared: Prepared, speed: float, start: FrictionResult | Non
             one.film_load,
             abs(one.coefficient) * (one.contact_load + one.film_load),
         ),
+        *of_error(error, scene.numerics.tolerance, "a finer contact.spacing, a larger tolerance"),
     )
     result = resolved_result(prepared, speed, begun, decision, one.report, entries, per_width, numbers)
     return replace(result, one_way=found, uncertainty=uncertainty, errors=field_errors_of({}, NOT_KNOWN))

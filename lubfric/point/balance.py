@@ -20,6 +20,7 @@ THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film i
 NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
 SPLIT, FLATTEST, ROOTS = 4.0, 0.1, 4  # of ln(F_H/F_C), where a film is imposed; a slope not known; searches
 LARGEST_DRIFT = 0.3  # of ln(F_H/F_C), that one step between speeds is taken to miss like the one before
+LIGHTER = 0.05  # relative step of a load
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
 
 
@@ -28,6 +29,7 @@ class Balance:
     """One operating point in balance, loads in N. ``film`` and its ``level`` are None without entrainment.
 
     - ``slope``: d residual/d ``split``, from the last two points of the root, or predicted (None: not known).
+      ``gap_slope``: the same, or less, from what was solved alone (None: not known).
     - ``states``: the contact on each grid on the way here, the coarsest first. A neighbour starts from them.
     - ``coarse``: volume residual on the first of these grids less that on the last, under the same film.
     - ``drift``: by how much the prediction of ``split`` from the speed before was too low, over the ln of the ratio of
@@ -45,6 +47,7 @@ class Balance:
     states: tuple[ContactState, ...] = ()
     coarse: float = 0.0
     drift: float = 0.0
+    gap_slope: float | None = None
 
     @property
     def closure(self) -> ContactState:
@@ -61,8 +64,8 @@ class Balance:
     @property
     def gap_sensitivity(self) -> float:
         """`Forces.gap_sensitivity`. If the slope was only predicted, an error of the gap counts like one of the film: a
-        predicted slope says nothing about a light contact, whose residual may depend on the film alone."""
-        return self.forces.gap_sensitivity if self.report.evaluations > 1 else self.forces.sensitivity
+        prediction says nothing about a light contact, whose residual may depend on the film alone."""
+        return self.forces.gap_sensitivity
 
     @property
     def lubricated(self) -> Lubricated | None:
@@ -137,8 +140,21 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
     residuals = {"volume": min(root.history), "load": 0.0}
     if not by_load:
         residuals = {"volume": abs(found.contact.volume_residual), "load": min(root.history)}
-    slope = (root.slope or foretold) if by_load else None
-    return _balance(point, found, residuals, root.history, root.status, (), slope)
+    if not by_load:
+        return _balance(point, found, residuals, root.history, root.status, ())
+    slope = root.slope or foretold
+    gap_slope = slope if len(root.history) > 1 else _slope_of_contact(point, found)
+    return _balance(point, found, residuals, root.history, root.status, (), slope, gap_slope)
+
+
+def _slope_of_contact(point: OperatingPoint, found: Trial) -> float | None:
+    """d residual/d ``split`` under the same film, where the contact is read from a curve. A film gets thinner with its
+    load, so the slope of both together is larger. None: it takes a solve, or the contact is full."""
+    gap, load = found.contact.mean_gap, found.contact_load
+    if not point.contact.nominally_flat or not load or gap <= 0:
+        return None
+    lighter = point.contact.close(found.film.film_at(point.contact.x), (1 - LIGHTER) * load)
+    return 0.5 * (lighter.mean_gap / gap - 1) / LIGHTER * found.film_load / (load + found.film_load)
 
 
 def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
@@ -205,7 +221,9 @@ def drift(point: OperatingPoint, start: Balance, found: Balance) -> float:
     return (found.closed.split - foretold) / step
 
 
-def _balance(point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None) -> Lubricated:
+def _balance(
+    point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None, gap_slope=None
+) -> Lubricated:
     residuals = residuals | {"film": found.film.report.residual}
     if found.contact.fields is not None:
         residuals["contact"] = found.contact.fields.report.residual
@@ -230,7 +248,8 @@ def _balance(point: OperatingPoint, found: Trial, residuals, history, status, no
         film=found.film,
         contact=found.contact,
         report=report,
-        forces=forces(point.scene, level, found, slope),
+        forces=forces(point.scene, level, found, slope, gap_slope),
         level=level,
         slope=slope,
+        gap_slope=gap_slope,
     )

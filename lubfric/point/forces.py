@@ -27,8 +27,8 @@ class Forces:
     - ``quadrature``: estimated error of F_sh by its sum over nodes, relative to f F_T. A pressure spike that the grid
       does not resolve shows here, and not in the film.
     - ``by_load``: relative error of f per relative error of the contact's mean gap, which changes only the division of
-      the load: a' (f_b F_H + k |F_sh|)/(f F_T). Here a' is a without its lower bound of 1, and k = 1 +
-      ln(eta_max/eta_0)/2 bounds how the film's friction changes with its load.
+      the load (infinite: not known): a' (f_b F_H + k |F_sh|)/(f F_T). Here a' is a without its lower bound of 1, and
+      k = 1 + ln(eta_max/eta_0)/2 bounds how the film's friction changes with its load.
     - ``heat``: of inlet, film and surfaces, and what it changes.
     """
 
@@ -47,9 +47,11 @@ class Forces:
         return min(self.sensitivity, self.by_load)
 
 
-def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None) -> Forces:
+def forces(
+    scene: Scene, level: FilmLevel, found: Trial, slope: float | None = None, gap_slope: float | None = None
+) -> Forces:
     """Boundary and viscous friction (paper, Eqs. 9-12) of a film of ``level`` and a contact that share the load.
-    ``slope``: that of the balance."""
+    ``slope``, ``gap_slope``: those of the balance."""
     shear = _shear(scene, level, found)
     heat, warm = point_heat(scene, found, abs(_boundary(scene, found.contact_load) + shear.total), shear)
     if warm is not None:
@@ -57,12 +59,12 @@ def forces(scene: Scene, level: FilmLevel, found: Trial, slope: float | None = N
     boundary = _boundary(scene, found.contact_load)
     total = abs(boundary + shear.total)
     moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + shear.felt
-    gain, by_load, known = 1.0, math.inf, 0 < total < math.inf
-    if slope and found.contact_load > 0:
-        gain = 0.5 * found.contact_load / (scene.bodies.load * slope)
+    gain, by_load, known, share = 1.0, math.inf, 0 < total < math.inf, found.contact_load / scene.bodies.load
+    if slope and share > 0:
+        gain = max(1.0, 0.5 * share / slope)
+    if gap_slope and share > 0 and known:
         thickening = float(log_viscosity_ratio(scene.lubricant, found.film.pressure.max())[0])
-        moved_by_load = moved + 0.5 * thickening * shear.felt
-        by_load, gain = gain * moved_by_load / total if known else math.inf, max(1.0, gain)
+        by_load = 0.5 * share / gap_slope * (moved + 0.5 * thickening * shear.felt) / total
     return Forces(
         (boundary + shear.total) / scene.bodies.load,
         boundary,

@@ -17,7 +17,9 @@ LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one 
 ENOUGH = 0.25  # and from where the gap is as near as this, in its accuracy, to that of first touch, which is exact
 SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
 SMALL = 128**2  # cells and fewer, whose summits come into contact one by one, down to
+HALVED = 0.25  # error of an interpolation between nodes half as far apart, of a smooth curve
 FEW = 1e-3  # of the heaviest pressure, below which f does not feel the load
+CELLS = 2  # that come into contact at a time
 ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
 NOTHING = 1e-9  # of the lightest gap: below it the contact is full
 MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
@@ -144,19 +146,21 @@ def contact_curve(
     for _ in range(ROUNDS):
         pressures = sorted(solved, reverse=True)
         gap, area = np.array([(solved[p].mean_gap, solved[p].contact_area_fraction) for p in pressures]).T
-        wide = _inaccurate(np.array(pressures), gap, area, accuracy)
+        wide = _inaccurate(np.array(pressures), gap, area, accuracy, 0.5 if gap0.size <= SMALL else HALVED)
         for heavier, lighter in zip(np.array(pressures)[:-1][wide], np.array(pressures)[1:][wide]):
             add(float(np.sqrt(heavier * lighter)), solved[heavier])
         if not wide.any():
             break
-    return _curve(solved, touching_gap)
+    return _curve(solved, touching_gap, CELLS / gap0.size)
 
 
-def _inaccurate(pressure, gap, area, accuracy) -> np.ndarray:
+def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
-    more than ``accuracy``."""
+    more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
     log_pressure = np.log(pressure)
-    error, of_area = (np.maximum(missed[1:], missed[:-1]) / 4 for missed in (_missed(pressure, v) for v in (gap, area)))
+    error, of_area = (
+        halved * np.maximum(missed[1:], missed[:-1]) for missed in (_missed(pressure, v) for v in (gap, area))
+    )
     middle, rate = np.sqrt(gap[1:] * gap[:-1]), -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
@@ -181,7 +185,9 @@ def _error(pressure, values) -> np.ndarray:
     return np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
 
 
-def _curve(solved: dict, touching_gap: float) -> ContactCurve:
+def _curve(solved: dict, touching_gap: float, steps: float) -> ContactCurve:
+    """The curve through what was ``solved``, by pressure. ``steps``: in which the contact area grows, a few cells at a
+    time."""
     pressures = sorted(solved, reverse=True)
     results = [solved[p] for p in pressures]
     gap, area, plastic, work = np.array(
@@ -189,5 +195,5 @@ def _curve(solved: dict, touching_gap: float) -> ContactCurve:
     ).T
     nodes = np.array(pressures)
     return ContactCurve(
-        nodes, gap, area, plastic, touching_gap, int(work.sum()), _error(nodes, gap), _error(nodes, area)
+        nodes, gap, area, plastic, touching_gap, int(work.sum()), _error(nodes, gap), _error(nodes, area) + steps
     )

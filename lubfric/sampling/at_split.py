@@ -28,7 +28,7 @@ def redivided(point: OperatingPoint, balance: Lubricated, contact_load: float) -
     given = None if imposed is None else (imposed.x, imposed.pressure)
     film = point.film(film_load, Start(balance.film), given)
     found = Trial(film=film, contact=balance.contact, film_load=film_load, contact_load=contact_load)
-    friction = forces(point.scene, balance.level, found, balance.slope)
+    friction = forces(point.scene, balance.level, found, balance.slope, balance.gap_slope)
     return replace(balance, contact_load=contact_load, film_load=film_load, film=film, forces=friction)
 
 

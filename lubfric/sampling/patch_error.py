@@ -26,6 +26,7 @@ from .estimate import (
 )
 from .influence import BLOCK, LEAST_BLOCKS, BlockError
 from .line_record import NOTHING, LineRecord, pooled, record
+from .marginal import Marginal, marginal
 from .missed import missed_share
 from .response import Response, Slopes
 from .sample import response_of
@@ -76,7 +77,7 @@ def of_patch(
 def _told(prepared, point: Solved, response, gap_error, there, why, areas):
     scene, balance = prepared.scene, point.balance
     found = balance.forces
-    numerical = _numerical(point, response)
+    numerical, left = _numerical(prepared, point, response)
     relative, together = coefficient_error(numerical, found, response), pooled([there])
     known: dict[str, float] = {}
     if response is not None:
@@ -85,10 +86,11 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
         known = field_errors(balance, doubtful, finite, together, response)
         sampling = response.relative("coefficient", gap_error.error) if not why else math.nan
         if not math.isfinite(known.get(AREAS[0], math.nan)) and point.decision.grid_error is None:
-            known |= dict.fromkeys(AREAS, known["contact_load"])
+            known |= dict.fromkeys(AREAS, math.hypot(known["contact_load"], left.area))
             if balance.contact.plastic_area_fraction > 0:
                 known["plastic_area_fraction"] = PLASTIC * known["contact_load"]
         known |= {name: math.hypot(known["contact_load"], error) for name, (_, error) in areas.items()}
+        known |= {name: known.get(name, 0.0) + error for name, error in left.errors(found.shear).items()}
     elif balance.film is None:
         sampling, known = 0.0, dry_errors(together)
     else:
@@ -104,28 +106,32 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
     return uncertainty, field_errors_of(known, NO_AREA if point.decision.grid_error is not None else why_not(point))
 
 
-def _numerical(point: Solved, response: Response | None) -> Numerical:
-    """Errors of f by the grid, turned into errors of the gap. The same response turns them back. An interpolated area
-    counts by the film's shear stress on what it leaves open."""
+def _numerical(prepared, point: Solved, response: Response | None) -> tuple[Numerical, Marginal]:
+    """Errors of f by the grid, turned into errors of the gap. The same response turns them back. An interpolated area,
+    and cells that these errors may open or close, count by the film's shear stress there."""
     balance, decision = point.balance, point.decision
     if response is None:
-        return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0)
-    volume = 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
+        return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0), Marginal()
+    film, volume = film_error(point), 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
     per_gap = response.per_gap("coefficient")
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
-    area = 0.0 if decision.grid_error is None else math.nan
-    gap, shear = volume + grid + balance.contact.gap_error, balance.forces.quadrature + _by_area(balance)
-    return Numerical(film_error(point), gap, shear, area)
+    gap = volume + grid + balance.contact.gap_error
+    left, total = marginal(prepared, point, gap + film * balance.contact.mean_film), abs(_friction(balance))
+    shear = balance.forces.quadrature + _by_area(balance) + ((left.couette + left.rolling) / total if total else 0.0)
+    return Numerical(film, gap, shear, left.area if decision.grid_error is None else math.nan), left
 
 
 def _by_area(balance: Balance) -> float:
     """Relative error of f by the error of an interpolated contact area, beside which the film is sheared."""
-    error, found = balance.contact.area_error, balance.forces
-    total = abs(found.boundary + found.shear.total)
+    error, total = balance.contact.area_error, abs(_friction(balance))
     if not error or not total:
         return 0.0
     open_ = max(1 - balance.contact.real_contact_area_fraction, error)
-    return error / open_ * found.shear.felt / total
+    return error / open_ * balance.forces.shear.felt / total
+
+
+def _friction(balance: Balance) -> float:
+    return balance.forces.boundary + balance.forces.shear.total
 
 
 def _from_slope(point: Solved) -> Response:

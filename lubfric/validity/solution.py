@@ -191,3 +191,16 @@ def of_heat(scene, heat) -> Iterator[Validity]:
             f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
             "numerics.heat = 'off' gives the other bound",
         )
+
+
+def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
+    """A caution if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
+    if error is not None and error > tolerance:
+        yield Validity(
+            "estimated numerical error of f",
+            100 * error,
+            100 * tolerance,
+            "%",
+            "the solve leaves more than the tolerance asked",
+            remedy,
+        )
