@@ -197,6 +197,25 @@ def test_a_contact_that_carries_little_is_felt_little():
     assert 0 < shares[-1] < 0.1 and one.forces.by_load < 0.4 * one.forces.sensitivity
 
 
+@pytest.mark.parametrize("speed", [0.14, 0.16, 0.18, 0.2])
+def test_a_contact_read_from_a_curve_is_felt_as_little_at_the_first_trial(speed):
+    """A balance that is met at once has no slope of its own, and that of the curve is enough. Against the change of f
+    where the whole curve is raised."""
+    scene = lubfric.load_scene("flat").with_(
+        surface={"correlation_length": 1.2e-5}, contact={"shape": (128, 128)}, numerics={"sampling": "patch"}
+    )
+    made = lubfric.prepare(scene)
+    settings = {"level": made.film_levels[-1], "film_tolerance": 1e-3, "balance_tolerance": 1e-10}
+    before, curve = balanced(point(made, speed, **settings)), made.contact.curve
+    at_once = balanced(point(made, speed, **settings | {"balance_tolerance": 1e-3}), before)
+    assert at_once.report.evaluations == 1 and before.report.evaluations > 1
+    higher = replace(curve, mean_gap=1.001 * curve.mean_gap, touching_gap=1.001 * curve.touching_gap)
+    raised = balanced(replace(point(made, speed, **settings), contact=replace(made.contact, curve=higher)))
+    moved = abs(raised.forces.coefficient / before.forces.coefficient - 1) / 1e-3
+    assert moved <= before.gap_sensitivity <= at_once.gap_sensitivity <= 1.5 * before.gap_sensitivity
+    assert at_once.gap_sensitivity < 0.6 * at_once.forces.sensitivity and moved > 0.4 * before.gap_sensitivity
+
+
 def test_the_grids_end_at_the_given_one():
     spring = GriddedSpring(300e-9, 250e-9, 4.0)
     assert [g.cell for g in coarser_grids(spring, 1e-7)] == [8, 4, 2, 1]

@@ -164,3 +164,22 @@ def test_cold_and_warm_agree_at_4_5_gpa(ratio):
     for other in (0.5,):
         warm = lubfric.friction(prepared, 0.3, start=lubfric.friction(prepared, other))
         assert warm.coefficient == pytest.approx(cold.coefficient, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "numerics",
+    [
+        {"film_level": "isoviscous"},
+        {"model": "deterministic", "grid": "given"},
+        {"closure": "one-way", "grid": "given"},
+    ],
+    ids=["load sharing", "deterministic", "one-way"],
+)
+def test_an_error_above_the_tolerance_is_a_caution(numerics):
+    """Settings that do not follow the tolerance: f and its error stay the same, above one tolerance and below
+    another."""
+    points = [lubfric.friction(PAPER.with_(numerics=numerics | {"tolerance": t}), 0.01) for t in (1e-4, 0.2)]
+    told = [[entry for entry in p.validity if "estimated numerical error of f" in entry.what] for p in points]
+    assert 1e-4 < points[0].uncertainty.numerical < 0.2 and told[1] == []
+    assert told[0][0].value == pytest.approx(100 * points[0].uncertainty.numerical) and told[0][0].limit == 0.01
+    assert told[0][0].text in points[0].report.notes
