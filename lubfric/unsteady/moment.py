@@ -75,6 +75,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
     force = boundary + shear.total
     sense = np.sign(sliding) or np.sign(setting.contact.speed.before(time)) or 1.0
     state = contact.state
+    touching, plastic = state.real_contact_area_fraction, state.plastic_area_fraction
     balance = state.volume_residual if contact.load > 0.0 else 0.0
     return {
         "time": time,
@@ -95,8 +96,8 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         "max_pressure": float(t.P.max()) * p.pressure_unit,
         "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
         "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        "real_contact_area_fraction": sharing.area * state.real_contact_area_fraction if contact.load > 0.0 else 0.0,
-        "plastic_area_fraction": state.plastic_area_fraction,
+        "real_contact_area_fraction": touching * sharing.cells.area if contact.load > 0.0 else 0.0,
+        "plastic_area_fraction": plastic * sharing.cells.plastic if plastic else 0.0,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
