@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from .at_a_time import scene_at, sliding_at
 from .film_shear import film_shear
 from .sharing import Sharing
 
+AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 UNITS = {
     "time": "s",
@@ -106,6 +108,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
             sharing.width,
             sharing.correlation_length,
             (boundary, shear.total),
+            _thinning(scene, film_load),
         ),
         "inlet_film_factor": _inlet_factor(sharing, scene, time),
         "flash_temperature_rise": heat.flash,
@@ -118,6 +121,17 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         "time_error": now.error,
         "steps": now.steps,
     }
+
+
+def _thinning(scene: Scene, film_load: float) -> float:
+    """-d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn in
+    slowly; 1 without load."""
+    if film_load <= 0.0:
+        return 1.0
+    line, more = scene.line_contact(scene.motion.entrainment_speed or AT_REST), math.exp(LOAD_STEP)
+    line = replace(line, load_per_width=film_load / scene.bodies.width)
+    heavier = replace(line, load_per_width=more * line.load_per_width)
+    return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP
 
 
 def _inlet_factor(sharing: Sharing, scene: Scene, time: float) -> float:

@@ -10,6 +10,7 @@ import lubfric
 from lubfric.history.plan import Transient
 from lubfric.sampling.line_friction import line_friction
 from lubfric.unsteady.line import long_enough
+from lubfric.unsteady.moment import _thinning
 
 HELD = lubfric.load_scene("paper").with_(
     transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
@@ -75,3 +76,21 @@ def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
     for run, steady in ((held, lubfric.friction(HELD)), (rough, lubfric.friction(scene))):
         found = run.real_contact_area_fraction[-1]
         assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
+
+
+def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_contact():
+    """A heavier load, where the film hardly feels its own: the error of a run held at one speed is that of
+    `lubfric.friction`, whose response is solved for."""
+    short = Transient(1e-5, outputs=2)
+    scene = HELD.with_(bodies={"load": 27.5}, transient=short, numerics={"sampling_tolerance": 0.05})
+    told = lubfric.transient(scene).sampling_error[0]
+    assert 0.75 < told / lubfric.friction(scene).uncertainty.sampling < 1.35
+
+
+@pytest.mark.parametrize(("load", "speed", "low", "high"), [(1e-3, 1.0, 0.97, 1.01), (1e3, 0.1, 0.02, 0.2)])
+def test_a_film_thins_with_its_load_as_a_rigid_or_an_elastic_one(load, speed, low, high):
+    """h ~ 1/w (Martin) where bodies are rigid, and about w^-0.1 (Dowson) where they bend."""
+    scene = HELD.with_(motion={"entrainment_speed": speed}, bodies={"load": load})
+    assert low < _thinning(scene, load) < high
+    assert _thinning(scene, 0.0) == 1.0
+    assert 0 < _thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
