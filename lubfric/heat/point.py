@@ -63,6 +63,11 @@ class Heat:
         return self.heated.film if self.heated else 0.0
 
     @property
+    def left_out(self) -> float:
+        """Relative change of f by the temperatures of film and surfaces, at most, where these are left out."""
+        return self.change if self.heated is None else 0.0
+
+    @property
     def slow(self) -> bool:
         """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
         return self.peclet < FAST

@@ -28,7 +28,8 @@ class Decision:
       map's own grid, the change by the last step to it (infinite: nothing to compare it with).
     - ``tolerance``: the one asked for, on f.
     - ``deflected_by``: the pressure that deflects the film, as in ``numerics.film_deflection`` ("": no film);
-      ``deflection``: why, in words.
+      ``deflection``: why, in words; ``deflection_left_out``: relative error of the film by that choice (0 where the
+      scene names the pressure).
     - ``heat``: which heat was modelled, in words ("": not chosen, not known).
     - ``forced``: what the scene fixed instead of leaving it to be chosen.
     """
@@ -48,6 +49,7 @@ class Decision:
     own_error: float = math.inf
     deflected_by: str = ""
     deflection: str = ""
+    deflection_left_out: float = 0.0
     heat: str = ""
     forced: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

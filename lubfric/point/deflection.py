@@ -27,10 +27,15 @@ SENSIBLE = 0.3  # above it the estimate is no number to quote
 def own_pressure_error(scene, balance: Balance) -> float:
     """Upper estimate of the relative change of f when the whole load deflects the film, and not its own pressure
     alone."""
+    return own_pressure_film_error(scene, balance) * balance.forces.sensitivity
+
+
+def own_pressure_film_error(scene, balance: Balance) -> float:
+    """The relative error of the film that changes f by `own_pressure_error`."""
     if balance.contact_load == 0:
         return 0.0
     rise = scene.bodies.strip_rise / max(balance.contact.mean_gap, 1e-300)
-    return rise * min(PER_SENSITIVITY * balance.forces.sensitivity, AT_MOST)
+    return rise * min(PER_SENSITIVITY, AT_MOST / max(balance.forces.sensitivity, 1e-300))
 
 
 def solved_as_deflected(
@@ -57,19 +62,23 @@ def solved_as_deflected(
         if start is not None:
             error, start = own_pressure_error(scene, found.balance), found.balance
         if error > CERTAIN * limit:
-            return chosen, _told(found, error, limit, "scaled")
+            return chosen, _told(chosen.scene, found, error, limit)
     chosen, found = by("hydrodynamic", start)
     error = own_pressure_error(scene, found.balance)
     if error > limit:
         chosen, found = by("scaled", found.balance)
-    return chosen, _told(found, error, limit, chosen.scene.numerics.film_deflection)
+    return chosen, _told(chosen.scene, found, error, limit)
 
 
-def _told(found: Solved, error: float, limit: float, option: str) -> Solved:
-    """``found``, with the choice noted in its decision where film and contact share the load."""
-    shared = found.balance.film is not None and found.balance.contact_load > 0
-    told = in_words(error, limit, option) if shared else ""
-    return replace(found, decision=replace(found.decision, deflection=told))
+def _told(scene, found: Solved, error: float, limit: float) -> Solved:
+    """``found``, solved with the deflection of ``scene``: the choice is noted in its decision where film and contact
+    share the load, and what it leaves out of the film."""
+    option, balance = scene.numerics.film_deflection, found.balance
+    if balance.film is None or balance.contact_load == 0:
+        return found
+    left = own_pressure_film_error(scene, balance) if option == "hydrodynamic" else 0.0
+    told = in_words(error, limit, option)
+    return replace(found, decision=replace(found.decision, deflection=told, deflection_left_out=left))
 
 
 def _expected_error(prepared: Prepared, speed: float, start: Balance | None) -> tuple[float, Balance | None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..asperity import find_asperities
-from .contact_curve import ContactCurve
+from .contact_curve import ContactCurve, errors_between
 
 APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
 
@@ -32,7 +32,8 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
         if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
             break
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
-    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0)
+    errors = errors_between(pressure, gap), errors_between(pressure, area)
+    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)
 
 
 def _curve_gap(heights, separation, reading) -> float:

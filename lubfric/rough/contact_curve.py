@@ -177,7 +177,7 @@ def _missed(pressure, values) -> np.ndarray:
     return missed
 
 
-def _error(pressure, values) -> np.ndarray:
+def errors_between(pressure, values) -> np.ndarray:
     """Estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around when each is
     left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
     missed = _missed(pressure, values)
@@ -195,5 +195,12 @@ def _curve(solved: dict, touching_gap: float, steps: float) -> ContactCurve:
     ).T
     nodes = np.array(pressures)
     return ContactCurve(
-        nodes, gap, area, plastic, touching_gap, int(work.sum()), _error(nodes, gap), _error(nodes, area) + steps
+        nodes,
+        gap,
+        area,
+        plastic,
+        touching_gap,
+        int(work.sum()),
+        errors_between(nodes, gap),
+        errors_between(nodes, area) + steps,
     )

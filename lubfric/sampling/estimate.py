@@ -27,14 +27,16 @@ class Numerical:
 
     - ``film``: of the film, relative.
     - ``gap``: of the mean gap at given load [m], by the closing of the volume and by the grid of the contact.
-    - ``shear``: of the sum of the film's shear stress, relative to f.
+    - ``shear``: of the film's shear stress, by its sum and by the heat left out of it, relative to f.
     - ``area``: of the contact area, relative (NaN: not known).
+    - ``deflection``: of the film, relative, by the choice of the pressure that deflects it.
     """
 
     film: float
     gap: float
     shear: float
     area: float
+    deflection: float = 0.0
 
 
 def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, area: float) -> Numerical:
@@ -45,7 +47,8 @@ def numerical_errors(point: Solved, volume_residual: float, grid_gap: float, are
     """
     balance = point.balance
     volume = 2 * abs(volume_residual) * balance.contact.mean_film if balance.contact_load > 0 else 0.0
-    return Numerical(film_error(point), volume + grid_gap, point.balance.forces.quadrature, area)
+    left_out = point.decision.deflection_left_out
+    return Numerical(film_error(point), volume + grid_gap, stress_error(balance.forces), area, left_out)
 
 
 def film_error(point: Solved) -> float:
@@ -57,10 +60,15 @@ def film_error(point: Solved) -> float:
     return max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0)) + point.decision.left_out.total
 
 
+def stress_error(found: Forces) -> float:
+    """Estimated relative error of f by the film's shear stress: its sum over nodes, and the heat left out of it."""
+    return found.quadrature + found.heat.left_out
+
+
 def coefficient_error(numerical: Numerical, found: Forces, response: Response | None) -> float:
     """Estimated relative error of f by solvers and grids: the sum of its parts, as if all had the same sign."""
     gap = response.relative("coefficient", numerical.gap) if response is not None else 0.0
-    return found.sensitivity * numerical.film + gap + numerical.shear
+    return found.sensitivity * (numerical.film + numerical.deflection) + gap + numerical.shear
 
 
 def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, together: Pooled, response):
@@ -68,16 +76,22 @@ def field_errors(balance: Balance, numerical: Numerical, gap_error: BlockError, 
     standard error by the surface and the estimated error by solvers and grids.
 
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
-    error of the film solve. The area also has the scatter of its blocks at given load, and what its grid may change.
+    error of the film solve. Their deflection by another pressure changes the mean gap only by the load of the contact,
+    about in proportion. The area also has the scatter of its blocks at given load, and what its grid may change.
     """
-    gap = math.hypot(gap_error.error, numerical.gap + numerical.film * balance.contact.mean_film)
+    film, mean_film = numerical.film + numerical.deflection, balance.contact.mean_film
+    own = math.hypot(gap_error.error, numerical.gap + numerical.film * mean_film)
+    gap = math.hypot(gap_error.error, numerical.gap + film * mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name in FILMS:
-        errors[name] = errors.get(name, 0.0) + numerical.film
+        errors[name] = errors.get(name, 0.0) + film
+    if numerical.deflection:
+        by_load = errors.get("contact_load", 0.0) - response.relative("contact_load", own)
+        errors["mean_gap"] = response.relative("mean_gap", own) + numerical.film + by_load
     for name in HEAT:
         errors[name] = errors.get(name, 0.0) + numerical.film
-    for name, of_sums in shear_errors(balance.forces, numerical.film).items():
+    for name, of_sums in shear_errors(balance.forces, film).items():
         errors[name] = errors.get(name, 0.0) + of_sums
     load = balance.contact_load / together.contact_load if together.contact_load else 0.0
     for name, value, error, slope in (
@@ -117,7 +131,10 @@ def shear_errors(found: Forces, film: float) -> dict[str, float]:
         "couette_force": (shear.couette, film * abs(shear.couette)),
         "rolling_force": (shear.rolling, rolling),
     }
-    return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
+    heat = found.heat.left_out * abs(found.boundary + shear.total)
+    cold = {"shear_force": heat, "couette_force": heat, "rolling_force": 0.0}
+    sums = shear.quadrature
+    return {n: (error + sums + cold[n]) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
 def uncertainty_of(

@@ -21,6 +21,7 @@ from .estimate import (
     field_errors,
     film_alone_errors,
     film_error,
+    stress_error,
     uncertainty_of,
     why_not,
 )
@@ -86,7 +87,8 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
         known = field_errors(balance, doubtful, finite, together, response)
         sampling = response.relative("coefficient", gap_error.error) if not why else math.nan
         if not math.isfinite(known.get(AREAS[0], math.nan)) and point.decision.grid_error is None:
-            known |= dict.fromkeys(AREAS, math.hypot(known["contact_load"], left.area))
+            read = balance.contact.area_error / max(balance.contact.real_contact_area_fraction, 1e-300)
+            known |= dict.fromkeys(AREAS, math.hypot(known["contact_load"], left.area, read))
             if balance.contact.plastic_area_fraction > 0:
                 known["plastic_area_fraction"] = PLASTIC * known["contact_load"]
         known |= {name: math.hypot(known["contact_load"], error) for name, (_, error) in areas.items()}
@@ -111,14 +113,15 @@ def _numerical(prepared, point: Solved, response: Response | None) -> tuple[Nume
     and cells that these errors may open or close, count by the film's shear stress there."""
     balance, decision = point.balance, point.decision
     if response is None:
-        return Numerical(film_error(point), 0.0, point.balance.forces.quadrature, 0.0), Marginal()
+        return Numerical(film_error(point), 0.0, stress_error(balance.forces), 0.0), Marginal()
     film, volume = film_error(point), 2 * abs(balance.contact.volume_residual) * balance.contact.mean_film
     per_gap = response.per_gap("coefficient")
     grid = decision.grid_error / per_gap if decision.grid_error and per_gap > 0 else 0.0
     gap = volume + grid + balance.contact.gap_error
     left, total = marginal(prepared, point, gap + film * balance.contact.mean_film), abs(_friction(balance))
-    shear = balance.forces.quadrature + _by_area(balance) + ((left.couette + left.rolling) / total if total else 0.0)
-    return Numerical(film, gap, shear, left.area if decision.grid_error is None else math.nan), left
+    shear = stress_error(balance.forces) + _by_area(balance) + ((left.couette + left.rolling) / total if total else 0.0)
+    area = left.area if decision.grid_error is None else math.nan
+    return Numerical(film, gap, shear, area, decision.deflection_left_out), left
 
 
 def _by_area(balance: Balance) -> float:

@@ -124,3 +124,22 @@ def test_a_neighbour_does_not_change_the_choice(pressure, speeds):
         ways.append("whole load" in found.decision.deflection)
         assert ways[-1] == ("whole load" in alone.decision.deflection)
     assert all(ways) if pressure > 0.5e9 else 0 < sum(ways) < len(ways)
+
+
+LEFT_OUT = HEAVY.with_(
+    bodies={"hertz_pressure": 1.5e8, "radius": 3e-3, "hardness": None},
+    surface={"sq": 2e-7, "correlation_length": 1.2e-5},
+    contact={"shape": (96, 48), "spacing": 2.2e-6},
+)
+
+
+@pytest.mark.parametrize("sampling", ["patch", "line"])
+def test_what_the_choice_leaves_out_is_part_of_every_error(sampling):
+    scene, speed = LEFT_OUT.with_(numerics={"sampling": sampling}), 0.2
+    own, whole, named = by(scene, "auto", speed), by(scene, "scaled", speed), by(scene, "hydrodynamic", speed)
+    assert own.decision.deflected_by == "hydrodynamic"
+    for name in ("coefficient", "contact_load", "film_load", "shear_force", "min_film", "central_film", "mean_gap"):
+        change = abs(getattr(whole, name) / getattr(own, name) - 1)
+        assert getattr(own.errors, name) >= change, name
+    change = abs(whole.coefficient / own.coefficient - 1)
+    assert own.uncertainty.numerical >= change > named.uncertainty.numerical  # named, it is not left out but asked for

@@ -80,6 +80,14 @@ def test_left_out_it_changes_less_than_the_tolerance(model):
         assert auto.coefficient == pytest.approx(on.coefficient, rel=BASE.numerics.tolerance)
 
 
+def test_what_is_left_out_is_part_of_the_numerical_error(model):
+    auto, on = at(model, 0.3, 0.01), at(model, 0.3, 0.01, numerics={"heat": "on"})
+    assert "flash left out" in auto.decision.heat and "flash left out" not in on.decision.heat
+    assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
+    for name in ("shear_force", "couette_force"):
+        assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name
+
+
 def test_every_thermal_key_reaches_the_number(model):
     f = at(model, 2.0).coefficient
     cooler = at(model, 2.0, bodies={"conductivity": (400.0, 400.0)})
