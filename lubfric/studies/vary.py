@@ -64,7 +64,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
     axes, cases = [], 0
-    points = math.prod(len(values) for values in vary.values() if hasattr(values, "__len__"))
+    points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1))
     if points > MOST_POINTS:
         raise InputError(
             f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
@@ -107,9 +107,8 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     """
     from scipy.stats import qmc
 
-    ranges = list(ranges)
-    if not ranges or not all(isinstance(part, Between) for part in ranges):
-        raise InputError(f"ranges = {ranges!r}; allowed: a list of lubfric.Between(low, high)")
+    if not isinstance(ranges, (list, tuple)) or not ranges or not all(isinstance(part, Between) for part in ranges):
+        raise InputError(f"ranges = {validate.shown(ranges)}; allowed: a list of lubfric.Between(low, high)")
     validate.choice("sampler", sampler, SAMPLERS)
     count = validate.integer("count", count, minimum=1, maximum=MOST_POINTS)
     seed = validate.integer("seed", seed, minimum=0)
