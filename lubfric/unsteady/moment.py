@@ -16,7 +16,7 @@ from ..sampling.moment_error import moment_error
 from ..scene import Scene
 from .at_a_time import scene_at, sliding_at
 from .film_shear import film_shear
-from .sharing import Sharing
+from .sharing import Contact, Sharing
 
 AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
@@ -95,8 +95,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         "max_pressure": float(t.P.max()) * p.pressure_unit,
         "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
         "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        "real_contact_area_fraction": sharing.area * state.real_contact_area_fraction if contact.load > 0.0 else 0.0,
-        "plastic_area_fraction": state.plastic_area_fraction,
+        **_areas(sharing, contact),
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
         **_mass(sharing, solution),
@@ -120,6 +119,15 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         "shear_error": shear.quadrature / abs(force) if force else 0.0,
         "time_error": now.error,
         "steps": now.steps,
+    }
+
+
+def _areas(sharing: Sharing, contact: Contact) -> dict[str, float]:
+    """Contact areas on the scene's own cells."""
+    touching, plastic = contact.state.real_contact_area_fraction, contact.state.plastic_area_fraction
+    return {
+        "real_contact_area_fraction": touching * sharing.cells.area if contact.load > 0.0 else 0.0,
+        "plastic_area_fraction": plastic * sharing.cells.plastic if plastic else 0.0,
     }
 
 

@@ -44,9 +44,9 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, StepSolution, float]:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
-    prepared, area = long_enough(scene if isinstance(scene, Prepared) else prepare(scene))
+    prepared, cells = long_enough(scene if isinstance(scene, Prepared) else prepare(scene))
     for finer in FINER:
-        sharing = make_sharing(prepared, _setting(prepared, load, finer), area)
+        sharing = make_sharing(prepared, _setting(prepared, load, finer), cells)
         start, grid_error = first_state(sharing)
         if not grid_error > base.numerics.tolerances.film:  # NaN: no steady start to judge by
             break

@@ -35,12 +35,21 @@ class Contact:
 
 
 @dataclass(frozen=True)
+class OnOwnCells:
+    """Factors by which contact ``area`` and ``plastic`` area on the cells of a line are those on the scene's own (NaN:
+    not known)."""
+
+    area: float = 1.0
+    plastic: float = 1.0
+
+
+@dataclass(frozen=True)
 class Sharing:
     """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.march.bdf.Solver`).
 
     ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the patch from H, and its ``mean_row``
-    the mean film over A; ``tolerance``: of the volume; ``area``: factor by which contact areas on the cells of the
-    patch are those on the scene's own (NaN: not known).
+    the mean film over A; ``tolerance``: of the volume; ``cells``: by which its areas are those on the scene's
+    own cells.
     """
 
     prepared: Prepared
@@ -48,7 +57,7 @@ class Sharing:
     to_patch: np.ndarray
     mean_row: np.ndarray
     tolerance: float
-    area: float
+    cells: OnOwnCells
 
     @property
     def unit(self) -> float:
@@ -126,15 +135,16 @@ class Sharing:
             return None
 
 
-def make_sharing(prepared: Prepared, setting: Setting, area: float) -> Sharing:
-    """The `Sharing` of a scene, with the operators between the film's grid and the patch. ``area``: `Sharing.area`."""
+def make_sharing(prepared: Prepared, setting: Setting, cells: OnOwnCells) -> Sharing:
+    """The `Sharing` of a scene, with the operators between the film's grid and the patch. ``cells``: those of
+    `Sharing`."""
     p, patch = setting.problem, prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
     weight = patch.weight
     tolerance = min(prepared.scene.numerics.tolerances.balance, LOOSEST)
-    return Sharing(prepared, setting, to_patch, weight @ to_patch / weight.sum(), tolerance, area)
+    return Sharing(prepared, setting, to_patch, weight @ to_patch / weight.sum(), tolerance, cells)
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:

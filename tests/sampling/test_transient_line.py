@@ -78,6 +78,21 @@ def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
         assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
 
 
+def test_plastic_areas_of_a_run_are_those_on_the_cells_of_the_scene():
+    """On the cells of the line a third less yielded."""
+    scene = HELD.with_(
+        surface={"acf": "exponential"},
+        bodies={"hardness": 2e9},
+        motion={"entrainment_speed": 0.01},
+        transient=Transient(1e-3, outputs=1),
+        numerics={"sampling_tolerance": 0.05},
+    )
+    steady = lubfric.friction(scene)
+    found = lubfric.transient(scene).plastic_area_fraction
+    assert steady.plastic_area_fraction > 0.01
+    assert found == pytest.approx(steady.plastic_area_fraction, rel=0.15)
+
+
 def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_contact():
     """A heavier load, where the film hardly feels its own: the error of a run held at one speed is that of
     `lubfric.friction`, whose response is solved for."""
