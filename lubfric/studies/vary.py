@@ -64,7 +64,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
     axes, cases = [], 0
-    points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1))
+    points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
     if points > MOST_POINTS:
         raise InputError(
             f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
