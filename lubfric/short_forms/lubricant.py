@@ -116,7 +116,7 @@ def _oil(source: dict, before: Oil | None) -> Oil:
     if "viscosity_table" in source:
         table = source["viscosity_table"]
         if not isinstance(table, (list, tuple)) or not table:
-            raise InputError(f" = {validate.shown(table)}", "lubricant.viscosity_table", "rows of K and m²/s")
+            raise InputError(f" = {validate.shown(table)}", "lubricant.viscosity_table", "pairs of K and m²/s")
         rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in table]
         return from_table(*zip(*rows), **kept)
     index = source.get("viscosity_index")
