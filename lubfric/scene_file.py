@@ -158,6 +158,8 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
     for name, (section, key) in HISTORIES.items():
         value = table.get(section, {}).get(key)
+        if value is None and name == "sliding":
+            table.get(section, {}).pop(key, None)
         if isinstance(value, dict) or (value is not None and name == "sliding"):
             if name in found:
                 raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
@@ -185,7 +187,7 @@ def _read(source) -> tuple[dict, Path, str]:
     if str(source) in builtin_scenes():
         return read_toml(resources.files("lubfric") / "scenes" / f"{source}.toml", "scene"), Path(), str(source)
     path = Path(source)
-    if "\0" in str(source) or not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(
             f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
             f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"

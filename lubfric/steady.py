@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import time
 
+import numpy as np
+
 from . import validate
 from .answer.deterministic import deterministic_answer
 from .answer.load_sharing import load_sharing_answer
@@ -57,9 +59,9 @@ def friction(
     prepared = at_tolerance(scene, tolerance, model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    if start is not None:
-        validate.instance("start", start, FrictionResult, "what lubfric.friction returned, or None")
-        start = start if start.starts else None
+    validate.instance("start", start, (FrictionResult, type(None)), "what lubfric.friction returned, or None")
+    start = start if start is not None and start.starts else None
+    validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
         if numerics.model == "deterministic" and speed != 0:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import difflib
 import math
+import os
 from collections.abc import Iterable
+from contextlib import suppress
 from decimal import Decimal
 from numbers import Real
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -133,7 +136,7 @@ def boolean(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def instance(name: str, value: Any, kind: type, allowed: str) -> None:
+def instance(name: str, value: Any, kind: type | tuple[type, ...], allowed: str) -> None:
     """Check that ``value`` is of ``kind``. ``allowed`` says in words how to get such a value."""
     if not isinstance(value, kind):
         raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
@@ -167,10 +170,28 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
 
 def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
     """One number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
-    found = array(name, [values] if np.ndim(values) == 0 else values, unit, ndim=1).copy()
+    found = array(name, listed(values), unit, ndim=1).copy()
     for value in found.tolist():
         number(name, value, unit, minimum=-most, maximum=most)
     return found
+
+
+def listed(values: Any) -> Any:
+    """One value as a list of one; anything else as it is, for `array` to check."""
+    try:
+        return [values] if np.ndim(values) == 0 else values
+    except ValueError:  # a list of lists of several lengths
+        return values
+
+
+def folder(name: str, value: Any) -> Path:
+    """A path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
+    if isinstance(value, (str, os.PathLike)) and "\0" not in str(value):
+        path = Path(value)
+        with suppress(OSError):
+            path.exists()
+            return path
+    raise InputError(f" = {shown(value)} is no path", name, "a string or a pathlib.Path that the file system takes")
 
 
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:

@@ -98,7 +98,9 @@ def find_asperities(heights, spacing, e_prime, *, definition="summits", hardness
     validate.choice("definition", definition, DEFINITIONS)
     if hardness is not None:
         validate.positive("hardness", hardness, "Pa")
-    pair = (periodic, periodic) if np.ndim(periodic) == 0 else tuple(periodic)
+    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
+    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
+        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
     spacing = validate.spacing("spacing", spacing)
     find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
     return Asperities(definition, heights, spacing, e_prime, hardness, find)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -89,7 +88,10 @@ def read_measured(
     over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
     units = ("m/s" if over == SPEED else "-", "-", "-")
     names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
-    columns = [np.array(c) for c in read_columns(Path(path), names, units, must_say=("m/s",))]
+    for name in names:
+        validate.instance("heading", name, str, "words, as they stand in the file")
+    file = validate.folder("path", path)
+    columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",))]
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
-    return Measured(x, f, spread[0] if spread else None, over, Path(path).name)
+    return Measured(x, f, spread[0] if spread else None, over, file.name)

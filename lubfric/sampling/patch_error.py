@@ -35,7 +35,7 @@ from .uncertainty import FieldErrors, Uncertainty, field_errors_of
 
 NO_AREA = "contact areas need the scene's own grid here: fields=True, numerics.grid = 'given'"
 UNKNOWN = "not known: {}"
-PLASTIC = 3.0  # a relative change of the load on the plastic part, at most about
+PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 DOUBT = 2.0  # times the estimated error of the grid: of what is no share of f
 
 
@@ -90,7 +90,7 @@ def _told(prepared, point: Solved, response, gap_error, there, why, areas):
             read = balance.contact.area_error / max(balance.contact.real_contact_area_fraction, 1e-300)
             known |= dict.fromkeys(AREAS, math.hypot(known["contact_load"], left.area, read))
             if balance.contact.plastic_area_fraction > 0:
-                known["plastic_area_fraction"] = PLASTIC * known["contact_load"]
+                known["plastic_area_fraction"] = PLASTIC * math.hypot(known["contact_load"], read)
         known |= {name: math.hypot(known["contact_load"], error) for name, (_, error) in areas.items()}
         known |= {name: known.get(name, 0.0) + error for name, error in left.errors(found.shear).items()}
     elif balance.film is None:

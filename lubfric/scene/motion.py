@@ -32,7 +32,8 @@ class Motion(Brief):
         for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
             object.__setattr__(self, name, value)
-        speeds = () if len(self.speeds) == 0 else validate.array("motion.speeds", self.speeds, "m/s", ndim=1)
+        none = isinstance(self.speeds, (list, tuple)) and not self.speeds
+        speeds = () if none else validate.array("motion.speeds", self.speeds, "m/s", ndim=1)
         limits = {"minimum": -FASTEST, "maximum": FASTEST}
         checked = tuple(validate.number("motion.speeds", u, "m/s", **limits) for u in speeds)
         object.__setattr__(self, "speeds", checked)

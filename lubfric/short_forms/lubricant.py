@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .. import validate
 from ..errors import InputError
 from ..lubricant import Lubricant
 from ..oil import Oil, from_grade, from_index, from_table, from_viscosities, named_oil
@@ -97,13 +98,12 @@ def _own_coefficient(old) -> dict:
 
 
 def _kelvin(celsius) -> float:
-    if isinstance(celsius, (int, float)) and celsius > 250:
+    degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
+    if degrees > 250:
         raise InputError(
-            f"lubricant.temperature_celsius = {celsius:g} °C; allowed: up to 250 °C (K were meant? temperature)"
+            f"lubricant.temperature_celsius = {degrees:g} °C; allowed: up to 250 °C (K were meant? temperature)"
         )
-    if not isinstance(celsius, (int, float)) or isinstance(celsius, bool):
-        raise InputError(f"lubricant.temperature_celsius = {celsius!r} is not a number; allowed: -70 to 250 °C")
-    return celsius + CELSIUS
+    return degrees + CELSIUS
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:
@@ -114,7 +114,10 @@ def _oil(source: dict, before: Oil | None) -> Oil:
     if "oil" in source:
         return source["oil"] if isinstance(source["oil"], Oil) else named_oil(source["oil"])
     if "viscosity_table" in source:
-        rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in source["viscosity_table"]]
+        table = source["viscosity_table"]
+        if not isinstance(table, (list, tuple)) or not table:
+            raise InputError(f" = {validate.shown(table)}", "lubricant.viscosity_table", "pairs of K and m²/s")
+        rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in table]
         return from_table(*zip(*rows), **kept)
     index = source.get("viscosity_index")
     if "grade" in source:

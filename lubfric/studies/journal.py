@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from .. import validate
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
 from ..result import FrictionResult
@@ -57,8 +58,8 @@ class Journal:
     """
 
     def __init__(self, folder):
-        self.folder = None if folder is None else Path(folder)
-        self._records = None if folder is None else Records(Path(folder) / POINTS)
+        self.folder = None if folder is None else validate.folder("store", folder)
+        self._records = None if self.folder is None else Records(self.folder / POINTS)
 
     def __enter__(self) -> Journal:
         return self

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, is_dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -137,7 +136,7 @@ class StudyResult(Shown):
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""
-        speeds = validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
+        speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         sense = self._sense
         found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
         for index in np.ndindex(*found.shape[:-1]):
@@ -220,7 +219,7 @@ def open_study(folder) -> StudyResult:
     ------
     InputError : the folder holds no study
     """
-    path = Path(folder) / PLAN
+    path = validate.folder("store", folder) / PLAN
     if not path.is_file():
         raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
     try:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 
+from .. import validate
 from ..errors import InputError
 from ..scene import Scene
 from ..store import FolderLock, growth, write_whole
@@ -59,6 +60,7 @@ def study(
     executor = checked_executor(executor)
     with ExitStack() as stack:
         if store is not None:
+            store = validate.folder("store", store)
             stack.enter_context(FolderLock(store))
             clear_parts(store)
             write_whole(os.path.join(store, PLAN), json.dumps(plan_as_dict(plan), indent=1).encode())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,7 +65,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
         raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
     seen: set[str] = set()
     axes, cases = [], 0
-    points = math.prod(len(values) for values in vary.values() if hasattr(values, "__len__"))
+    points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
     if points > MOST_POINTS:
         raise InputError(
             f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
@@ -107,9 +108,9 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     """
     from scipy.stats import qmc
 
-    ranges = list(ranges)
-    if not ranges or not all(isinstance(part, Between) for part in ranges):
-        raise InputError(f"ranges = {ranges!r}; allowed: a list of lubfric.Between(low, high)")
+    parts = list(ranges) if isinstance(ranges, Iterable) else []
+    if not parts or not all(isinstance(part, Between) for part in parts):
+        raise InputError(f"ranges = {validate.shown(ranges)}; allowed: a list of lubfric.Between(low, high)")
     validate.choice("sampler", sampler, SAMPLERS)
     count = validate.integer("count", count, minimum=1, maximum=MOST_POINTS)
     seed = validate.integer("seed", seed, minimum=0)
@@ -117,10 +118,10 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
         if count & (count - 1):
             above = 2 ** count.bit_length()
             raise InputError(f"count = {count} of a Sobol sequence; allowed: powers of two, {above // 2} or {above}")
-        shares = qmc.Sobol(len(ranges), seed=seed).random(count)
+        shares = qmc.Sobol(len(parts), seed=seed).random(count)
     else:
-        shares = np.random.default_rng(seed).random((count, len(ranges)))
-    columns = [part.at(share) for part, share in zip(ranges, shares.T)]
+        shares = np.random.default_rng(seed).random((count, len(parts)))
+    columns = [part.at(share) for part, share in zip(parts, shares.T)]
     return [tuple(float(v) for v in row) for row in zip(*columns)]
 
 

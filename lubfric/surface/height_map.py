@@ -243,6 +243,7 @@ class Surface(FrozenArrays, Shown):
 
     def combined(self, other: Surface) -> Surface:
         """The sum of this map and that of the body that faces it (`lubfric.surface.pair`)."""
+        validate.instance("other", other, Surface, "a Surface")
         return pair.combined(self, other)
 
     def continued(self, length: float) -> Surface:

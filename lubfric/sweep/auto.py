@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from .. import validate
 from ..curve.choose import next_speed
 from ..errors import InputError
 from ..prepared import Prepared
 from ..report import ITERATION_LIMIT, Report
+from ..scene import FASTEST
 from ..store import fingerprint
 from ..studies.adaptive import FEWEST, samples_of, tolerance_between
 from ..studies.journal import Journal
@@ -18,11 +20,19 @@ from ..studies.walk import Walk
 from .result import StribeckResult, collected
 
 
+def fields_at(fields) -> np.ndarray:
+    """The speeds [m/s] whose film and contact are to be kept: one, several, or none (None, False, an empty list)."""
+    empty = isinstance(fields, (list, tuple)) and not fields or isinstance(fields, np.ndarray) and not fields.size
+    if fields is None or fields is False or empty:
+        return np.empty(0)
+    return validate.numbers("fields", fields, "m/s", FASTEST)
+
+
 def auto_curve(prepared: Prepared, fields, store, on_point) -> StribeckResult:
     """A curve at speeds that it chooses. Arguments as in `lubfric.stribeck`. If speeds failed, the result says so."""
     if fields is True:
         raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
-    wanted = tuple(float(abs(u)) for u in np.atleast_1d(np.asarray(fields or [], float)))
+    wanted = tuple(abs(u) for u in fields_at(fields).tolist())
     walk = Walk(prepared.scene, fingerprint(prepared, wanted), (), frozenset(wanted))
     found: dict[float, object] = {}
     with Journal(store) as journal:

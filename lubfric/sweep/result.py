@@ -79,7 +79,7 @@ class StribeckResult(CurveResult):
         curve = self._interpolant
         known = curve.samples.speed
         sense = self._sense
-        at = sense * validate.array("speed", np.atleast_1d(speed), "m/s", ndim=1)
+        at = sense * validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         if at.min() < known[0] * (1 - 1e-9) or at.max() > known[-1] * (1 + 1e-9):
             low, high = sorted((sense * known[0], sense * known[-1]))
             raise InputError(f"speed = {speed!r} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .. import validate
 from ..prepared import Prepared
 from ..studies.journal import Journal, Point
 from ..studies.spread import spread
@@ -21,7 +22,7 @@ def solve_walks(prepared: Prepared, walks: list[tuple[Walk, np.ndarray]], execut
     ``walks``: pairs of a `Walk` and the indices of its speeds. With a ``store``, the points found there come first.
     Points that a process of the ``executor`` puts there are reported while it goes on.
     """
-    folder = None if store is None else str(store)
+    folder = None if store is None else str(validate.folder("store", store))
     journal = Journal(folder)
     indices = {key: int(index) for walk, run in walks for key, index in zip(walk.keys, run)}
     wanted = walks[0][0].wanted

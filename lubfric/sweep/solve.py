@@ -14,7 +14,7 @@ from ..store import fingerprint
 from ..studies.adaptive import AUTO
 from ..studies.spread import checked_executor
 from ..studies.walk import MOST, Walk
-from .auto import auto_curve
+from .auto import auto_curve, fields_at
 from .points import judged
 from .result import StribeckResult, collected
 from .share import solve_walks
@@ -89,9 +89,7 @@ def _given(speeds, motion) -> np.ndarray:
 
 def _kept(fields, speeds: np.ndarray) -> np.ndarray:
     """Those of the ``speeds`` whose film and contact are kept."""
-    if fields is True or fields is False or fields is None:
-        return speeds if fields else speeds[:0]
-    kept = np.atleast_1d(np.asarray(fields, float))
+    kept = speeds if fields is True else fields_at(fields)
     if not np.isin(kept, speeds).all():
         raise InputError(
             f"fields = {fields!r} m/s are not all among the speeds of the curve; give some of them, or fields = True"

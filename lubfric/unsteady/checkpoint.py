@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import validate
 from ..errors import InputError
 from ..store import Records, decode, encode, fingerprint, read_checked, write_checked
 from ..store.whole import PART
@@ -30,7 +31,7 @@ class Checkpoint:
     """
 
     def __init__(self, folder, description):
-        self.folder = Path(folder)
+        self.folder = validate.folder("checkpoint", folder)
         self.fingerprint = fingerprint(*description)
         self._records = Records(self.folder / OUTPUTS)
         self._count = 0

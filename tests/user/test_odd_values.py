@@ -1,0 +1,80 @@
+"""Values of a kind that nobody foresaw, in every place that takes a list, a path or a switch: answered by an
+`InputError` before any work, never by an error of Python or NumPy."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+import lubfric
+
+RAGGED = [[1.0, 2.0], [3.0]]
+PATHS = (True, 3, b"x", "a\0b", 300 * "x", 3000 * "../x")
+SCENE = lubfric.load_scene("paper").with_(
+    numerics={"sampling": "patch", "tolerance": 0.1}, contact={"shape": (24, 24), "spacing": 2e-6}
+)
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
+HEIGHTS = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return lubfric.stribeck(SCENE, "auto")
+
+
+ODD = {
+    "speeds of a curve": partial(lubfric.stribeck, SCENE, RAGGED),
+    "speeds of a study": partial(lubfric.study, SCENE, {"bodies.load": [1.0]}, RAGGED),
+    "ratios": partial(lubfric.traction, SCENE, RAGGED),
+    "fields in words": partial(lubfric.stribeck, SCENE, [0.01], fields="all"),
+    "fields too large": partial(lubfric.stribeck, SCENE, [0.01], fields=10**400),
+    "fields of an automatic curve": partial(lubfric.stribeck, SCENE, "auto", fields={}),
+    "fields of a point": partial(lubfric.friction, SCENE, 0.01, fields=np.array([0.01, 0.02])),
+    "table of nothing": partial(SCENE.with_, lubricant={"viscosity_table": None}),
+    "table without rows": partial(SCENE.with_, lubricant={"viscosity_table": []}),
+    "temperature": partial(SCENE.with_, lubricant=OIL | {"temperature_celsius": 10**400}),
+    "masked speeds": partial(SCENE.with_, motion={"speeds": np.ma.masked}),
+    "masked values": partial(lubfric.plan_study, SCENE, {"bodies.load": np.ma.masked}, [0.01]),
+    "ranges": partial(lubfric.sample, None, 4),
+    "other map": partial(HEIGHTS.combined, None),
+    "periodic": partial(lubfric.asperity_contact, HEIGHTS.heights, 1e-6, 2e11, separation=1e-7, periodic=[]),
+    "heading": partial(lubfric.read_measured, __file__, speed=np.array([1.0, 2.0]), coefficient="f"),
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_an_odd_value_is_refused_in_words(name):
+    with pytest.raises(lubfric.InputError):
+        ODD[name]()
+
+
+def test_odd_speeds_between_the_points_are_refused(curve):
+    with pytest.raises(lubfric.InputError, match="speed"):
+        curve.at(RAGGED)
+
+
+@pytest.mark.parametrize("path", PATHS, ids=range(len(PATHS)))
+def test_an_odd_path_is_refused_in_words(path):
+    run = SCENE.with_(transient=lubfric.Transient(1e-5, outputs=1))
+    for use in (
+        partial(lubfric.load_scene, path),
+        partial(lubfric.open_study, path),
+        partial(lubfric.read_measured, path, speed="U", coefficient="f"),
+        partial(lubfric.stribeck, SCENE, [0.01], store=path),
+        partial(lubfric.study, SCENE, {"bodies.load": [1.0]}, [0.01], store=path),
+        partial(lubfric.transient, run, checkpoint=path),
+    ):
+        with pytest.raises(lubfric.InputError):
+            use()
+
+
+def test_a_key_of_nothing_is_a_key_left_out():
+    table = {
+        "bodies": {"radius": 2e-3, "width": 6e-3, "load": 5.5, "e_prime": 231e9, "boundary_friction_coefficient": 0.1},
+        "lubricant": {"viscosity": 0.36, "viscosity_law": "constant"},
+        "motion": {"entrainment_speed": 0.01},
+        "surface": {"sq": 1e-7, "correlation_length": 8e-6},
+        "contact": {"shape": [32, 32], "spacing": 2e-6},
+    }
+    nothing = table | {"motion": {"entrainment_speed": 0.01, "sliding_speed": None}}
+    assert lubfric.load_scene(nothing) == lubfric.load_scene(table)
