@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..asperity import find_asperities
+from ..errors import InputError
 from .contact_curve import ContactCurve, errors_between
 
 APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
@@ -31,6 +32,11 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
             nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
         if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
             break
+    if not nodes:
+        raise InputError(
+            f"contact.model = {definition!r}: the map of {heights.shape[0]} x {heights.shape[1]} points has none of them "
+            "that carries a load; give a map with points above all of their neighbours, or contact.model = 'half-space'"
+        )
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
     errors = errors_between(pressure, gap), errors_between(pressure, area)
     return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)

@@ -60,6 +60,7 @@ def block_error(values, step: float, correlation_length: float, exact=None) -> B
     """
     count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
     count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
+    count = min(count, values.size)
     if count < LEAST_BLOCKS:
         return BlockError(math.inf, 0)
     means = _means(values, count)

@@ -178,3 +178,11 @@ def test_oversize_cuts_the_middle_of_a_longer_map():
 def test_bad_options(section, key, value):
     with pytest.raises(lubfric.InputError, match=f"{section}.{key}"):
         CYLINDER.with_(**{section: {key: value}})
+
+
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_a_map_without_a_summit_is_refused_in_words(columns):
+    ridges = 1e-7 * np.cos(2 * np.pi * 3 * np.arange(31) / 31)[:, None] * np.ones((1, columns))
+    scene = CYLINDER.with_(contact={"model": "summits", "geometry": "flat", "shape": None, "spacing": None})
+    with pytest.raises(lubfric.InputError, match="half-space"):
+        prepare(scene, lubfric.Surface(ridges, 3e-6))

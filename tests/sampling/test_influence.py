@@ -106,3 +106,12 @@ def test_interval_is_students(freedom):
     assert (high - low) / 2 == pytest.approx(stats.t.ppf(0.975, freedom) * 0.02, rel=1e-12)
     assert interval(2.0, 0.03, 0.0, freedom) == pytest.approx((2 - 0.06, 2 + 0.06))
     assert all(math.isnan(end) for end in interval(2.0, 0.01, math.nan, freedom))
+
+
+def test_there_are_no_more_blocks_than_places():
+    """White noise on a few wide cells, each many correlation lengths long: the standard error of a plain mean."""
+    for count in (5, 6, 7):
+        values = np.random.default_rng(count).standard_normal(count)
+        found = block_error(values, 1.0, 1e-3)
+        assert found.error == pytest.approx(stats.sem(values), rel=1e-3) and found.freedom == count - 1
+    assert math.isinf(block_error(np.arange(4.0), 1.0, 1e-3).error)
