@@ -219,6 +219,7 @@ def _info(arguments) -> int:
 
 
 def _plot(arguments) -> int:
+    from .curves.command import plot_again as plot_traction_again
     from .errors import InputError
     from .plot import plot_stribeck
     from .store import whole_file
@@ -229,9 +230,10 @@ def _plot(arguments) -> int:
     given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
     if given and "measured" not in given:
         raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
-    if given and (arguments.folder / "history.csv").is_file():
-        raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds a run in time")
-    if plot_again(arguments.folder):
+    for table, what in (("history.csv", "a run in time"), ("traction.csv", "a traction curve")):
+        if given and (arguments.folder / table).is_file():
+            raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds {what}")
+    if plot_again(arguments.folder) or plot_traction_again(arguments.folder):
         return 0
     source = arguments.folder / "stribeck.csv"
     for needed in (source, arguments.folder / "result.json"):

@@ -38,6 +38,14 @@ def drawn(plot: Callable, *arguments) -> bytes:
     return buffer.getvalue()
 
 
+def run_name(folder: Path) -> str:
+    """Name of the scene of a run; that of its folder if the record of the run is missing or damaged."""
+    try:
+        return str(json.loads((folder / RESULT).read_text(encoding="utf-8"))["scene"]["name"])
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return folder.resolve().name
+
+
 class RunFolder:
     """``path`` and the names of the files ``written`` to it. Made by `run_folder`."""
 

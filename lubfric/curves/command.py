@@ -9,16 +9,17 @@ from pathlib import Path
 import numpy as np
 
 from ..console import say, say_written
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, InputError
 from ..output import made_of
 from ..plain import plain
 from ..prepared import Prepared, prepare
-from ..run_folder import run_folder
+from ..run_folder import run_folder, run_name
 from ..run_sweep import parse_speeds
 from ..scene import Scene
-from ..store import fingerprint
+from ..store import fingerprint, whole_file
 from ..sweep import QUANTITIES
 from ..sweep.table import curve_table, uncertainty_columns
+from ..table import read_table
 from .draw import plot_traction
 from .traction import TractionResult, traction
 
@@ -35,7 +36,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
         folder.write("traction.csv", curve_table(found, {"ratio": found.ratio} | _numbers(found)))
         if len(found.errors) < found.ratio.size:
             columns = {"ratio": found.ratio, "validity": found.told} | _numbers(found)
-            title = f"{scene.name}, U = {found.speed:g} m/s"
+            title = _title(scene.name, found.speed)
             folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
         folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
     for text in found.validity:
@@ -47,6 +48,26 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
             f"{len(found.errors)} of {found.ratio.size} ratios have no answer; first: {first}", found.report
         )
     return 0
+
+
+def plot_again(folder: Path) -> bool:
+    """Draw traction.png again if there is a traction.csv; returns whether there was."""
+    source = folder / "traction.csv"
+    if not source.is_file():
+        return False
+    columns = read_table(source)
+    load = columns["contact_load"] + columns["film_load"]
+    good = np.isfinite(load)
+    if not good.any():
+        raise InputError(f"{source} holds no answer to draw; run 'lubfric run --ratios' again")
+    title = _title(run_name(folder), columns["speed"][good][0])
+    with whole_file(folder / "traction.png") as part:
+        plot_traction(part, columns, title, float(load[good][0]))
+    return True
+
+
+def _title(name: str, speed: float) -> str:
+    return f"{name}, U = {speed:g} m/s"
 
 
 def _progress(done, total, ratio, outcome) -> None:

@@ -13,9 +13,10 @@ from ..scene import Scene
 from .asperity_curve import asperity_curve
 from .contact_curve import ContactCurve, contact_curve
 from .contract import ContactState, RoughContact
-from .strip import centred_axis
+from .strip import centred_axis, weighted_mean
 
-POINTS = 128  # across the strip, where the film is averaged
+POINTS = 512  # across the strip, where the film is averaged
+COLUMNS = 2  # of the strip that say where it touches: evenly
 BEYOND = 1.5  # of the total load: how far a curve reaches when a film may be imposed on it
 ROUNDING = 1e-9  # of a load that is the heaviest of the curve
 
@@ -24,13 +25,15 @@ ROUNDING = 1e-9  # of a load that is the heaviest of the curve
 class FlatContact(RoughContact):
     """Roughness spread evenly over the Hertz strip of the total load.
 
-    x [m] (nx,): points across the strip; area [m^2] of the strip: a load divided by it is a mean pressure of the curve.
+    x [m] (nx,), weight (nx,): points across the strip, and the part of it that each stands for; area [m^2] of the
+    strip: a load divided by it is a mean pressure of the curve; columns [m]: where it is said to touch.
     """
 
     curve: ContactCurve
     x: np.ndarray
     weight: np.ndarray
     area: float
+    columns: np.ndarray
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """Read from the curve; ``start`` and ``shape`` are not needed. Raises `ConvergenceError` for a load that the
@@ -43,9 +46,9 @@ class FlatContact(RoughContact):
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
         return ContactState(
             mean_gap=gap,
-            mean_film=float(np.mean(film)),
-            x=self.x,
-            contact_fraction=np.full(self.x.size, touching),
+            mean_film=weighted_mean(film, self.weight),
+            x=self.columns,
+            contact_fraction=np.full(self.columns.size, touching),
             real_contact_area_fraction=touching,
             plastic_area_fraction=plastic,
             gap_error=self.curve.error_at(pressure),
@@ -55,7 +58,7 @@ class FlatContact(RoughContact):
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
         """For a film thinner than the gap at the heaviest load of the curve, this is the load at the end of the curve:
         a lower bound, as the volume residual of the state shows."""
-        load = self.curve.pressure_at(float(np.mean(film))) * self.area
+        load = self.curve.pressure_at(weighted_mean(film, self.weight)) * self.area
         return load, self.close(film, load)
 
     @property
@@ -112,6 +115,9 @@ def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
 
 
 def _under_the_strip(scene: Scene, curve: ContactCurve) -> FlatContact:
+    """``curve`` under the Hertz strip of ``scene``. The film is averaged over points that are even in the angle t, x =
+    -b cos(t): a thin film opens over less than a hundredth of the strip, at its ends."""
     half_width = scene.bodies.half_width
-    x = centred_axis(POINTS, 2 * half_width / POINTS)
-    return FlatContact(curve, x, np.ones(POINTS), 2 * half_width * scene.bodies.width)
+    angle = (np.arange(POINTS) + 0.5) * (np.pi / POINTS)
+    columns = centred_axis(COLUMNS, 2 * half_width / COLUMNS)
+    return FlatContact(curve, -half_width * np.cos(angle), np.sin(angle), 2 * half_width * scene.bodies.width, columns)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..output import made_of, npz_bytes
 from ..plain import plain
 from ..prepared import prepare
-from ..run_folder import CHECKPOINT, RunFolder, run_folder
+from ..run_folder import CHECKPOINT, RunFolder, run_folder, run_name
 from ..scene import Scene
 from ..store import fingerprint
 from ..table import read_table, table_bytes
@@ -78,16 +77,8 @@ def plot_again(folder: Path) -> bool:
     source = folder / "history.csv"
     if not source.is_file():
         return False
-    plot_history(folder / "history.png", read_table(source), _name(folder))
+    plot_history(folder / "history.png", read_table(source), run_name(folder))
     return True
-
-
-def _name(folder: Path) -> str:
-    """Name of the scene of a run; that of its folder if the record of the run is missing or damaged."""
-    try:
-        return str(json.loads((folder / "result.json").read_text(encoding="utf-8"))["scene"]["name"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return folder.resolve().name
 
 
 def _progress(reached: list[float]):

@@ -81,6 +81,13 @@ def test_command_writes_the_curve(tmp_path, capsys):
     assert (low, high) == pytest.approx(alone.uncertainty.interval, rel=2e-3)
     assert (out / "traction.png").stat().st_size > 10_000
     assert "inlet heating factors" in capsys.readouterr().err
+    drawn = (out / "traction.png").read_bytes()
+    (out / "traction.png").unlink()
+    assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
+    assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
+    assert "holds a traction curve" in capsys.readouterr().err
+    (out / "traction.csv").write_text("ratio [-],speed [m/s]\n0.1,")
+    assert main(["plot", str(out)]) == 2 and "traction.csv" in capsys.readouterr().err
 
 
 def test_a_map_over_two_keys_is_drawn(model, tmp_path):

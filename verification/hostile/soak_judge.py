@@ -24,6 +24,7 @@ ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "
 SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of joined lines and one of each differ
 LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
+ACROSS = 8001  # points of a film over a flat strip
 BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
 
 
@@ -101,7 +102,7 @@ class Judge:
         half = bodies.half_width
         if flat:
             pressure, gap0, weight = load / (2 * half * bodies.width), -strip.heights, np.ones(x.size)
-            inner = np.linspace(-half, half, 801)
+            inner = np.linspace(-half, half, ACROSS)
             mean_film = float(np.trapezoid(film.film_at(inner), inner)) / (2 * half)
         else:
             parabola, share = x**2 / (2 * bodies.radius), film.e_prime / bodies.e_prime if self.scaled else 1.0
