@@ -20,6 +20,7 @@ from .result import FitResult
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
+LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative: that may be told; and by a parameter, over its bounds
 MOST = 30  # curves on the way, beside those of the differences
 
 
@@ -133,6 +134,14 @@ class Walk:
         return self._slopes
 
 
+def _numerical_variance(predict: Predictor, curve: Curve, relative: np.ndarray) -> float:
+    """Mean square of the numerical error of f, which hides from the data what changes f by less. ``relative``: f over
+    the scale of the residuals. Where the error of a point is not known it is the tolerance."""
+    told = np.array([point.uncertainty.numerical for point in curve.points])
+    known = np.maximum(np.where(np.isfinite(told), told, predict.tolerance), LEAST_ERROR)
+    return float(np.mean((known * relative) ** 2))
+
+
 def _result(predict: Predictor, scale, search, curve: Curve) -> FitResult:
     """The result of a ``search`` whose derivatives were computed where it ended, or near by. ``curve``: where it
     ended."""
@@ -141,8 +150,9 @@ def _result(predict: Predictor, scale, search, curve: Curve) -> FitResult:
     n, p = slopes.shape
     squares = float(residuals @ residuals)
     variance = squares / (n - p) if predict.measured.deviation is None else 1.0
+    variance += _numerical_variance(predict, curve, f / scale)
     _, singular, axes = np.linalg.svd(slopes / scale[:, None], full_matrices=False)
-    known = np.maximum(singular, 1e-8 * max(singular[0], 1e-300))  # a direction without any effect: a huge variance
+    known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
     covariance = variance * (axes.T / known**2) @ axes
     status = CONVERGED if search.status > 0 else ITERATION_LIMIT
     move = 0.0 if status == CONVERGED else 1.0

@@ -47,7 +47,7 @@ def _foretold(scene: Scene, measured: Measured, parameters: Parameters, shared: 
         return "not foretold where the fluid between the asperities is solved for"
     tight = scene.with_(numerics={"tolerance": tolerance_of(scene, measured)})
     ground = ground_of(tight, by_curve(tight))
-    more = len(parameters.keys) + STEPS
+    more = len(parameters.keys) + shared + STEPS  # both ends of a difference start from one curve
     first = _curve_seconds(tight, ground, measured)
     whole = ground.making + first * (1 + WARM * more) if shared else (ground.making + first) * (1 + more)
     curves = f"some {1 + more} curves, the first {in_words(first)}"

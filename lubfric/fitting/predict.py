@@ -134,14 +134,18 @@ def predictor(scene: Scene, measured: Measured, parameters: Parameters, executor
 
 
 def jacobian(predict: Predictor, here: Curve, step: float) -> np.ndarray:
-    """df/d(unit), (n, p), at the curve ``here``, by differences of ``step`` that stay within the bounds."""
+    """df/d(unit), (n, p), at the curve ``here``, by differences of ``step`` that stay within the bounds.
+
+    Both ends of a difference start from ``here``: what film level and which cells they take then cancels, and a
+    parameter without effect has no slope."""
     unit = here.unit
+    same = predict.at(unit, here).coefficient if predict.warm else here.coefficient
     columns = []
     for i in range(unit.size):
         moved = unit.copy()
         moved[i] += step if unit[i] + step <= 1.0 else -step
         try:
-            columns.append((predict.at(moved, here).coefficient - here.coefficient) / (moved[i] - unit[i]))
+            columns.append((predict.at(moved, here).coefficient - same) / (moved[i] - unit[i]))
         except ConvergenceError as error:
             key = predict.parameters.keys[i]
             raise ConvergenceError(

@@ -22,8 +22,9 @@ AT_BOUND = 5e-3  # of the bounds
 class FitResult:
     """Parameters found by `lubfric.fit`, and how well the data determine them.
 
-    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given. The data cannot determine a
-    parameter whose 95 % interval is as wide as its bounds.
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
+    the mean square of the numerical error of f beside it. The data cannot determine a parameter whose 95 % interval is
+    as wide as its bounds.
 
     Attributes
     ----------

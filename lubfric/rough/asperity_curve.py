@@ -34,9 +34,8 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
             break
     if not nodes:
         raise InputError(
-            f"contact.model = {definition!r}: the map of {heights.shape[0]} x {heights.shape[1]} points has none of "
-            "them that carries a load; give a map with points above all of their neighbours, or contact.model = "
-            "'half-space'"
+            f"contact.model = {definition!r}: none on the map of {heights.shape[0]} x {heights.shape[1]} points; give "
+            "a map with points above all of their neighbours, or contact.model = 'half-space'"
         )
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
     errors = errors_between(pressure, gap), errors_between(pressure, area)

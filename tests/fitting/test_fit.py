@@ -133,6 +133,21 @@ def test_what_the_data_cannot_tell_is_said():
     assert "bodies.boundary_friction_coefficient" not in found.undetermined
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-9])
+def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise):
+    """No film of this scene comes near such a limiting stress. What is left of the scatter is no measure of that."""
+    key = "lubricant.limiting_stress_coefficient"
+    scene = SCENE.with_(lubricant={"limiting_stress_coefficient": 0.5})
+    curve = lubfric.stribeck(scene.with_(lubricant={"limiting_stress_coefficient": 0.4}), SPEEDS[:5]).coefficient
+    exact = lubfric.Measured(SPEEDS[:5], curve * (1 + noise * np.array([1, -1, 1, 0, -1])))
+    found = lubfric.fit(scene, exact, {key: (0.3, 0.6), "bodies.boundary_friction_coefficient": (0.05, 0.2)})
+    assert found.undetermined == (key,)
+    low, high = found.intervals[key]
+    assert low < 0.4 < high
+    low, high = found.intervals["bodies.boundary_friction_coefficient"]
+    assert low < 0.09 < high and high / low - 1 < 0.02
+
+
 def test_curves_that_start_from_others_are_those_that_start_alone():
     """Within the tolerance."""
     predict = predictor(SCENE, made_up(1), parameters_of(SCENE, BOUNDS), None)
