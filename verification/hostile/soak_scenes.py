@@ -19,6 +19,8 @@ RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
     "ratio": (0.02, 2.0),
 }
 WIDTH, E_PRIME = 1e-2, 231e9
+OTHERS = {"width": (1e-3, 5e-2), "e_prime": (1e9, 6e11)}  # of the logarithms: m, Pa
+OTHER_TOLERANCES = (0.002, 0.01, 0.03, 0.1)
 EYRING, LIMIT = {"eyring_stress": 5e6}, {"limiting_stress_coefficient": 0.06, "limiting_stress_offset": 2e6}
 STRESS_LAWS: tuple[dict[str, float], ...] = (EYRING, EYRING | LIMIT, LIMIT, {})
 GRADES = (10, 32, 68, 100, 220, 460)
@@ -27,21 +29,22 @@ LINES = 0.2  # of the scenes under a cylinder: a line costs as much as ten patch
 WARM = {"temperature": 350.0, "temperature_coefficient": 0.035}
 
 
-def random_scene(rng: np.random.Generator) -> lubfric.Scene:
-    """A random scene.
+def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfric.Scene:
+    """A random scene; of steel bodies of one width or, with ``any_material``, of soft to hard ones, with steeper
+    roughness and other tolerances.
 
     It is flat, or under a cylinder on a line or a patch; elastic or with a plastic limit; a height map or asperities;
     with one rough body or two; with an oil or with numbers, with and without its heat; with any shear law and
     slide-roll ratio.
     """
-    v = {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in RANGES.items()}
+    v = _drawn(rng, RANGES)
+    body = _drawn(rng, OTHERS) if any_material else {"width": WIDTH, "e_prime": E_PRIME}
     flat, line = bool(rng.random() < 0.5), bool(rng.random() < LINES)
     scene = lubfric.load_scene("flat" if flat else "paper").with_(
         bodies={
             "radius": v["radius"],
-            "width": WIDTH,
-            "load": v["load_per_width"] * WIDTH,
-            "e_prime": E_PRIME,
+            **body,
+            "load": v["load_per_width"] * body["width"],
             "hardness": None,
             "boundary_friction_coefficient": float(rng.uniform(0.05, 0.15)),
         },
@@ -53,15 +56,20 @@ def random_scene(rng: np.random.Generator) -> lubfric.Scene:
         },
         numerics={
             "accept": False,
-            "tolerance": float(rng.choice((0.01, 0.01, 0.05))),
+            "tolerance": float(rng.choice(OTHER_TOLERANCES if any_material else (0.01, 0.01, 0.05))),
             "sampling": "line" if line else "patch",
             "sampling_tolerance": 0.02 if rng.random() < 0.1 else 0.2,
         },
     )
     if rng.random() < 0.35:
-        hardness = max(float(rng.uniform(1.5e9, 8e9)), 1.6 * scene.bodies.mean_hertz_pressure)
+        of_body = body["e_prime"] * float(rng.uniform(0.005, 0.05)) if any_material else float(rng.uniform(1.5e9, 8e9))
+        hardness = max(of_body, 1.6 * scene.bodies.mean_hertz_pressure)
         scene = scene.with_(bodies={"hardness": hardness})
-    return _rough(rng, scene, v["sq"], flat)
+    return _rough(rng, scene, v["sq"], 0.2 if any_material else 0.05, flat)
+
+
+def _drawn(rng: np.random.Generator, ranges) -> dict[str, float]:
+    return {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in ranges.items()}
 
 
 def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> dict[str, Any]:
@@ -80,12 +88,13 @@ def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> dict[str, Any]:
     return common | numbers | law | (WARM if rng.random() < 0.3 else {})
 
 
-def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, flat: bool) -> lubfric.Scene:
+def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: float, flat: bool) -> lubfric.Scene:
+    """``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
     half_width, nx = scene.bodies.half_width, int(rng.choice((28, 36, 48)))
     spacing = (6 * half_width if not flat else 2e-4) / nx
     long = nx == 48 and scene.numerics.sampling == "line" and not flat  # cells of the line are twice the scene's
     keys: dict[str, Any] = {
-        "sq": min(sq, 0.05 * spacing),
+        "sq": min(sq, steepest * spacing),
         "correlation_length": spacing * float(rng.uniform(2.1, 9.0 if long else nx / 11)),
         "acf": str(rng.choice(("gaussian", "exponential"))),
         "seed": int(rng.integers(2**31)),
