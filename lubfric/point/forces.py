@@ -20,15 +20,16 @@ from .operating_point import Trial
 class Forces:
     """The forces that resist sliding: f = (boundary + shear.total)/F_T.
 
-    - ``sensitivity``: relative error of f per relative error of the film, a (f_b F_H + |F_sh|)/(f F_T). The rolling
-      part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). The factor a is the change of a film's load by
-      a change of the film at a given gap, from the slope with which the balance was found. It is 1 for a rigid film,
-      and up to ten times that for an elastic one.
+    - ``sensitivity``: relative error of f per relative error of the film, a (f_b F_H + c |F_sh|)/(f F_T). The rolling
+      part of F_sh counts by its parts (`lubfric.film.shear.ShearForce`). With the load, the film gives or takes contact
+      area A: c = A/(1 - A) F_H/F_C, at least 1, since a thicker film shears less, over more area. The factor a is the
+      change of a film's load by a change of the film at a given gap, from the slope with which the balance was found.
+      It is 1 for a rigid film, and up to ten times that for an elastic one.
     - ``quadrature``: estimated error of F_sh by its sum over nodes, relative to f F_T. A pressure spike that the grid
       does not resolve shows here, and not in the film.
     - ``by_load``: relative error of f per relative error of the contact's mean gap, which changes only the division of
-      the load (infinite: not known): a' (f_b F_H + k |F_sh|)/(f F_T). Here a' is a without its lower bound of 1, and
-      k = 1 + ln(eta_max/eta_0)/2 bounds how the film's friction changes with its load.
+      the load (infinite: not known): a' (f_b F_H + (c + k - 1) |F_sh|)/(f F_T). Here a' is a without its lower bound
+      of 1, and k = 1 + ln(eta_max/eta_0)/2 bounds how the film's friction changes with its load.
     - ``heat``: of inlet, film and surfaces, and what it changes.
     """
 
@@ -58,7 +59,7 @@ def forces(
         shear = _shear(scene, level, found, warm)
     boundary = _boundary(scene, found.contact_load)
     total = abs(boundary + shear.total)
-    moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + shear.felt
+    moved = _boundary(scene, found.film_load) * (found.contact_load > 0) + shear.felt * max(1.0, _uncovered(found))
     gain, by_load, known, share = 1.0, math.inf, 0 < total < math.inf, found.contact_load / scene.bodies.load
     if slope and share > 0:
         gain = max(1.0, 0.5 * share / slope)
@@ -74,6 +75,14 @@ def forces(
         heat,
         by_load,
     )
+
+
+def _uncovered(found: Trial) -> float:
+    """Relative change of the open area by a contact load that changes by a share of the film's, over that share: the
+    contact area A grows about in proportion to its load, so it is A/(1 - A) F_H/F_C. Where bodies are soft and the
+    contact carries little, an error of the film is felt most by this."""
+    area = found.contact.real_contact_area_fraction
+    return area / (1 - area) * found.film_load / found.contact_load if found.contact_load > 0 and area < 1 else 0.0
 
 
 def dry_forces(scene: Scene) -> Forces:

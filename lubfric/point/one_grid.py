@@ -40,8 +40,11 @@ def on_grid(
 
     The balance is repeated, each time from the last, until its settings are those that it shows to be needed.
     ``loosest``: a volume residual that is good enough for any f, where finer grids follow. ``known``: film and contact
-    at the split of ``start``, on a part that is enough, and what that film leaves out.
+    at the split of ``start``, on a part that is enough, and what that film leaves out. Where a balance cannot be closed
+    as tightly as needed, because f jumps with single cells, the last one of the same film level stands: its error is
+    told.
     """
+    closed: Stage | None = None
     for _ in range(ROUNDS):
         balance = balanced(point, start, None if known is None else known.balance.trial)
         again = known is not None and balance.contact is known.balance.contact
@@ -49,12 +52,14 @@ def on_grid(
             point, known = replace(point, contact=whole), None
             continue
         stage = Stage(point, balance, known.left_out if known is not None and again else _left_out(point, balance))
-        settings = needed_settings(stage, loosest)
+        closed, settings = stage if balance.report.converged else closed, needed_settings(stage, loosest)
         if settings is None:
             break
         known = stage if _as_good(stage, settings) else None
         point, start = replace(point, settings=settings), balance
-    return stage
+    if closed is None or closed.point.settings.level != stage.point.settings.level:
+        return stage
+    return closed
 
 
 def _left_out(point: OperatingPoint, balance: Lubricated) -> LeftOut:
@@ -86,6 +91,8 @@ def needed_settings(stage: Stage, loosest: float = 0.0) -> Settings | None:
     if loosest:  # finer grids of the contact follow: what f feels of the film is seen there
         film, cells = max(film, budget.COARSE_FILM), settings.film_cells
     volume = max(balance_tolerance(numerics, felt_gap(numerics, balance)), loosest)
+    if not balance.report.converged:  # the contact may scatter by more than its balance allows
+        volume = min(volume, settings.balance_tolerance)
     contact = contact_tolerance(point, balance.contact, volume)
     if contact == settings.contact_tolerance:
         fine = film >= settings.film_tolerance / budget.SLACK and cells == settings.film_cells

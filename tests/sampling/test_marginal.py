@@ -15,8 +15,8 @@ from verification.hostile.soak_scenes import random_scene
 E_PRIME = 231e9
 
 
-def soaked(*seeds):
-    return lubfric.prepare(random_scene(np.random.default_rng(seeds)))
+def soaked(*seeds, any_material=False):
+    return lubfric.prepare(random_scene(np.random.default_rng(seeds), any_material))
 
 
 def rolling_patch():
@@ -85,19 +85,22 @@ def test_errors_are_relative_to_the_forces():
     assert errors == {"shear_force": 0.5, "rolling_force": 0.5}
 
 
-@pytest.mark.parametrize("seeds", [(5, 1846), (5, 7426), (4, 22)])
-def test_two_solves_of_a_patch_differ_by_no_more_than_they_tell(seeds):
-    """Pure rolling, where one cell is worth per cents: the point at its tolerance, and with film and balance solved
-    a hundred times more closely. The tolerance is not met, which is a caution."""
-    prepared = soaked(*seeds)
+@pytest.mark.parametrize("seeds", [(5, 1846), (5, 7426), (4, 22), (9, 667, True)])
+def test_two_solves_in_pure_rolling_differ_by_no_more_than_they_tell(seeds):
+    """The contact area is felt more than the load: f was 3 to 15 % off where 0.1 to 1.7 % was told. The point at its
+    tolerance, and with film and balance solved as closely as can be."""
+    prepared = soaked(*seeds[:2], any_material=len(seeds) > 2)
     found = lubfric.friction(prepared)
-    closer = prepared.scene.with_(
-        numerics={"film_tolerance": 1e-4, "balance_tolerance": 1e-6, "contact_tolerance": 1e-7, "grid": "given"}
-    )
-    reference = lubfric.friction(closer)
-    numerical = found.uncertainty.numerical
-    assert abs(found.coefficient / reference.coefficient - 1) <= numerical + reference.uncertainty.numerical
-    assert numerical > closer.numerics.tolerance
+    closer = {"film_tolerance": 1e-4, "balance_tolerance": 1e-7, "contact_tolerance": 1e-7, "grid": "given"}
+    reference = lubfric.friction(prepared.scene.with_(numerics=closer))
+    told = found.uncertainty.numerical + reference.uncertainty.numerical
+    assert abs(found.coefficient / reference.coefficient - 1) <= told
+
+
+def test_what_a_patch_cannot_tell_is_a_caution():
+    """One cell more or less in contact is worth several per cent, however closely the balance is solved."""
+    found = lubfric.friction(soaked(5, 1846))
+    assert found.uncertainty.numerical > 0.05 > 0.01
     assert any("estimated numerical error of f" in entry.what for entry in found.validity)
     assert found.errors.rolling_force > 0.05 and found.errors.shear_force > 0.05
 
