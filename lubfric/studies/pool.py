@@ -33,13 +33,21 @@ def pool(workers: int):
             executor.submit(os.getpid)
         yield executor
     except BaseException:
-        executor.shutdown(wait=False, cancel_futures=True)
-        for process in multiprocessing.active_children():
-            process.terminate()
-        for process in multiprocessing.active_children():
-            process.join(LAST)
+        _end(executor)
         raise
     executor.shutdown()
+
+
+def _end(executor: ProcessPoolExecutor) -> None:
+    """End an interrupted ``executor`` with its processes. Its own thread is waited for, but not for ever: an interrupt
+    may have left a lock that it needs."""
+    ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
+    ending.start()
+    for process in multiprocessing.active_children():
+        process.terminate()
+    ending.join(LAST)
+    for process in multiprocessing.active_children():
+        process.join(LAST)
 
 
 def _follow(parent: int) -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, wait
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Future
+from queue import Empty, SimpleQueue
 
 from ..errors import InputError
 from ..validate import shown
@@ -38,7 +39,7 @@ def spread(
         except BrokenExecutor:  # by a worker that was lost before
             lost.append(piece)
     try:
-        for future in _ended(set(waiting), look):
+        for future in _ended(list(waiting), look):
             piece = waiting.pop(future)
             try:
                 done, value = future.result()
@@ -65,13 +66,22 @@ def checked_executor(executor):
     return executor
 
 
-def _ended(left: set, look: Callable | None) -> Iterator:
-    """The futures as they end; ``look()`` in between."""
+def _ended(futures: Iterable[Future], look: Callable | None) -> Iterator[Future]:
+    """The futures as they end; ``look()`` in between. (`concurrent.futures.wait` holds the locks of all of them at a
+    time: an interrupt there leaves them locked, and the executor cannot end.)"""
+    ended: SimpleQueue[Future] = SimpleQueue()
+    left = 0
+    for future in futures:
+        future.add_done_callback(ended.put)
+        left += 1
     pause = LOOK
     while left:
-        ended, left = wait(left, None if look is None else pause, FIRST_COMPLETED)
-        yield from ended
-        if look is not None and left:
+        try:
+            yield ended.get(timeout=None if look is None else pause)
+            left -= 1
+        except Empty:
+            pass
+        if look is not None and left and ended.empty():
             begun = time.perf_counter()
             look()
             pause = max(LOOK, (time.perf_counter() - begun) / SHARE)
