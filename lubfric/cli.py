@@ -120,7 +120,7 @@ def _add_fit(commands) -> None:
 
 
 def _add_plot(commands) -> None:
-    plot = commands.add_parser("plot", help="draw stribeck.png or history.png again from its table")
+    plot = commands.add_parser("plot", help="draw stribeck.png, traction.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
     plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
     plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")

@@ -63,8 +63,8 @@ class Balance:
 
     @property
     def gap_sensitivity(self) -> float:
-        """`Forces.gap_sensitivity`. If the slope was only predicted, an error of the gap counts like one of the film: a
-        prediction says nothing about a light contact, whose residual may depend on the film alone."""
+        """`Forces.gap_sensitivity`. Without a ``gap_slope`` an error of the gap counts like one of the film: a
+        predicted slope says nothing about a light contact, whose residual may depend on the film alone."""
         return self.forces.gap_sensitivity
 
     @property
