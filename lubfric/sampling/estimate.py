@@ -178,7 +178,7 @@ def uncertainty_of(
 def of_line(scene, line) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty and errors by field of a `LineFound`."""
     found = line.point.balance.forces
-    rest = gap_left(line.grid)
+    rest = gap_left(line.grid) + line.unshared
     if line.response is not None:
         rest += second_order(line.grid, line.response.split)
     area = mean_of(line.grid, "area_left", 0.0) / math.sqrt(max(len(line.grid), 1))

@@ -61,6 +61,7 @@ class LineFound:
     - ``first``: the balance of the pilot line, uncorrected; ``cells``: those of the lines; ``used``: the further lines.
     - ``too_coarse``: finer cells are needed.
     - ``response``: None if there is no contact; ``gap_error``: standard error of the mean gap [m] at given load.
+    - ``unshared``: what joining the lines leaves open of their gap [m] (`lubfric.sampling.joined`).
     - ``missed``: contact that the lines may have missed by chance where none was found: its relative effect on f.
     - ``map_ends``: the map has no longer line.
     """
@@ -72,6 +73,7 @@ class LineFound:
     response: Response | None = None
     gap_error: BlockError = BlockError(0.0, 1)
     grid: tuple[GridStep, ...] = ()
+    unshared: float = 0.0
     missed: float = 0.0
     map_ends: bool = False
     too_coarse: bool = False
@@ -197,6 +199,7 @@ def _found(sample: Sample) -> LineFound:
         anchor.response,
         sample.gap_error,
         anchor.grid,
+        anchor.response.gap_of_load(sample.joined.open / sample.joined.load),
         map_ends=ended,
     )
 
@@ -212,7 +215,8 @@ def _divided(sample: Sample, together: Pooled) -> Solved:
     """The point of the anchor, with the load divided as all lines and the grid demand."""
     anchor, scene = sample.known, sample.prepared.scene
     balance = _lubricated(anchor)
-    whole = replace(balance, contact_load=together.contact_load, film_load=scene.bodies.load - together.contact_load)
+    shared = sample.joined.load
+    whole = replace(balance, contact_load=shared, film_load=scene.bodies.load - shared)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
     point = at(sample.prepared, sample.speed, anchor.contact, balance)
     load = divided(scene.bodies.load, split)[1]

@@ -127,8 +127,7 @@ def pooled(records) -> Pooled:
     """The mean over ``records``. Their errors add as independent ones. A line without contact counts as uncertain as
     one with contact, for its length.
 
-    The loads are averaged by length, as the parts of one line share theirs. When lines were joined and balanced as one,
-    that one carried this load within half the square of their scatter.
+    The loads are averaged by length, each of its own balance (`lubfric.sampling.joined` for that of one line).
     """
     length = sum(r.length for r in records)
 

@@ -35,14 +35,16 @@ class Response:
     """Reaction of a balance to an error of its gap.
 
     ``slopes``: those of its contact; ``split``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change of the gap at
-    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C.
-    Without a film the split does not change.
+    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C;
+    ``film_exponent``: n of F_C ~ F_H^n, for a contact at the gap that the film of F_H leaves. Without a film the split
+    does not change.
     """
 
     slopes: Slopes
     split: float = 0.0
     rates: dict[str, float] | None = None
     odds: float = 0.0
+    film_exponent: float = 0.0
 
     def per_gap(self, name: str) -> float:
         """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
@@ -58,6 +60,10 @@ class Response:
         if not rate:  # a quantity that does not move is known, however far the gap is off
             return 0.0
         return rate * abs(gap_error) * max(1.0, growth(abs(self.split * gap_error), self.odds))
+
+    def gap_of_load(self, change: float) -> float:
+        """The change of the gap [m] that changes the contact load by ``change`` of it, to first order."""
+        return abs(change * (1 + self.odds) / (self.odds * self.split)) if self.split and self.odds else 0.0
 
 
 def slopes_of(state: ContactState, load: float, width: float, close: Callable[[float], ContactState]) -> Slopes:
@@ -76,7 +82,7 @@ def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[
 
     ``at_split(s)`` gives the quantities by name at another division of the load, among them "mean_gap", which is there
     the mean film. No contact is solved for it. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with
-    dP/ds = -P F_H/F_T.
+    dP/ds = -P F_H/F_T. At the gap h, d ln P/dG = 1/(P dG/dP), and d ln F_H/ds = F_C/F_T.
     """
     low, high = at_split(balance.split - STEP), at_split(balance.split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
@@ -84,7 +90,8 @@ def respond(width: float, balance: Balance, slopes: Slopes, at_split: Callable[[
     load_rate = -balance.contact_load * balance.film_load / (total * width)
     rates = {name: _log_rate(low[name], high[name]) for name in low}
     split = -1.0 / (slopes.gap * load_rate - film_rate)
-    return Response(slopes, split, rates, balance.film_load / balance.contact_load)
+    exponent = film_rate * width * total / (slopes.gap * balance.contact_load**2)
+    return Response(slopes, split, rates, balance.film_load / balance.contact_load, exponent)
 
 
 def touched_length(state: ContactState) -> float:

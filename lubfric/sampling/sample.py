@@ -18,6 +18,7 @@ from ..rough.half_space import HalfSpaceContact
 from .at_split import at, grown, quantities, redivided
 from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of, second_order
 from .influence import BlockError, add_errors
+from .joined import Joined, joined
 from .line_record import LineRecord, Pooled, length_of, pooled, record
 from .missed import hidden_share, missed_share
 from .response import Response, respond, slopes_of
@@ -66,6 +67,12 @@ class Sample:
     def together(self) -> Pooled:
         """All lines, pooled."""
         return pooled(self.records)
+
+    @property
+    def joined(self) -> Joined:
+        """The contact load of all lines as one."""
+        lengths, loads = zip(*((r.length, r.contact_load) for r in self.records))
+        return joined(lengths, loads, self.prepared.scene.bodies.load, self.known.response.film_exponent)
 
     @property
     def reached(self) -> float:

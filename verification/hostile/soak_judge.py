@@ -21,7 +21,7 @@ from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
-SECOND_ORDER = 2.0  # times the squared standard error: by what one balance of joined lines and one of each differ
+JOINED = 0.5  # of the told error of the contact's load: by what joined lines may be off
 LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
 ACROSS = 8001  # points of a film over a flat strip
@@ -184,15 +184,15 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
     if scene.contact.model == "half-space" and scene.surface.sq:
-        stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
-        if result.line is not None and len(result.line.used):
-            stated += SECOND_ORDER * result.uncertainty.sampling**2
+        stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
+        if result.line is not None and len(result.line.used) and share > 0:
+            of_share = max(of_share, JOINED * result.errors.contact_load * share)
         judge = judge_of(prepared, result)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
             (coefficient, open_), split = closed_again(judge, share, closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
             found["friction"] = abs(result.coefficient - coefficient) / allowed
-            found["contact share"] = abs(share - split) / scene.numerics.tolerance
+            found["contact share"] = abs(share - split) / of_share
             if max(found[name] / ALLOWED[name] for name in ("friction", "contact share")) <= 1:
                 break
     return {name: value / ALLOWED[name] for name, value in found.items()}
