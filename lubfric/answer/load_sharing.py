@@ -38,15 +38,17 @@ def load_sharing_answer(
         foretell_ends(prepared, speed)
     if prepared.lines is not None:
         chosen, line = line_friction(prepared, speed, None if start is None else start.line)
-        result, (uncertainty, errors) = _numbers(chosen, speed, line.point, begun), of_line(chosen.scene, line)
-        result = replace(result, line=line.start)
+        result = replace(_numbers(chosen, speed, line.point, line.together.ends, begun), line=line.start)
+        uncertainty, errors = of_line(chosen.scene, line)
         change = line.by_half_cells
     else:
         balance = None if start is None else start.balance
         chosen, point = solved_as_deflected(prepared, speed, balance, given_grid=fields)
         areas = areas_on_own_cells(chosen, speed, point)
-        result, (uncertainty, errors) = _numbers(chosen, speed, point, begun), of_patch(chosen, speed, point, areas)
+        ends = chosen.contact.on_the_ends(point.balance.contact)
+        result = _numbers(chosen, speed, point, ends, begun)
         result = replace(result, **{name: value for name, (value, _) in areas.items()})  # type: ignore[arg-type]
+        uncertainty, errors = of_patch(chosen, speed, point, areas)
         change = by_half_cells(chosen, speed, point)
     if speed != 0 and chosen.scene.numerics.film_level == "none":
         uncertainty = not_sampled(None, chosen.scene, chosen.surface.size[1], NO_FILM)
@@ -73,13 +75,13 @@ def _model_form(scene: Scene, result: FrictionResult) -> float:
     return load_sharing_error(result.film_to_roughness_ratio, result.contact_load / scene.bodies.load)
 
 
-def _numbers(prepared: Prepared, speed: float, point: Solved, begun: float) -> FrictionResult:
-    """The numbers of ``point``, without their errors."""
+def _numbers(prepared: Prepared, speed: float, point: Solved, ends: float, begun: float) -> FrictionResult:
+    """The numbers of ``point``, without their errors; ``ends``: as for `judged_validity`."""
     scene, balance = prepared.scene, point.balance
     contact, film, found = balance.contact, balance.film, balance.forces
     central = film.central_film if film is not None else math.nan
     separated = balance.contact_load == 0
-    passed = judged_validity(prepared, speed, balance)
+    passed = judged_validity(prepared, speed, balance, ends)
     oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     notes = (*balance.report.notes, point.decision.text, *known, *(entry.text for entry in passed))

@@ -78,7 +78,6 @@ def on_enough_cells(
         stage = replace(stage, balance=balance)
         error = grid_error(changes, stage.balance, limit, grids[index].lost) if changes else math.inf
         if index == last or error <= limit:
-            point.prepared.contact.check(stage.balance.contact)
             return stage, index, error
         if stage.balance.contact_load < LEAST_CONTACT * point.scene.bodies.load:  # too coarse to hold the summits
             index, changes, refound = index + 1, (), None

@@ -6,16 +6,16 @@ import math
 
 from ..prepared import Prepared
 from ..validity.entry import Validity
-from ..validity.solution import of_deflection, of_film, of_motion
+from ..validity.solution import of_deflection, of_ends, of_film, of_motion
 from .balance import Balance
 
 
-def judged_validity(prepared: Prepared, speed: float, balance: Balance) -> tuple[Validity, ...]:
+def judged_validity(prepared: Prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
     """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
-    first."""
+    first. ``ends``: the share of the contact's load on the edge columns of its patch."""
     scene, film = prepared.scene, balance.film
     thickness = film.central_film if film is not None else math.nan
-    entries = [*prepared.known, *of_motion(scene, speed, thickness)]
+    entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
     if film is not None:
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load

@@ -148,13 +148,14 @@ class RoughContact:
         x of this contact."""
         return True
 
-    def check(self, state: ContactState) -> None:
-        """Raise `InputError` if the ends of the patch cut off the contact of ``state``, which is on this contact, on a
-        part of it, or on coarser cells."""
+    def on_the_ends(self, state: ContactState) -> float:
+        """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact, on a part
+        of it, or on coarser cells. A cell that is longer counts by the part of it that belongs to these columns."""
+        return 0.0
 
     def foretell(self, bodies: Bodies, film: float) -> None:
-        """Raise `InputError`, before any film is solved, if it is clear that `check` will. ``film`` [m]: roughly the
-        smooth film of the whole load."""
+        """Raise `InputError`, before any film is solved, if it is clear that too much will be `on_the_ends`. ``film``
+        [m]: roughly the smooth film of the whole load."""
 
     def again(self, scene: Scene, old: Scene) -> RoughContact:
         """The same map for ``scene``, which differs in load, motion or tolerance from ``old``, for which the contact

@@ -1,9 +1,10 @@
-"""Will the contact reach the ends of its patch?
+"""Does the contact reach the ends of its patch, and will it?
 
-Where a closed form rules it out, nothing is solved. Elsewhere one dry contact of the whole load, loosely solved, shows
-how much lies on the edge columns. Under a film that is less, so a patch is refused only if more is seen, the thicker
-the film. On 983 random patches with their ends near the contact, elastic and with a hardness, the balance refuses 190.
-Of these 165 are foretold, and none of the other 793.
+Where it does, the ends cut it off, and its friction is no answer (`lubfric.validity.solution.of_ends`). It is foretold
+where it can be. Where a closed form rules it out, nothing is solved. Elsewhere one dry contact of the whole load,
+loosely solved, shows how much lies on the edge columns. Under a film that is less, so a patch is refused only if more
+is seen, the thicker the film. On 983 random patches with their ends near the contact, elastic and with a hardness, 190
+are found to reach them. Of these 165 are foretold, and none of the other 793.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ FILM = 1.2  # film over Sq up to which the surfaces are taken to touch as if dry
 TAIL = 0.5  # Sq: over which a rough contact's pressure falls to 1/e with the gap
 POSSIBLE = 0.5 * ALLOWED  # of the load by that closed form: with less nothing is solved
 TOLERANCE = 1e-2  # of the dry contact
+LONGER = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
 
 def within_reach(x, sq: float, line_load: float, radius: float, e_prime: float) -> bool:

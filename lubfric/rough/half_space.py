@@ -18,10 +18,6 @@ from .half_space_grid import HalfSpaceGrid
 from .strip import area_half_width, area_weight, centred_axis, check_strip, weighted_mean
 
 BOUNDARY = ("free", "periodic")
-LONGER = (
-    f"allowed: at most {100 * edges.ALLOWED:g} % (make the patch longer in x: contact.shape, or for a measured map "
-    "surface.extension = 'mirror')"
-)
 
 
 @dataclass(frozen=True)
@@ -81,16 +77,6 @@ class HalfSpaceContact(HalfSpaceGrid):
     def tightened(self, tolerance: float) -> HalfSpaceContact:
         return replace(self, tolerance=tolerance)
 
-    def check(self, state: ContactState) -> None:
-        """Raise `InputError` if the contact reaches the ends of the patch; ``state`` may be on a part of it, or on
-        coarser cells."""
-        share = self._on_the_ends(state)
-        if share > edges.ALLOWED:
-            raise InputError(
-                f"contact.shape: {100 * share:.2g} % of the contact load sits on the edge columns of a "
-                f"patch {self.x.size * self.spacing[0]:.3g} m long; {LONGER}"
-            )
-
     def foretell(self, bodies: Bodies, film: float) -> None:
         """By a dry contact, unless a closed form rules it out (`lubfric.rough.edges`)."""
         line_load = bodies.load / bodies.width
@@ -99,11 +85,12 @@ class HalfSpaceContact(HalfSpaceGrid):
         if not edges.within_reach(self.x, self.sq, line_load, bodies.radius, bodies.e_prime):
             return
         dry = self.tightened(edges.TOLERANCE).close(self.x**2 / (2 * bodies.radius), bodies.load)
-        share = self._on_the_ends(dry)
+        share = self.on_the_ends(dry)
         if edges.clear(share, film / max(self.sq, 1e-300)):
             raise InputError(
                 f"contact.shape: {100 * share:.2g} % of the load of a dry contact sits on the edge columns of a patch "
-                f"{self.x.size * self.spacing[0]:.3g} m long (foretold, no film was solved); {LONGER}"
+                f"{self.x.size * self.spacing[0]:.3g} m long (foretold, no film was solved); "
+                f"allowed: at most {100 * edges.ALLOWED:g} % ({edges.LONGER})"
             )
 
     def _given_way(self, bodies: Bodies) -> bool:
@@ -112,9 +99,7 @@ class HalfSpaceContact(HalfSpaceGrid):
         length = self.x.size * self.spacing[0]
         return self.hardness is not None and self.hardness * length * self.width <= bodies.load
 
-    def _on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns. A coarser cell counts by the part of it that belongs to these
-        columns."""
+    def on_the_ends(self, state: ContactState) -> float:
         if state.pressure is None or self.x.size <= 2:
             return 0.0
         cell, step = state.x[1] - state.x[0], self.spacing[0]

@@ -170,7 +170,6 @@ def _on_line(sample: Sample, contact, state: ContactState) -> Solved:
             return Solved(alone, anchor.point.decision, contact)
     found = balanced(point, replace(here, contact=state, slope=slope))
     found.report.raise_if_failed(found)
-    contact.check(found.contact)
     return Solved(replace(found, contact_load=found.closed.contact_load), anchor.point.decision, contact)
 
 

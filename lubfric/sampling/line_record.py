@@ -32,7 +32,8 @@ class LineRecord:
     - Standard errors at given load: of its mean gap [m], its contact area fraction of A [-] and its contact area per
       length [m].
     - The loads of its short blocks, its area fractions and its contact area per length.
-    - ``columns``: the share of its length in contact at each x (nx,).
+    - ``columns``: the share of its length in contact at each x (nx,); ``ends``: the share of its load on the first and
+      the last.
 
     A line whose film clears its summits has no spots, and no errors of its own.
     """
@@ -47,6 +48,7 @@ class LineRecord:
     plastic_fraction: float = 0.0
     touched_length: float = 0.0
     columns: np.ndarray | float = 0.0
+    ends: float = 0.0
 
 
 def length_of(contact) -> float:
@@ -93,6 +95,7 @@ def record(
         state.plastic_area_fraction,
         float(touched.mean()),
         state.contact_fraction,
+        contact.on_the_ends(state),
     )
 
 
@@ -109,7 +112,7 @@ def _larger(values, step, correlation_length, windows, exact) -> BlockError:
 
 @dataclass(frozen=True)
 class Pooled:
-    """Several lines together, each weighted by its length [m]; names as in `LineRecord`."""
+    """Several lines together, each weighted by its length [m]; names as in `LineRecord`. ``ends``: the largest."""
 
     length: float
     contact_load: float
@@ -121,6 +124,7 @@ class Pooled:
     plastic_fraction: float
     touched_length: float
     columns: np.ndarray
+    ends: float
 
 
 def pooled(records) -> Pooled:
@@ -145,6 +149,7 @@ def pooled(records) -> Pooled:
         mean("plastic_fraction"),
         mean("touched_length"),
         mean("columns"),
+        max(r.ends for r in records),
     )
 
 

@@ -10,7 +10,7 @@ from ..heat.point import Heat, inlet_at
 from ..prepared import Prepared
 from ..scene import Scene
 from ..validity.entry import Validity
-from ..validity.solution import of_deflection, of_film, of_motion
+from ..validity.solution import of_deflection, of_ends, of_film, of_motion
 from .at_a_time import scene_at
 
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
@@ -20,7 +20,11 @@ def judged_outputs(prepared: Prepared, columns) -> tuple[tuple[Validity, ...], .
     """Entries of every output; ``columns``: the arrays over time of a `TransientResult`."""
     count = columns["time"].size
     rows = ({name: float(values[i]) for name, values in columns.items()} for i in range(count))
-    return tuple((*prepared.known, *_of_moment(scene_at(prepared.scene, row["time"]), row)) for row in rows)
+    length = prepared.surface.size[0]
+    return tuple(
+        (*prepared.known, *of_ends(row["edge_load"], length), *_of_moment(scene_at(prepared.scene, row["time"]), row))
+        for row in rows
+    )
 
 
 def _of_moment(scene: Scene, row: dict[str, float]) -> Iterator[Validity]:

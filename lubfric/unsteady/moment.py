@@ -43,6 +43,7 @@ UNITS = {
     "plastic_area_fraction": "-",
     "load_residual": "-",
     "volume_residual": "-",
+    "edge_load": "-",
     "net_inflow": "m2/s",
     "stored": "m2/s",
     "mass_residual": "-",
@@ -98,6 +99,7 @@ def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
         **_areas(sharing, contact),
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": balance,
+        "edge_load": sharing.prepared.contact.on_the_ends(state) if contact.load > 0.0 else 0.0,
         **_mass(sharing, solution),
         "sampling_error": moment_error(
             sharing.prepared.contact,

@@ -57,7 +57,8 @@ class TransientResult(Shown):
         line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
         flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
         the speeds of the moment; heat_change [-], the relative change of f by the two rises; shear_error [-], the
-        estimated relative error of f by the sum of the film's shear stress
+        estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
+        load on the edge columns of its patch
     x : (nx,) [m]
     pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
     report : how the run ended

@@ -108,7 +108,6 @@ def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) 
 def _add(sharing: Sharing, outputs: list[Output], store, now: Progress) -> None:
     """Add the output at the time of ``now``: its row, and its pressures and films."""
     terms = now.solution.terms
-    sharing.prepared.contact.check(now.solution.payload.state)
     row = np.array(list(moment(sharing, now).values()), dtype=float)
     outputs.append((row, np.concatenate([terms.P, terms.H])))
     if store:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ..heat.flash import FAST
 from ..heat.inlet import LARGEST, SLIDING
 from ..lubricant import NO_LIQUID
+from ..rough import edges
 from .entry import Validity
 
 LAMINAR, TURBULENT = 1000.0, 2000.0  # rho U h/eta
@@ -126,6 +127,20 @@ def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Val
         "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
         remedy,
     )
+
+
+def of_ends(share: float, length: float) -> Iterator[Validity]:
+    """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
+    if share > edges.ALLOWED:
+        yield Validity(
+            "share of the contact load on the edge columns of the patch",
+            100 * share,
+            100 * edges.ALLOWED,
+            "%",
+            f"its ends, {length:.3g} m apart, cut the contact off",
+            edges.LONGER,
+            True,
+        )
 
 
 def meaningless(shear) -> bool:

@@ -28,10 +28,10 @@ def balance(model):
     return lubfric.friction(model, 0.003, fields=True).balance
 
 
-def judged(model, balance, scene=PAPER, found=None):
+def judged(model, balance, scene=PAPER, found=None, ends=0.0):
     changed = replace(model, scene=scene)
     found = found or forces(scene, balance.level, balance, balance.slope)
-    return judged_validity(changed, 0.003, replace(balance, forces=found))
+    return judged_validity(changed, 0.003, replace(balance, forces=found), ends)
 
 
 def test_the_paper_scene_needs_none(model, balance):

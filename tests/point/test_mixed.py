@@ -140,7 +140,7 @@ def test_the_plastic_limit_carries_less_separation():
 def test_a_contact_at_the_edge_of_the_patch_is_an_error():
     ridge = np.zeros((96, 1))
     ridge[0] = 5e-6
-    with pytest.raises(lubfric.InputError, match="edge columns"):
+    with pytest.raises(lubfric.LubfricError, match="edge columns"):
         lubfric.friction(with_heights(MODEL, lambda z: z + ridge), 1e-3)
 
 
