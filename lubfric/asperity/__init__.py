@@ -14,6 +14,7 @@ small contacts (delta << R). Summits depend on the grid if the surface has no se
 """
 
 from .contact import DEFINITIONS, AsperityResult, asperity_contact, find_asperities
+from .find import ridges
 from .separation import separation_for_load
 
-__all__ = ["AsperityResult", "DEFINITIONS", "asperity_contact", "find_asperities", "separation_for_load"]
+__all__ = ["AsperityResult", "DEFINITIONS", "asperity_contact", "find_asperities", "ridges", "separation_for_load"]

@@ -78,4 +78,21 @@ def _join_across_edges(label, count, periodic):
     return np.concatenate([[0], number + 1])[label], count
 
 
+def ridges(heights, bearing: float, periodic) -> int:
+    """How many patches above the separation at which ``bearing`` of the map touches have as many cells as the map is
+    long along a periodic axis: they have no end, and their base area is that of the map."""
+    from scipy import ndimage
+
+    touching = heights > np.quantile(heights, 1 - bearing)
+    regions, count = ndimage.label(touching, np.ones((3, 3)))
+    label, count = _join_across_edges(regions, count, periodic)
+    i, j = np.nonzero(label)
+    endless = np.zeros(count + 1, bool)
+    for axis, place in enumerate((i, j)):
+        if periodic[axis]:
+            met = np.unique(label[i, j] * heights.shape[axis] + place) // heights.shape[axis]
+            endless |= np.bincount(met, minlength=count + 1) == heights.shape[axis]
+    return int(endless.sum())
+
+
 FINDERS = {"summits": _summit_finder, "patches": _patch_finder}

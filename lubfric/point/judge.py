@@ -6,7 +6,7 @@ import math
 
 from ..prepared import Prepared
 from ..validity.entry import Validity
-from ..validity.solution import of_deflection, of_ends, of_film, of_motion
+from ..validity.solution import of_deflection, of_ends, of_film, of_motion, of_patches
 from .balance import Balance
 
 
@@ -16,6 +16,7 @@ def judged_validity(prepared: Prepared, speed: float, balance: Balance, ends: fl
     scene, film = prepared.scene, balance.film
     thickness = film.central_film if film is not None else math.nan
     entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
+    entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..asperity import ridges
 from ..heat.flash import FAST
 from ..heat.inlet import LARGEST, SLIDING
 from ..lubricant import NO_LIQUID
@@ -140,6 +141,23 @@ def of_ends(share: float, length: float) -> Iterator[Validity]:
             f"its ends, {length:.3g} m apart, cut the contact off",
             edges.LONGER,
             True,
+        )
+
+
+def of_patches(scene, heights, area: float) -> Iterator[Validity]:
+    """Entries for asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
+    half of their base area, since they are paraboloids."""
+    if scene.contact.model != "patches" or area == 0:
+        return
+    count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
+    if count:
+        yield Validity(
+            "number of asperities that reach round the map",
+            count,
+            0,
+            "",
+            "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length",
+            "contact.model = 'half-space', or 'summits'",
         )
 
 

@@ -1,0 +1,82 @@
+"""Asperities without ends: f then depends on how long the map is, and a caution tells."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.asperity import ridges
+
+FLAT = lubfric.load_scene("flat").with_(
+    contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},
+    surface={"sq": 1e-7, "correlation_length": 24e-6, "acf": "gaussian", "seed": 3},
+    numerics={"tolerance": 3e-3},
+)
+N = 48
+
+
+def ball(size=N):
+    x = np.arange(size) - size / 2
+    return -(x[:, None] ** 2 + x**2)
+
+
+def ridge(slope=0, axis=1):
+    """A ridge that rises by ``slope`` of its period over one period along ``axis``."""
+    i, j = np.indices((N, N))
+    z = np.cos(2 * np.pi * (i - slope * j) / N)
+    return z if axis == 1 else z.T
+
+
+@pytest.mark.parametrize(
+    "heights, periodic, count",
+    [
+        (ball(), (True, True), 0),
+        (ridge(), (True, True), 1),
+        (ridge(), (True, False), 0),
+        (ridge(axis=0), (True, True), 1),
+        (ridge(axis=0), (False, True), 0),
+        (ridge(slope=1), (True, True), 1),
+        (np.tile(ridge()[::2], (2, 1)), (False, True), 2),
+    ],
+)
+def test_ridges_of_simple_maps_are_counted(heights, periodic, count):
+    assert ridges(heights, 0.1, periodic) == count
+
+
+def told(result):
+    return any("reach round the map" in entry.what for entry in result.validity)
+
+
+ROUND = lubfric.generate_surface((64, 64), 8e-6, sq=1e-7, correlation_length=24e-6, seed=3).heights
+WAVY = 1.5e-7 * np.cos(2 * np.pi * np.indices((64, 64))[0] / 32)
+
+
+def of(heights, speed, model="patches"):
+    """Friction of the flat scene on ``heights`` [m], and on two of them, end to end."""
+    found = []
+    for repeats in (1, 2):
+        surface = lubfric.Surface(np.tile(heights, (1, repeats)), (8e-6, 8e-6), periodic_axes=(True, True))
+        scene = FLAT.with_(contact={"shape": surface.shape, "model": model})
+        found.append(lubfric.friction(lubfric.prepare(scene, surface), speed))
+    return found
+
+
+@pytest.mark.parametrize(
+    "heights, speed", [(ROUND, 0.03), (ROUND, 0.025), (WAVY + 0.1 * ROUND, 0.03), (WAVY + 0.1 * ROUND, 0.5)]
+)
+def test_no_caution_where_the_map_may_be_repeated(heights, speed):
+    once, twice = of(heights, speed)
+    assert not told(once) and not told(twice)
+    assert twice.coefficient == pytest.approx(once.coefficient, rel=1e-4)
+
+
+@pytest.mark.parametrize("noise, speed", [(0.1, 0.02), (0.1, 0.025), (0.02, 0.03)])
+def test_a_caution_where_f_depends_on_how_long_the_map_is(noise, speed):
+    once, twice = of(WAVY + noise * ROUND, speed)
+    assert told(once) and told(twice)
+    assert twice.contact_load < 0.8 * once.contact_load
+
+
+def test_a_half_space_is_not_told_and_may_be_repeated():
+    once, twice = of(WAVY + 0.1 * ROUND, 0.02, "half-space")
+    assert not told(once) and once.contact_load > 0
+    assert twice.coefficient == pytest.approx(once.coefficient, rel=3e-3)
