@@ -79,8 +79,8 @@ def _join_across_edges(label, count, periodic):
 
 
 def ridges(heights, bearing: float, periodic) -> int:
-    """How many patches above the separation at which ``bearing`` of the map touches have as many cells as the map is
-    long along a periodic axis: they have no end, and their base area is that of the map."""
+    """How many patches have no ends: above the separation at which ``bearing`` of the map touches, they have a cell at
+    every place along a periodic axis, and go on in the next period."""
     from scipy import ndimage
 
     touching = heights > np.quantile(heights, 1 - bearing)

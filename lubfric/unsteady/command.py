@@ -12,7 +12,7 @@ from ..plain import plain
 from ..prepared import prepare
 from ..run_folder import CHECKPOINT, RunFolder, run_folder, run_name
 from ..scene import Scene
-from ..store import fingerprint
+from ..store import fingerprint, whole_file
 from ..table import read_table, table_bytes
 from ..validity.entry import in_a_cell
 from .checkpoint import STATE
@@ -77,7 +77,9 @@ def plot_again(folder: Path) -> bool:
     source = folder / "history.csv"
     if not source.is_file():
         return False
-    plot_history(folder / "history.png", read_table(source), run_name(folder))
+    columns = read_table(source)
+    with whole_file(folder / "history.png") as part:
+        plot_history(part, columns, run_name(folder))
     return True
 
 

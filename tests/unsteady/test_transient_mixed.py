@@ -311,7 +311,7 @@ def test_a_checkpoint_of_another_map_or_scene_is_refused(tmp_path, changed):
         stopped(MODEL, tmp_path, 3)
 
 
-def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
+def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monkeypatch):
     text = (Path(__file__).parents[2] / "docs" / "examples" / "stop_and_start.toml").read_text()
     scene = tmp_path / "scene.toml"
     scene.write_text(
@@ -325,6 +325,16 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys):
     assert "t = 0.02     of 0.02 s" in capsys.readouterr().err
     (tmp_path / "out" / "history.png").unlink()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
+    drawn = (tmp_path / "out" / "history.png").read_bytes()
+
+    def full_disk(path, *_):
+        Path(path).write_bytes(b"half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("lubfric.unsteady.command.plot_history", full_disk)
+    assert main(["plot", str(tmp_path / "out")]) != 0
+    assert (tmp_path / "out" / "history.png").read_bytes() == drawn
+    assert {p.name for p in (tmp_path / "out").iterdir()} == names
 
 
 @pytest.mark.slow
