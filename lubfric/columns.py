@@ -29,10 +29,11 @@ def read_columns(
 ) -> list[list[float]]:
     """Columns in SI units, found in the first row by the ``names``, which are headings with or without their units.
 
-    A heading may carry its unit: ``time [ms]``, ``load (kN)``. Without one it is SI, unless its unit is among those
-    that a heading ``must_say``. ``units``: the SI unit to which each column must be convertible (None: any of `UNITS`).
-    Comma, semicolon or tab separate; with one of the latter two, a comma is the decimal mark. UTF-8 (with or without a
-    byte-order mark), UTF-16 with one, or Windows-1252.
+    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``. Without one it is SI, unless its unit is
+    among those that a heading ``must_say``; one that ends with another unit without brackets is refused. ``units``: the
+    SI unit to which each column must be convertible (None: any of `UNITS`). Comma, semicolon or tab separate; with one
+    of the latter two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
+    Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
@@ -56,6 +57,8 @@ def read_columns(
         given = name_and_unit(heading)[1]
         if given is None and unit in must_say:
             raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}]")
+        if given is None:
+            _refuse_bare_unit(path, heading, unit)
         factor = _factor(path, name, given, unit)
         columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
     return columns
@@ -65,6 +68,23 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
     """The two parts of a heading; the unit is None if it names none."""
     found = HEADING.fullmatch(heading)
     return (heading, None) if found is None else (found["name"], found["unit"])
+
+
+def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
+    """Raise `InputError` for a ``heading`` without brackets that ends with a unit other than SI (``time/ms``, ``speed
+    mm/s``, ``speed_mm_s``, ``slip %``): its values would be read as SI."""
+    text = " ".join(heading.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
+    for si, table in UNITS.items():
+        for unit, factor in table.items():
+            if expected != si and (expected is not None or len(unit) < 2):  # a letter is a name as well
+                continue
+            spellings = {re.escape(spelling) for spelling in (unit, unit.replace("/", "_"), unit.replace(" ", ""))}
+            before = "" if unit == "%" else r"(?:^|[^A-Za-z0-9])"
+            if unit and factor != 1.0 and re.search(rf"{before}(?:{'|'.join(sorted(spellings))})[^A-Za-z0-9%]*$", text):
+                raise InputError(
+                    f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; put "
+                    f"the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
+                )
 
 
 def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:

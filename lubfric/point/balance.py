@@ -129,7 +129,7 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
             partial(volume_residual, point),
             begin,
             step=FIRST_STEP if start is None else NEXT_STEP,
-            bounds=BOUNDS,
+            bounds=(_heaviest(point), BOUNDS[1]),
             tolerance=point.settings.balance_tolerance,
             slope=foretold,
             first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
@@ -145,6 +145,12 @@ def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial |
     slope = root.slope or foretold
     gap_slope = slope if len(root.history) > 1 else _slope_of_contact(point, found)
     return _balance(point, found, residuals, root.history, root.status, (), slope, gap_slope)
+
+
+def _heaviest(point: OperatingPoint) -> float:
+    """The split at which the contact carries all that it can."""
+    load, most = point.scene.bodies.load, point.contact.capacity
+    return max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
 
 def _slope_of_contact(point: OperatingPoint, found: Trial) -> float | None:

@@ -6,6 +6,7 @@ always solved as it stands. `lubfric.prepare` takes one from outside (``contact`
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -109,6 +110,11 @@ class RoughContact:
     def nominally_flat(self) -> bool:
         """Whether the load is spread evenly over the Hertz strip, without a distribution along x."""
         return False
+
+    @property
+    def capacity(self) -> float:
+        """The largest load [N] that it can carry under any film; infinite if `close` has to tell."""
+        return math.inf
 
     @property
     def grid(self) -> Grid | None:

@@ -40,9 +40,7 @@ class FlatContact(RoughContact):
         contact model of the curve cannot carry."""
         pressure, heaviest = load / self.area, float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + 1e-12):
-            raise ConvergenceError(
-                f"the contact model carries {heaviest * self.area:.4g} N at most, asked for {load:.4g} N"
-            )
+            raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most, asked for {load:.4g} N")
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
         return ContactState(
             mean_gap=gap,
@@ -64,6 +62,10 @@ class FlatContact(RoughContact):
     @property
     def name(self) -> str:
         return "flat periodic curve"
+
+    @property
+    def capacity(self) -> float:
+        return float(self.curve.mean_pressure[0] * self.area)
 
     @property
     def nominally_flat(self) -> bool:

@@ -76,7 +76,22 @@ def whole_map(scene: Scene) -> Surface:
             with named(name):
                 found[name] = generated_map(rough, domain, name)
     maps = [found[name] for _, name in bodies]
-    return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+    return maps[0] if len(maps) == 1 else maps[0].combined(_beside(scene, maps[1]))
+
+
+def _beside(scene: Scene, second: Surface) -> Surface:
+    """The map of the ``second`` body, mirrored in y if that of the first is a mirror image.
+
+    A map whose axes were exchanged (`measured_map`) is the mirror image of its body in y. For one map, or for two
+    mirrored ones, that changes no friction. If only one of two is mirrored, the other has to be mirrored too: else
+    oblique ridges that cross would run side by side.
+    """
+    axes = [rough.motion_axis for rough, _ in rough_bodies(scene) if rough.file is not None]
+    if set(axes) != {"x", "y"}:
+        return second
+    mask = None if second.mask is None else second.mask[:, ::-1]
+    note = "mirrored in y: one of the two maps has its axes exchanged"
+    return replace(second, heights=second.heights[:, ::-1], mask=mask, notes=(*second.notes, note))
 
 
 def over(surface: Surface, domain: ContactDomain) -> ContactDomain:

@@ -263,6 +263,7 @@ def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
     [
         ("U [m/s],mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.' .did you mean"),
         ("U,mu\n1,0.1\n", {"speed": "U", "coefficient": "mu"}, "names no unit"),
+        ("slip %,mu\n1,0.1\n", {"slide_roll_ratio": "slip %", "coefficient": "mu"}, "names % without brackets"),
         ("U [rpm],mu\n1,0.1\n", {"speed": "U [rpm]", "coefficient": "mu"}, "'rpm' is not known"),
         ("U [m/s],mu\n1,x\n", {"speed": "U [m/s]", "coefficient": "mu"}, "not a number"),
         ("U [m/s],mu\n1,0.1,3\n", {"speed": "U [m/s]", "coefficient": "mu"}, "line 2: 3 values for 2 headings"),

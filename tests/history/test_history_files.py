@@ -82,6 +82,23 @@ def test_bad_files_are_refused_by_name_and_line(tmp_path, content, words):
     assert "run.csv" in str(caught.value)
 
 
+@pytest.mark.parametrize("heading", ["U mm/s", "U/mm/s", "speed_mm_s", "U in km/h", "v {cm/s}", "mm/s", "U, µm/s"])
+def test_a_unit_without_brackets_is_not_taken_for_si(tmp_path, heading):
+    path = write(tmp_path, f"time;{heading}\n0;100\n1;200\n")
+    for unit in ("m/s", None):
+        with pytest.raises(lubfric.InputError, match=r"without brackets.*\[m/s\]"):
+            read_history(path, heading, unit=unit)
+    with pytest.raises(lubfric.InputError, match="names ms without brackets"):
+        read_history(write(tmp_path, "t/ms;U\n0;1\n1;2\n"), "U", time_column="t/ms")
+
+
+@pytest.mark.parametrize("heading", ["U m/s", "U_m_s", "Umm", "alarms", "mm/s (m/s)", "h", "P", "rpm"])
+def test_a_heading_that_names_no_other_unit_is_si(tmp_path, heading):
+    path = write(tmp_path, f"time s;{heading}\n0;100\n1;200\n")
+    for unit in ("m/s", None):
+        assert read_history(path, heading, time_column="time s", unit=unit).values == (100.0, 200.0)
+
+
 @pytest.mark.parametrize("repeat", ["no", 0, None, 1.0])
 def test_repeat_is_a_truth_value(repeat):
     with pytest.raises(lubfric.InputError, match="repeat"):

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import lubfric
-from lubfric.asperity import find_asperities
+from lubfric.asperity import asperity_contact, find_asperities
 from lubfric.prepared import prepare
 from lubfric.rough.asperities import AsperityContact
 from lubfric.rough.asperity_curve import asperity_curve
@@ -115,6 +116,35 @@ def test_the_curve_is_the_law(model):
     assert np.all(np.diff(curve.mean_pressure) < 0) and np.all(np.diff(curve.mean_gap) > 0)
     plane = asperity_curve(z, 2e-6, E, heaviest=1e6, definition=model, reading="mean-plane")
     assert plane.touching_gap == pytest.approx(z.max())
+
+
+def test_a_film_carries_what_patches_cannot():
+    """The contact carries less than the load, and the search for their balance begins above what it carries. One map,
+    and two of them end to end; the contact's load by the asperities at the gap found."""
+    scene = FLAT.with_(bodies={"load": 8.0}, contact={"shape": (64, 64), "model": "patches"})
+    rough = lubfric.generate_surface((64, 64), 8e-6, sq=1e-7, correlation_length=24e-6, seed=3)
+    found = []
+    for repeats in (1, 2):
+        surface = lubfric.Surface(np.tile(rough.heights, (1, repeats)), rough.spacing, periodic_axes=(True, True))
+        model = prepare(scene.with_(contact={"shape": surface.shape}), surface)
+        assert model.contact.capacity < 0.8 * scene.bodies.load
+        found.append(lubfric.friction(model, 0.01))
+    once, twice = found
+    assert twice.coefficient == pytest.approx(once.coefficient, rel=2e-3)
+    assert once.contact_load < 0.9 * model.contact.capacity and abs(once.volume_residual) < 1e-3
+    at_that_gap = asperity_contact(
+        rough.heights,
+        rough.spacing,
+        scene.bodies.e_prime,
+        separation=separation_of(rough.heights, once.mean_gap),
+        definition="patches",
+    )
+    assert at_that_gap.mean_pressure * model.contact.area == pytest.approx(once.contact_load, rel=0.03)
+
+
+def separation_of(heights, gap):
+    """Separation at which the mean of what is open is ``gap`` [m]."""
+    return brentq(lambda s: np.maximum(s - heights, 0).mean() - gap, heights.min(), heights.max())
 
 
 def test_a_load_that_patches_cannot_carry_is_an_error():

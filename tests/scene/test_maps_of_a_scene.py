@@ -69,6 +69,33 @@ def test_the_order_of_two_measured_bodies_does_not_matter(maps):
     assert found[0] == pytest.approx(found[1], rel=5e-3)
 
 
+def oblique(seed, degrees, count=128, step=1e-6):
+    """Ridges (m) of random heights and distances, whose normal lies at an angle to x."""
+    rng, angle = np.random.default_rng(seed), np.deg2rad(degrees)
+    x = (np.arange(count) - count / 2) * step
+    along = x[:, None] * np.cos(angle) + x[None, :] * np.sin(angle)
+    z = sum(np.cos(2 * np.pi * along / rng.uniform(8e-6, 25e-6) + rng.uniform(0, 6.3)) for _ in range(20))
+    return z / z.std() * 80e-9
+
+
+@pytest.mark.parametrize("turned", [("counterface",), ("surface",), ("surface", "counterface")])
+def test_a_sample_that_was_measured_turned_by_a_right_angle_slides_the_same(tmp_path, turned):
+    """Point (x, y) of the body comes to (-y, x) of the file, in which its x lies along y: turned, not mirrored."""
+    texts = {"numerics": "[numerics]\nsampling = 'patch'\n"}
+    for name, seed in (("surface", 1), ("counterface", 2)):
+        z = oblique(seed, 60)
+        np.save(tmp_path / f"{name}.npy", z)
+        np.save(tmp_path / f"{name}-turned.npy", np.array([[z[y, -1 - x] for y in range(128)] for x in range(128)]))
+        texts[name] = f"[{name}]\nfile = '{name}.npy'\nspacing = 1e-6\n"
+    other = {name: texts[name].replace(".npy'", "-turned.npy'\nmotion_axis = 'y'") for name in turned}
+    as_it_lies, after = (
+        lubfric.friction(lubfric.load_scene(scene_file(tmp_path, "".join(parts.values()))), 0.03)
+        for parts in (texts, texts | other)
+    )
+    assert 0.1 < as_it_lies.contact_load / as_it_lies.film_load < 10
+    assert after.coefficient == pytest.approx(as_it_lies.coefficient, rel=1e-5)
+
+
 @pytest.mark.parametrize("generated", ["surface", "counterface"])
 def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path, generated):
     """Repeated along the map, the summits of one patch would stand for all of it, and its stated error would be too
