@@ -100,7 +100,8 @@ def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
         off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
     carried = carried_stress(pressure)
     above = np.maximum(np.abs(tau) - carried, 0.0)
-    more, rolling = _tails(sharing, scene, time, sliding, solution)
+    thinned = tau[[0, -1]] * h[[0, -1]] if stress is not None else np.full(2, lubricant.viscosity * sliding)
+    more, rolling = _tails(sharing, time, thinned, solution)
     width = sharing.width
     return ShearForce(
         width * (couette + more),
@@ -112,12 +113,13 @@ def _shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
     )
 
 
-def _tails(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: StepSolution) -> tuple[float, float]:
-    """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid."""
+def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: StepSolution) -> tuple[float, float]:
+    """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
+    film [N/m] at both ends. Beyond them it stays the same: at any film, its own heat thins it by the same factor."""
     setting, t = sharing.setting, solution.terms
     p, grid, now = setting.problem, setting.grid, setting.conditions(time)
     couette = rolling = 0.0
-    for end, sign in ((0, 1.0), (-1, -1.0)):
+    for end, sign, drag in ((0, 1.0, drags[0]), (-1, -1.0, drags[1])):
         if t.P[end] > 0.0:
             flow = sign * t.flux[end] + t.stored[end]
             reach, tail = outside_shear(
@@ -129,7 +131,7 @@ def _tails(sharing: Sharing, scene: Scene, time: float, sliding: float, solution
                 flow,
                 t.stored[end] / grid.weights[end],
             )
-            couette += scene.lubricant.viscosity * sliding * reach * p.length_unit / p.film_unit
+            couette += float(drag) * reach * p.length_unit / p.film_unit
             rolling -= sign * tail * p.film_unit * p.pressure_unit
     return couette, rolling
 

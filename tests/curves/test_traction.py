@@ -3,6 +3,7 @@
 import csv
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -57,7 +58,12 @@ def test_a_refused_ratio_is_marked_and_the_others_kept():
     assert isinstance(curve.errors[1], lubfric.ValidityError) and any("not valid" in v for v in curve.validity)
 
 
-def test_command_writes_the_curve(tmp_path, capsys):
+def full_disk(path, *_):
+    Path(path).write_bytes(b"half")
+    raise OSError(28, "No space left on device")
+
+
+def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     (tmp_path / "map.npy").write_bytes(b"")
     np.save(tmp_path / "map.npy", np.random.default_rng(1).normal(0, 2e-8, (128, 64)))
     (tmp_path / "s.toml").write_text(
@@ -84,6 +90,9 @@ def test_command_writes_the_curve(tmp_path, capsys):
     drawn = (out / "traction.png").read_bytes()
     (out / "traction.png").unlink()
     assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
+    with monkeypatch.context() as full:
+        full.setattr("lubfric.curves.command.plot_traction", full_disk)
+        assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
     assert "holds a traction curve" in capsys.readouterr().err
     (out / "traction.csv").write_text("ratio [-],speed [m/s]\n0.1,")

@@ -3,6 +3,7 @@
 import json
 import time
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.cli import main
+from lubfric.fitting.fit import _numerical_variance
 from lubfric.fitting.parameters import parameters_of
 from lubfric.fitting.predict import jacobian, predictor, shares_contact
 
@@ -386,3 +388,21 @@ def test_the_time_of_a_fit_is_foretold():
     assert "depend on a parameter" in lubfric.explain_fit(SCENE, measured, {"surface.sq": (5e-8, 2e-7)})
     with pytest.raises(lubfric.InputError, match="a number of"):
         lubfric.explain_fit(SCENE, measured, {"numerics.tolerance": (0.01, 0.1)})
+
+
+def test_one_parameter_without_effect_is_not_determined_and_no_error():
+    key = "lubricant.limiting_stress_coefficient"
+    scene = SCENE.with_(lubricant={"limiting_stress_coefficient": 0.5})
+    curve = lubfric.stribeck(scene, SPEEDS[:3]).coefficient
+    found = lubfric.fit(scene, lubfric.Measured(SPEEDS[:3], curve), {key: (0.3, 0.6)})
+    assert found.undetermined == (key,) and np.isfinite(found.covariance).all()
+    low, high = found.intervals[key]
+    assert high - low >= 0.3
+
+
+def test_an_error_of_f_that_is_not_known_is_taken_to_be_the_tolerance():
+    curve = SimpleNamespace(
+        points=[SimpleNamespace(uncertainty=SimpleNamespace(numerical=told)) for told in (0.02, np.nan, np.inf)]
+    )
+    found = _numerical_variance(SimpleNamespace(tolerance=0.01), curve, np.array([1.0, 3.0, 4.0]))
+    assert found == pytest.approx((0.02**2 + 0.03**2 + 0.04**2) / 3, rel=1e-12)

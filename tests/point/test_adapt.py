@@ -12,6 +12,7 @@ import lubfric
 from lubfric import budget
 from lubfric.film.contract import LeftOut
 from lubfric.point.balance import balanced
+from lubfric.point.forces import forces
 from lubfric.point.grids import WORST_GRID, coarser_grids, grid_error, on_enough_cells
 from lubfric.point.one_grid import Stage, needed_settings, on_grid
 from lubfric.point.operating_point import OperatingPoint, Settings
@@ -24,6 +25,7 @@ from lubfric.point.tolerances import (
     first_film_tolerance,
     least_cells,
 )
+from lubfric.report import ITERATION_LIMIT
 from lubfric.rough.contract import Grid
 
 PAPER = lubfric.load_scene("paper")
@@ -141,6 +143,48 @@ def test_a_balance_looser_than_f_needs_is_found_again():
     assert abs(found.balance.contact.volume_residual) <= budget.SLACK * allowed < 0.02
 
 
+def fails_from(monkeypatch, number):
+    """Balances of `on_grid`, of which all from ``number`` on are not closed: f jumps there."""
+    found, close = [], balanced
+
+    def jumping(at, *arguments):
+        balance = close(at, *arguments)
+        if len(found) >= number:
+            balance = replace(balance, report=replace(balance.report, status=ITERATION_LIMIT))
+        found.append(balance)
+        return balance
+
+    monkeypatch.setattr("lubfric.point.one_grid.balanced", jumping)
+    return found
+
+
+def test_the_last_balance_that_closed_stands(monkeypatch):
+    """Asked again more closely it fails: f is known as closely as before, and that is an answer."""
+    at = point(model(tolerance=1e-4), balance_tolerance=0.02)
+    found = fails_from(monkeypatch, 1)
+    stands = on_grid(at, at.contact, None)
+    assert len(found) > 1 and stands.balance is found[0] and stands.balance.report.converged
+
+
+def test_a_balance_that_fails_under_a_better_film_is_not_replaced_by_one_under_a_worse(monkeypatch):
+    rough = EvenFilmLevel(name="rough", stiffness=1e-4, neglects=("a",), left=0.1)
+    made = model(levels=(rough, FILM))
+    found = fails_from(monkeypatch, 1)
+    failed = on_grid(point(made), made.contact, None)
+    assert len(found) > 1 and failed.point.settings.level is FILM and not failed.balance.report.converged
+
+
+def test_a_balance_that_did_not_close_asks_for_a_contact_as_tight_as_it_was_asked_for():
+    """f hardly feels the gap, so its own tolerance would not: but with a contact that scatters by more than the balance
+    is asked for, no balance can close."""
+    made = lubfric.prepare(PAPER.with_(contact={"shape": (96, 96), "spacing": 0.9e-6}))
+    asked = 1e-2 * made.contact.tolerance
+    at = stage(point(made, 0.01, balance_tolerance=0.02), sensitivity=1e-3, by_load=1e-3)
+    at = replace(at, point=replace(at.point, settings=replace(at.point.settings, balance_tolerance=asked)))
+    open_ = replace(at.balance, report=replace(at.balance.report, status=ITERATION_LIMIT))
+    assert needed_settings(replace(at, balance=open_)).contact_tolerance < made.contact.tolerance
+
+
 def test_a_part_that_does_not_hold_gives_way_to_the_whole():
     @dataclass(frozen=True)
     class Whole(Spring):
@@ -195,6 +239,24 @@ def test_a_contact_that_carries_little_is_felt_little():
         assert moved == pytest.approx(one.forces.by_load, rel=0.06) and one.forces.gap_sensitivity <= one.forces.by_load
         shares.append(one.contact_load / PAPER.bodies.load)
     assert 0 < shares[-1] < 0.1 and one.forces.by_load < 0.4 * one.forces.sensitivity
+
+
+@pytest.mark.parametrize("area", [0.3, 0.9])
+def test_the_shear_of_the_film_follows_the_area_that_the_contact_leaves_open(area):
+    """An error of the film moves a share e of its load to the contact, whose area A grows in proportion: by how much
+    the rest of A changes, by differences, beside the same film over a contact without area."""
+    at = point(model(), 0.05)
+    found = replace(balanced(at), contact_load=0.5, film_load=5.0)
+    covered, bare = (
+        forces(at.scene, FILM, replace(found, contact=replace(found.contact, real_contact_area_fraction=share)))
+        for share in (area, 0.0)
+    )
+    e = 1e-6
+    more = area * (1 + e * found.film_load / found.contact_load)
+    open_ = (area - more) / (1 - area) / e
+    moved = (covered.sensitivity - bare.sensitivity) * (bare.boundary + bare.shear.total)
+    assert moved == pytest.approx((max(1.0, -open_) - 1) * bare.shear.felt, rel=1e-5)
+    assert open_ < -1
 
 
 @pytest.mark.parametrize("speed", [0.14, 0.16, 0.18, 0.2])

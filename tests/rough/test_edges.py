@@ -7,6 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.rough.edges import ALLOWED, clear, within_reach
+from lubfric.unsteady.judge import judged_outputs
 
 BASE = lubfric.load_scene("paper").with_(
     bodies={"load": 40.0, "hardness": None, "width": 2e-3},
@@ -110,7 +111,9 @@ def test_what_only_the_solve_can_tell_is_refused_with_its_result_or_kept_and_mar
     """Not an error of input, which comes before any work: the whole result goes with it, and the share on the ends is
     that of its pressures."""
     scene = random_patch(UNFORETOLD)
-    with pytest.raises(lubfric.ValidityError, match="edge columns.*longer in x: contact.shape") as refused:
+    apart = f"{scene.contact.shape[0] * scene.contact.spacing:.3g} m apart"
+    assert scene.contact.shape[0] != scene.contact.shape[1]
+    with pytest.raises(lubfric.ValidityError, match=f"edge columns.*{apart}.*longer in x: contact.shape") as refused:
         lubfric.friction(scene)
     kept = lubfric.friction(scene.with_(numerics={"accept": True}), fields=True)
     pressure = kept.pressure
@@ -136,7 +139,14 @@ def test_a_line_and_a_run_in_time_tell_the_ends_too(tmp_path):
     with pytest.raises(lubfric.ValidityError, match="edge columns") as refused:
         lubfric.friction(line)
     assert refused.value.result.line is not None
+    in_time = scene.with_(transient=lubfric.Transient(duration=3e-3))
     with pytest.raises(lubfric.ValidityError, match="edge columns") as refused:
-        lubfric.transient(scene.with_(transient=lubfric.Transient(duration=3e-3)))
+        lubfric.transient(in_time)
     run = refused.value.result
     assert run.columns["edge_load"].max() > ALLOWED and all(any(e.severe for e in found) for found in run.entries)
+    apart = f"{nx * step:.3g} m apart"
+    assert all(apart in entry.text for found in run.entries for entry in found if entry.severe)
+    shares = np.linspace(0, 1, run.time.size) * 2 * ALLOWED
+    entries = judged_outputs(lubfric.prepare(in_time), run.columns | {"edge_load": shares})
+    told = [[entry.value for entry in found if "edge columns" in entry.what] for found in entries]
+    assert shares.size > 2 and told == [[pytest.approx(100 * share)] if share > ALLOWED else [] for share in shares]

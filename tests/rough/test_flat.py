@@ -28,6 +28,18 @@ def test_the_mean_of_a_film_that_opens_at_the_ends_of_the_strip(opens):
     assert carried.mean_gap == pytest.approx(mean, rel=2e-3) or load == pytest.approx(SCENE.bodies.load)
 
 
+@pytest.mark.parametrize("share", [0.02, 0.3])
+def test_a_film_that_opens_at_the_ends_carries_what_an_even_one_of_its_mean_does(share):
+    """The mean in closed form is the gap under a known load, which has to come back."""
+    contact, opens = lubfric.prepare(SCENE).contact, 0.05
+    b, load = SCENE.bodies.half_width, share * SCENE.bodies.load
+    gap = contact.close(np.zeros(contact.x.size), load).mean_gap
+    rise = 0.5 * gap / (opens * (1 - math.exp(-1 / opens)))
+    film = 0.5 * gap + rise * np.exp(-(b - np.abs(contact.x)) / (opens * b))
+    carried, state = contact.carry(film)
+    assert carried == pytest.approx(load, rel=1e-3) and state.mean_gap == pytest.approx(gap, rel=1e-4)
+
+
 def test_it_touches_evenly_from_end_to_end_of_the_strip():
     contact = lubfric.prepare(SCENE).contact
     b = SCENE.bodies.half_width

@@ -5,6 +5,7 @@ import pytest
 
 import lubfric
 from lubfric.asperity import ridges
+from lubfric.validity.solution import of_patches
 
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},
@@ -36,10 +37,22 @@ def ridge(slope=0, axis=1):
         (ridge(axis=0), (False, True), 0),
         (ridge(slope=1), (True, True), 1),
         (np.tile(ridge()[::2], (2, 1)), (False, True), 2),
+        (np.eye(N), (True, True), 1),
+        (np.where(np.arange(N) == 5, -2.0, ridge()), (True, True), 0),
     ],
 )
 def test_ridges_of_simple_maps_are_counted(heights, periodic, count):
     assert ridges(heights, 0.1, periodic) == count
+
+
+@pytest.mark.parametrize(
+    "geometry, axis, reaches_round",
+    [("flat", 0, True), ("flat", 1, True), ("cylinder", 0, False), ("cylinder", 1, True)],
+)
+def test_a_map_under_a_cylinder_repeats_along_the_cylinder_only(geometry, axis, reaches_round):
+    scene = FLAT.with_(contact={"geometry": geometry})
+    crest_in_the_middle = np.roll(ridge(axis=axis), N // 2, (0, 1))
+    assert [entry.value for entry in of_patches(scene, crest_in_the_middle, 0.05)] == [1.0] * reaches_round
 
 
 def told(result):

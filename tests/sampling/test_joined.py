@@ -1,11 +1,14 @@
 """Lines that are each in balance, and the balance of all of them under one film."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+import lubfric
+from lubfric.sampling import line_friction
 from lubfric.sampling.joined import joined
 from lubfric.sampling.response import Slopes, respond
 
@@ -62,3 +65,37 @@ def test_the_exponent_is_that_of_a_thinning_film_over_an_exponential_contact():
     assert found.film_exponent == pytest.approx(thinning * film / sigma, rel=1e-3)
     moved = found.gap_of_load(1e-4)
     assert 1 / (1 + np.exp(split + found.split * moved)) == pytest.approx(contact_load / TOTAL * (1 + 1e-4), rel=1e-6)
+
+
+def test_the_answer_carries_the_joined_load_on_the_area_that_it_needs(monkeypatch):
+    """Lines of loads and lengths that are far apart, without an effect of the grid: the common load by bisection, the
+    contact area by its secant from the mean load of the lines on, and what is left open as an error of the gap."""
+    samples, found_of = [], line_friction._found
+    monkeypatch.setattr(line_friction, "_found", lambda sample: samples.append(sample) or found_of(sample))
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.05})
+    lubfric.friction(scene, 0.06)
+    sample = samples[-1]
+    assert len(sample.records) > 2
+    factors = np.linspace(0.2, 3.0, len(sample.records))
+    records = tuple(replace(r, contact_load=k * r.contact_load) for r, k in zip(sample.records, factors))
+    sample = replace(sample, records=records, anchor=replace(sample.anchor, grid=()))
+    found, response = found_of(sample), sample.anchor.response
+
+    total, n = scene.bodies.load, response.film_exponent
+    lengths, loads = np.array([(r.length, r.contact_load) for r in records]).T
+    mean, low, high = np.average(loads, weights=lengths), loads.min(), loads.max()
+    for _ in range(60):
+        common = (low + high) / 2
+        asked = np.average(loads * ((total - common) / (total - loads)) ** n, weights=lengths)
+        low, high = (common, high) if asked > common else (low, common)
+    assert common > 1.02 * mean
+    load, left_open = (common + mean) / 2, (common - mean) / 2
+    assert found.point.balance.contact_load == pytest.approx(load, rel=1e-9)
+    assert found.point.balance.film_load == pytest.approx(total - load, rel=1e-9)
+    area = np.average([r.area_fraction for r in records], weights=lengths)
+    grown = area + response.slopes.area * (load - mean) / scene.bodies.width
+    assert found.point.balance.contact.real_contact_area_fraction == pytest.approx(grown, rel=1e-9)
+    split = np.log((total - load * (1 + 1e-6)) / (load * (1 + 1e-6))) - np.log((total - load) / load)
+    per_load = abs(split / response.split) / 1e-6  # of the gap [m], by a relative change of the load
+    near = per_load * (1 + response.odds) / response.odds * (total - load) / total  # at the odds of the response
+    assert found.unshared == pytest.approx(near * left_open / load, rel=1e-4)

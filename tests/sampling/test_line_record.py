@@ -36,3 +36,9 @@ def test_lines_together_carry_what_they_carry_when_joined_to_one(speed):
     if speed > 0.04:  # a mean of the logarithms does not
         assert abs(np.exp(np.mean(np.log(loads))) / joined - 1) > 0.5 * scatter**2
         assert max(loads) > 1.5 * min(loads)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_one_line_that_is_cut_off_is_not_hidden_by_the_others(order):
+    records = [LineRecord(1.0, 2.0, spots=np.ones(3), ends=share) for share in (0.04, 0.0, 0.01)]
+    assert pooled(records[::order]).ends == 0.04

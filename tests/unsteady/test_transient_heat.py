@@ -44,6 +44,20 @@ def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     assert off.coefficient[-1] == pytest.approx(cold.coefficient, rel=5e-3) and off.flash_temperature_rise[-1] == 0
 
 
+@pytest.mark.parametrize("speed, ratio", [(5.0, 20.0), (-20.0, 2.0), (20.0, -2.0)])
+def test_the_film_far_before_a_hot_contact_is_as_thin_as_that_of_steady_motion(speed, ratio):
+    """Cold, the film beyond the ends of the grid alone would raise f by 5 to 30 %."""
+    scene = lubfric.load_scene("paper").with_(
+        lubricant={"grade": "ISO VG 220", "viscosity_index": 95, "temperature_celsius": 40},
+        motion={"entrainment_speed": speed, "slide_roll_ratio": ratio},
+        numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "accept": True},
+    )
+    steady, found = lubfric.friction(scene), in_time(scene, duration=1e-3)
+    assert steady.inlet_film_factor < 0.1
+    assert found.couette_force[-1] == pytest.approx(math.copysign(steady.couette_force, speed * ratio), rel=8e-3)
+    assert abs(found.coefficient[-1] - steady.coefficient) < 8e-3 * steady.couette_force / scene.bodies.load
+
+
 def test_a_slow_ramp_is_as_hot_as_every_speed_it_passes():
     found = in_time(BASE, duration=1.0, outputs=4, speed=Ramp(start=1.0, end=3.0, until=1.0))
     steady = [lubfric.friction(BASE, float(u)) for u in found.entrainment_speed]
