@@ -213,24 +213,24 @@ def _write_more(folder: RunFolder, prepared, curve, record: dict, more: Extras) 
         folder.write("report.html", report_page(prepared, curve, record, images))
 
 
-def parse_speeds(option: str, text: str | None) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in m/s, of a command's ``option``."""
+def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in ``unit``, of a command's ``option``; none above ``most``."""
     if text is None:
         return []
     refusal = InputError(
         f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
-        f"1 <= count <= {MOST_SPEEDS}, in m/s"
+        f"1 <= count <= {MOST_SPEEDS}, in {unit}"
     )
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
-        raise InputError(f"{option} {validate.shown(text)}: a comma separates speeds; write a point in decimals, 0.01")
+        raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
     try:
         numbers = [float(word) for word in words]
     except ValueError:
         raise refusal from None
     for speed in numbers[:2] if ranged else numbers:
-        validate.number(option, speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+        validate.number(option, speed, unit, minimum=-most, maximum=most)
     if not ranged:
         return numbers
     if len(numbers) != 3 or not (

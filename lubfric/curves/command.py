@@ -16,6 +16,7 @@ from ..prepared import Prepared, prepare
 from ..run_folder import run_folder, run_name
 from ..run_sweep import parse_speeds
 from ..scene import Scene
+from ..scene.motion import LARGEST_RATIO
 from ..store import fingerprint, whole_file
 from ..sweep import QUANTITIES
 from ..sweep.table import curve_table, uncertainty_columns
@@ -26,7 +27,7 @@ from .traction import TractionResult, traction
 
 def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     """Solve, write traction.csv, traction.png and, last, result.json to ``out``, and say what does not hold."""
-    begun, asked = time.perf_counter(), parse_speeds("--ratios", ratios)
+    begun, asked = time.perf_counter(), parse_speeds("--ratios", ratios, "(slide-roll ratio)", LARGEST_RATIO)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     say(prepared.surface.describe())
