@@ -76,7 +76,7 @@ def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
     text = " ".join(heading.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
     for si, table in UNITS.items():
         for unit, factor in table.items():
-            if expected != si and (expected is not None or len(unit) < 2):  # a letter is a name as well
+            if expected != si and (expected is not None or unit.isalpha() and len(unit) < 2):  # a letter may be a name
                 continue
             spellings = {re.escape(spelling) for spelling in (unit, unit.replace("/", "_"), unit.replace(" ", ""))}
             before = "" if unit == "%" else r"(?:^|[^A-Za-z0-9])"

@@ -159,8 +159,9 @@ def test_a_cut_adaptive_curve_goes_on_to_the_same_bits(auto, tmp_path, lost):
     np.testing.assert_array_equal(again.coefficient, auto.coefficient)
 
 
-def test_fields_of_an_adaptive_curve():
-    curve = lubfric.stribeck(SCENE.with_(numerics={"tolerance": 0.1}), "auto", fields=[0.02])
+@pytest.mark.parametrize("asked", [0.02, -0.02])
+def test_fields_of_an_adaptive_curve(asked):
+    curve = lubfric.stribeck(SCENE.with_(numerics={"tolerance": 0.1}), "auto", fields=[asked])
     (kept,) = [p for p in curve.points if p.balance is not None]
     assert kept.speed == 0.02 and kept.balance.contact.pressure.shape == (64, 64)
 

@@ -92,6 +92,14 @@ def test_a_unit_without_brackets_is_not_taken_for_si(tmp_path, heading):
         read_history(write(tmp_path, "t/ms;U\n0;1\n1;2\n"), "U", time_column="t/ms")
 
 
+@pytest.mark.parametrize("heading", ["slip %", "slip%", "slip, %", "SRR100%"])
+def test_per_cent_without_brackets_are_not_taken_for_shares(tmp_path, heading):
+    path = write(tmp_path, f"time;{heading}\n0;5\n1;10\n")
+    for unit in ("-", None):
+        with pytest.raises(lubfric.InputError, match="names % without brackets"):
+            read_history(path, heading, unit=unit)
+
+
 @pytest.mark.parametrize("heading", ["U m/s", "U_m_s", "Umm", "alarms", "mm/s (m/s)", "h", "P", "rpm"])
 def test_a_heading_that_names_no_other_unit_is_si(tmp_path, heading):
     path = write(tmp_path, f"time s;{heading}\n0;100\n1;200\n")

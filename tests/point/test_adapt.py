@@ -259,6 +259,19 @@ def test_the_shear_of_the_film_follows_the_area_that_the_contact_leaves_open(are
     assert open_ < -1
 
 
+def test_a_gap_is_felt_by_the_film_as_its_load_thickens_it():
+    """Barus' law: beside what f feels of the film itself, half of alpha p of the film's friction, over the slope."""
+    scene = PAPER.with_(numerics={"sampling": "patch"}, lubricant={"viscosity_law": "barus"})
+    made = lubfric.prepare(scene.with_(contact={"shape": (64, 64), "spacing": 0.8e-6}))
+    found = balanced(point(made, 0.03, level=made.film_levels[-1]))
+    plain = forces(made.scene, made.film_levels[-1], found, None, 0.25)
+    share, force = found.contact_load / scene.bodies.load, abs(plain.boundary + plain.shear.total)
+    more = plain.by_load * 0.25 / (0.5 * share) - plain.sensitivity
+    thicker = scene.lubricant.pressure_viscosity_coefficient * found.film.pressure.max()
+    assert share > 0 and thicker > 0.1
+    assert more * force == pytest.approx(0.5 * thicker * plain.shear.felt, rel=1e-9)
+
+
 @pytest.mark.parametrize("speed", [0.14, 0.16, 0.18, 0.2])
 def test_a_contact_read_from_a_curve_is_felt_as_little_at_the_first_trial(speed):
     """A balance that is met at once has no slope of its own, and that of the curve is enough. Against the change of f

@@ -53,6 +53,8 @@ def test_a_map_under_a_cylinder_repeats_along_the_cylinder_only(geometry, axis, 
     scene = FLAT.with_(contact={"geometry": geometry})
     crest_in_the_middle = np.roll(ridge(axis=axis), N // 2, (0, 1))
     assert [entry.value for entry in of_patches(scene, crest_in_the_middle, 0.05)] == [1.0] * reaches_round
+    for model in ("summits", "half-space"):
+        assert not list(of_patches(scene.with_(contact={"model": model}), crest_in_the_middle, 0.05))
 
 
 def told(result):

@@ -96,6 +96,27 @@ def test_a_sample_that_was_measured_turned_by_a_right_angle_slides_the_same(tmp_
     assert after.coefficient == pytest.approx(as_it_lies.coefficient, rel=1e-5)
 
 
+@pytest.mark.parametrize("turned", [("counterface",), ("surface",), ("surface", "counterface")])
+def test_unmeasured_points_of_a_turned_sample_lie_where_they_lie_on_the_body(tmp_path, turned):
+    """The pair turned is the pair itself or its mirror image in y, heights and unmeasured points alike."""
+    texts = {"numerics": "[numerics]\nsampling = 'patch'\n"}
+    for name, seed in (("surface", 1), ("counterface", 2)):
+        z = oblique(seed, 60)
+        z[20 * seed : 20 * seed + 6, 30:35] = np.nan
+        np.save(tmp_path / f"{name}.npy", z)
+        np.save(tmp_path / f"{name}-turned.npy", np.array([[z[y, -1 - x] for y in range(128)] for x in range(128)]))
+        texts[name] = f"[{name}]\nfile = '{name}.npy'\nspacing = 1e-6\n"
+    other = {name: texts[name].replace(".npy'", "-turned.npy'\nmotion_axis = 'y'") for name in turned}
+    as_it_lies, after = (
+        whole_map(lubfric.load_scene(scene_file(tmp_path, "".join(parts.values())))) for parts in (texts, texts | other)
+    )
+    sides = slice(None), slice(None, None, -1)
+    (side,) = [y for y in sides if np.allclose(after.heights, as_it_lies.heights[:, y], rtol=0, atol=1e-10)]
+    assert np.count_nonzero(~as_it_lies.mask) == 60
+    np.testing.assert_array_equal(after.mask, as_it_lies.mask[:, side])
+    assert any("mirrored in y: one of the two" in note for note in after.notes) == (len(turned) == 1)
+
+
 @pytest.mark.parametrize("generated", ["surface", "counterface"])
 def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path, generated):
     """Repeated along the map, the summits of one patch would stand for all of it, and its stated error would be too
