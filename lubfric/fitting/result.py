@@ -124,6 +124,20 @@ class FitResult:
         moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
         return dict(zip(self.parameters.keys, (moved * self.parameters.slopes(self.unit)).tolist()))
 
+    def _misfit(self) -> str:
+        """In words that the points lie farther from the fit than their deviations allow (chi-squared, 95 %); "" if
+        they do not, or have none."""
+        if self.measured.deviation is None:
+            return ""
+        from scipy.stats import chi2
+
+        misses = (self.predicted - self.measured.coefficient) / self.measured.deviation
+        squares, freedom = float(misses @ misses), misses.size - self.unit.size
+        if squares <= chi2.ppf(LEVEL, freedom):
+            return ""
+        times = np.sqrt(squares / freedom)
+        return f"the points lie {times:.2g} times as far off as their deviations say: the intervals are too narrow"
+
     def _of_surface(self) -> str:
         """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
         if not np.isfinite(self.sampling).any():
@@ -164,7 +178,7 @@ class FitResult:
                 if abs(correlation[i, j]) > 0.9:
                     lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
         scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        cautions = [f"  {text}" for text in (self._of_surface(), *self.validity) if text]
+        cautions = [f"  {text}" for text in (self._misfit(), self._of_surface(), *self.validity) if text]
         return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
 
     def __repr__(self) -> str:

@@ -428,3 +428,14 @@ def test_another_piece_moves_a_parameter_as_far_as_is_told():
         found = lubfric.fit(scene, lubfric.Measured(speeds, other.coefficient), {key: (0.1, 1.0)})
         away.append((found.values[key] - scene.lubricant.viscosity) / found.moved_by_surface[key])
     assert 0.2 < np.sqrt(np.mean(np.square(away))) < 2.5
+
+
+@pytest.mark.parametrize("stated, told", [(1.0, False), (0.1, True)])
+def test_points_farther_off_than_their_deviations_say_are_told(stated, told):
+    """Points 3 % above and below in turn: with a tenth of that stated, the fit lies ten times as far off."""
+    key, speeds = "bodies.boundary_friction_coefficient", np.geomspace(1e-3, 5e-3, 6)
+    f = lubfric.stribeck(SCENE, speeds).coefficient
+    off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
+    found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, stated * np.abs(off)), {key: (0.05, 0.2)})
+    assert ("times as far off as their deviations say" in found.explain()) == told
+    assert not told or "lie 11 times" in found.explain()  # sqrt(6/5) of ten, one parameter
