@@ -71,6 +71,7 @@ def _write(found: FitResult, folder: Path) -> list[str]:
         "values": found.values,
         "intervals": found.intervals,
         "covariance": found.covariance,
+        "moved_by_surface": found.moved_by_surface,
         "undetermined": found.undetermined,
         "at_bounds": found.at_bounds,
         "validity": found.validity,

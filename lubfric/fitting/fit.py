@@ -160,4 +160,6 @@ def _result(predict: Predictor, scale, search, curve: Curve) -> FitResult:
     squared = {"sum of squares": squares}
     report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, squared, advice=advice)
     known, entries = predict.parameters, tuple(point.validity for point in curve.points)
-    return FitResult(predict.scene, predict.measured, known, unit, covariance, f, slopes, scale, report, entries)
+    sampling = np.array([point.uncertainty.sampling for point in curve.points])
+    measured = predict.measured
+    return FitResult(predict.scene, measured, known, unit, covariance, f, slopes, scale, report, entries, sampling)

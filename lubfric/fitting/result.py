@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from ..report import Report
+from ..sampling.uncertainty import percent
 from ..scene import Scene
 from ..show.shown import table
 from ..validity.entry import Validity, gathered
@@ -37,6 +38,8 @@ class FitResult:
     slopes : df/d(unit) at the measured points, (n, p)
     entries : the assumptions that do not hold at each of the points (`lubfric.Validity`). A severe one is there only
         where it was accepted; ``validity`` gathers them
+    sampling : relative standard error of f at the points because a finite surface stands for all of it, (n,); NaN where
+        it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
     """
 
     base: Scene
@@ -49,6 +52,7 @@ class FitResult:
     scale: np.ndarray
     report: Report
     entries: tuple[tuple[Validity, ...], ...] = ()
+    sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     @property
     def values(self) -> dict[str, float]:
@@ -109,6 +113,34 @@ class FitResult:
         reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
         return self.predicted - reach, self.predicted + reach
 
+    @property
+    def moved_by_surface(self) -> dict[str, float]:
+        """By how much another piece of the surface would move the parameters, as a standard deviation to first order.
+
+        It would move f by ``sampling``, at all points together or at each by itself; the larger effect counts.
+        """
+        off = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.scale
+        effects = np.linalg.pinv(self.slopes / self.scale[:, None], rcond=1e-8) * off
+        moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
+        return dict(zip(self.parameters.keys, (moved * self.parameters.slopes(self.unit)).tolist()))
+
+    def _of_surface(self) -> str:
+        """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
+        if not np.isfinite(self.sampling).any():
+            known = self.base.surface.sq != 0 and self.sampling.size
+            return (
+                "not in the intervals: what another piece of the surface would give, which is not known"
+                if known
+                else ""
+            )
+        if np.nanmax(self.sampling) == 0:
+            return ""
+        moved = ", ".join(f"{key} by {move:.2g}" for key, move in self.moved_by_surface.items())
+        return (
+            f"not in the intervals: another piece of the surface (standard error of f up to "
+            f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
+        )
+
     def contains(self, values: dict[str, float]) -> bool:
         """Whether parameters lie in the joint 95 % region (F distribution of p and n - p)."""
         from scipy.stats import f
@@ -132,7 +164,7 @@ class FitResult:
                 if abs(correlation[i, j]) > 0.9:
                     lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
         scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        cautions = [f"  {text}" for text in self.validity]
+        cautions = [f"  {text}" for text in (self._of_surface(), *self.validity) if text]
         return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
 
     def __repr__(self) -> str:

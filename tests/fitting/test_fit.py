@@ -406,3 +406,25 @@ def test_an_error_of_f_that_is_not_known_is_taken_to_be_the_tolerance():
     )
     found = _numerical_variance(SimpleNamespace(tolerance=0.01), curve, np.array([1.0, 3.0, 4.0]))
     assert found == pytest.approx((0.02**2 + 0.03**2 + 0.04**2) / 3, rel=1e-12)
+
+
+def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():
+    """In boundary lubrication f goes with the boundary friction coefficient, and so do their relative errors."""
+    key, speeds = "bodies.boundary_friction_coefficient", [1e-4, 2e-4, 4e-4]
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1})
+    points = [lubfric.friction(scene, speed) for speed in speeds]
+    found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
+    expected = np.mean([p.uncertainty.sampling for p in points])
+    assert found.moved_by_surface[key] / found.values[key] == pytest.approx(expected, rel=0.3)
+    assert "not in the intervals: another piece of the surface" in found.explain()
+
+
+def test_another_piece_moves_a_parameter_as_far_as_is_told():
+    key, speeds = "lubricant.viscosity", np.geomspace(5e-3, 0.05, 4)
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1})
+    away = []
+    for seed in (2, 3, 4):
+        other = lubfric.stribeck(scene.with_(surface={"seed": seed}), speeds)
+        found = lubfric.fit(scene, lubfric.Measured(speeds, other.coefficient), {key: (0.1, 1.0)})
+        away.append((found.values[key] - scene.lubricant.viscosity) / found.moved_by_surface[key])
+    assert 0.2 < np.sqrt(np.mean(np.square(away))) < 2.5
