@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 
 import numpy as np
 
@@ -55,22 +56,32 @@ def _patch_finder(heights, spacing, periodic):
     return find
 
 
+def _crossings(label, periodic):
+    """Regions that touch across a periodic edge, also diagonally: pairs (n, 2) of their numbers, and by how many
+    periods the second lies ahead along each axis (n, 2)."""
+    pairs, ahead = [np.zeros((0, 2), int)], [np.zeros((0, 2), int)]
+    for axis in range(2):
+        if periodic[axis]:
+            first, last = np.take(label, 0, axis), np.take(label, -1, axis)
+            for shift in (-1, 0, 1):
+                there, periods = np.roll(first, shift), np.zeros((first.size, 2), int)
+                periods[:, axis] = 1
+                if shift:
+                    end = 0 if shift == 1 else -1
+                    periods[end, 1 - axis] = -shift
+                    there[end] *= bool(periodic[1 - axis])
+                both = (last > 0) & (there > 0)
+                pairs.append(np.stack([last[both], there[both]], axis=1))
+                ahead.append(periods[both])
+    return np.concatenate(pairs), np.concatenate(ahead)
+
+
 def _join_across_edges(label, count, periodic):
     """Give regions that touch across a periodic edge (also diagonally) one number."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    pairs = [np.zeros((2, 0), int)]
-    for axis in range(2):
-        if periodic[axis]:
-            first, last = np.take(label, 0, axis), np.take(label, -1, axis)
-            for shift in (-1, 0, 1):
-                here, there = last.copy(), np.roll(first, shift)
-                if shift and not periodic[1 - axis]:
-                    there[0 if shift == 1 else -1] = 0
-                both = (here > 0) & (there > 0)
-                pairs.append(np.stack([here[both], there[both]]))
-    a, b = np.concatenate(pairs, axis=1)
+    a, b = _crossings(label, periodic)[0].T
     if count == 0 or a.size == 0:
         return label, count
     graph = coo_matrix((np.ones(a.size), (a - 1, b - 1)), shape=(count, count))
@@ -79,20 +90,31 @@ def _join_across_edges(label, count, periodic):
 
 
 def ridges(heights, bearing: float, periodic) -> int:
-    """How many patches have no ends: above the separation at which ``bearing`` of the map touches, they have a cell at
-    every place along a periodic axis, and go on in the next period."""
+    """How many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along them
+    leads to the same cell of another period."""
     from scipy import ndimage
 
-    touching = heights > np.quantile(heights, 1 - bearing)
-    regions, count = ndimage.label(touching, np.ones((3, 3)))
-    label, count = _join_across_edges(regions, count, periodic)
-    i, j = np.nonzero(label)
-    endless = np.zeros(count + 1, bool)
-    for axis, place in enumerate((i, j)):
-        if periodic[axis]:
-            met = np.unique(label[i, j] * heights.shape[axis] + place) // heights.shape[axis]
-            endless |= np.bincount(met, minlength=count + 1) == heights.shape[axis]
-    return int(endless.sum())
+    regions, _ = ndimage.label(heights > np.quantile(heights, 1 - bearing), np.ones((3, 3)))
+    ways = defaultdict(list)
+    for a, b, i, j in np.unique(np.hstack(_crossings(regions, periodic)), axis=0).tolist():
+        ways[a].append((b, i, j))
+        ways[b].append((a, -i, -j))
+    period: dict[int, tuple[int, int]] = {}
+    count = 0
+    for region in ways:
+        if region in period:
+            continue
+        period[region], reached, endless = (0, 0), [region], False
+        while reached:
+            here = reached.pop()
+            for there, i, j in ways[here]:
+                met = period[here][0] + i, period[here][1] + j
+                if there not in period:
+                    period[there] = met
+                    reached.append(there)
+                endless |= period[there] != met
+        count += endless
+    return count
 
 
 FINDERS = {"summits": _summit_finder, "patches": _patch_finder}

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 import lubfric
 from lubfric.asperity import ridges
@@ -38,11 +39,32 @@ def ridge(slope=0, axis=1):
         (ridge(slope=1), (True, True), 1),
         (np.tile(ridge()[::2], (2, 1)), (False, True), 2),
         (np.eye(N), (True, True), 1),
+        (ridge(slope=1), (False, True), 0),
+        (np.tile(ridge(slope=1), (3, 1)), (False, True), 0),
+        (ridge(slope=2), (True, False), 0),
         (np.where(np.arange(N) == 5, -2.0, ridge()), (True, True), 0),
     ],
 )
 def test_ridges_of_simple_maps_are_counted(heights, periodic, count):
     assert ridges(heights, 0.1, periodic) == count
+
+
+@pytest.mark.parametrize("periodic", [(True, True), (False, True), (True, False), (False, False)])
+def test_a_patch_without_ends_holds_the_same_cell_of_two_periods(periodic):
+    """Random small maps, laid side by side nine times along every periodic axis, and filled from cell to cell."""
+    rng, found = np.random.default_rng(8), []
+    copies = [9 if axis else 1 for axis in periodic]
+    for _ in range(150):
+        heights, bearing = rng.random(rng.integers(2, 8, 2)), rng.uniform(0.1, 0.5)
+        touching = heights > np.quantile(heights, 1 - bearing)
+        label, _ = ndimage.label(np.tile(touching, copies), np.ones((3, 3)))
+        (nx, ny), (a, b) = heights.shape, copies
+        by_period = label.reshape(a, nx, b, ny).swapaxes(1, 2).reshape(a * b, nx * ny)
+        middle = by_period[a // 2 * b + b // 2]
+        again = np.count_nonzero((by_period == middle) & (middle > 0), axis=0) > 1
+        found.append((ridges(heights, bearing, periodic) > 0, bool(again.any())))
+    assert all(one == other for one, other in found)
+    assert not any(periodic) or 10 < sum(one for one, _ in found) < 140
 
 
 @pytest.mark.parametrize(
@@ -82,6 +104,25 @@ def test_no_caution_where_the_map_may_be_repeated(heights, speed):
     once, twice = of(heights, speed)
     assert not told(once) and not told(twice)
     assert twice.coefficient == pytest.approx(once.coefficient, rel=1e-4)
+
+
+@pytest.mark.parametrize("across", [1, 2])
+def test_no_caution_where_oblique_ridges_end_at_both_sides_of_a_cylinder(across):
+    """They have a cell at every place along the cylinder, but lead to another place in the next period."""
+    scene = lubfric.load_scene("paper").with_(
+        contact={"model": "patches"}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
+    )
+    i, j = np.indices((64, 64))
+    heights = 1e-7 * np.cos(2 * np.pi * (across * i - j) / 64) + 0.1 * ROUND
+    found = []
+    for repeats in (1, 2):
+        surface = lubfric.Surface(np.tile(heights, (1, repeats)), (9e-7, 9e-7), periodic_axes=(False, True))
+        model = lubfric.prepare(scene.with_(contact={"shape": surface.shape, "spacing": 9e-7}), surface)
+        found.append(lubfric.friction(model, 0.003))
+    once, twice = found
+    assert once.real_contact_area_fraction > 0.1
+    assert twice.coefficient == pytest.approx(once.coefficient, rel=1e-4)
+    assert not told(once) and not told(twice)
 
 
 @pytest.mark.parametrize("noise, speed", [(0.1, 0.02), (0.1, 0.025), (0.02, 0.03)])
