@@ -28,7 +28,7 @@ def missed_share(prepared, film, found, correlation_length: float) -> float:
         bodies.width,
         correlation_length,
     )
-    return _share(bodies, load, found)
+    return _share(prepared.scene, load, found)
 
 
 def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
@@ -60,13 +60,15 @@ def hidden_share(prepared, found, surface, depth: float) -> float:
     if every such piece has one."""
     bodies = prepared.scene.bodies
     load = _spot(surface.heights, surface.spacing, bodies.e_prime, depth) / surface.size[1] * bodies.width
-    return _share(bodies, load, found)
+    return _share(prepared.scene, load, found)
 
 
-def _share(bodies, load: float, found) -> float:
-    """Relative effect of a contact ``load`` [N] on f."""
-    friction = bodies.load * abs(found.coefficient)
-    return bodies.boundary_friction_coefficient * load / friction if friction else math.inf
+def _share(scene, load: float, found) -> float:
+    """Relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by the load
+    that the film loses, to whose friction that is at most in proportion."""
+    bodies, friction = scene.bodies, abs(found.coefficient)
+    own = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
+    return load / bodies.load * max(own / friction, 1.0) if friction else math.inf
 
 
 def _spot(heights, spacing, e_prime: float, depth: float) -> float:

@@ -300,6 +300,16 @@ def test_contact_that_cells_hide_matters_most_where_there_is_no_friction():
     assert shares[1] == pytest.approx(2 * shares[0], rel=1e-12) and 0 < shares[0] < shares[2] == math.inf
 
 
+def test_contact_that_is_missed_rubs_only_where_the_surfaces_slide():
+    """In pure rolling it is felt by the load that the film loses, and no more than that."""
+    sliding, rolling = (lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": ratio})) for ratio in (-0.5, 0.0))
+    friction = 0.2 * PAPER.bodies.boundary_friction_coefficient
+    shares = [
+        hidden_share(model, SimpleNamespace(coefficient=friction), model.surface, 1e-9) for model in (sliding, rolling)
+    ]
+    assert shares[0] == pytest.approx(5 * shares[1], rel=1e-12) and shares[1] > 0
+
+
 def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     """A map of a single window, ground along x: the same piece again would say that its scatter is none."""
     heights = lubfric.generate_surface(
