@@ -13,6 +13,8 @@ from ..store import whole_file, write_whole
 from ..table import table_bytes
 from .table_row import SPEED, UNUSED
 
+UNCERTAINTY, LENGTH = "uncertainty_", "uncertainty_length"  # columns of the uncertainty, and the one in m
+
 
 def to_xarray(result):
     """See `StudyResult.to_xarray`."""
@@ -68,16 +70,18 @@ def columns_of(result) -> dict[str, np.ndarray]:
 
 
 def _attributes(name: str, result) -> dict[str, str]:
-    if name.startswith("uncertainty_"):
-        part = name.removeprefix("uncertainty_")
+    if name.startswith(UNCERTAINTY):
+        part = name.removeprefix(UNCERTAINTY)
         return {
-            "units": "m" if part == "length" else "1",
+            "units": "m" if name == LENGTH else "1",
             "long_name": f"uncertainty of the friction coefficient: {part}",
         }
     return described(name, KEYS if name == SPEED else QUANTITIES)
 
 
 def _heading(name: str) -> str:
+    if name.startswith(UNCERTAINTY):
+        return f"{name} [m]" if name == LENGTH else f"{name} [-]"
     return heading(name) if name in KEYS | QUANTITIES else name
 
 

@@ -100,6 +100,8 @@ def test_cautions_and_accepted_points_are_marked(tmp_path):
     found.to_csv(tmp_path / "t.csv")
     rows = list(csv.DictReader((tmp_path / "t.csv").read_text().splitlines()))
     assert [row["validity"] for row in rows] == found.validity.ravel().tolist()
+    assert {name for name in rows[0] if "[" not in name} == {"numerics.accept", "status", "validity"}
+    assert {"uncertainty_length [m]", "uncertainty_numerical [-]", "speed [m/s]"} <= set(rows[0])
 
 
 def test_keys_of_the_other_body_have_their_units(tmp_path):
