@@ -21,6 +21,7 @@ from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
+SECOND_ORDER = 1.0  # times the squared standard error: lines that touch at one approach, not each at its own
 JOINED = 0.5  # of the told error of the contact's load: by what joined lines may be off
 LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
@@ -186,6 +187,7 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
     if scene.contact.model == "half-space" and scene.surface.sq:
         stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
         if result.line is not None and len(result.line.used) and share > 0:
+            stated += SECOND_ORDER * result.uncertainty.sampling**2
             of_share = max(of_share, JOINED * result.errors.contact_load * share)
         judge = judge_of(prepared, result)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
