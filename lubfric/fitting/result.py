@@ -131,8 +131,7 @@ class FitResult:
             return ""
         from scipy.stats import chi2
 
-        misses = (self.predicted - self.measured.coefficient) / self.measured.deviation
-        squares, freedom = float(misses @ misses), misses.size - self.unit.size
+        squares, freedom = self.report.residuals["sum of squares"], self.predicted.size - self.unit.size
         if squares <= chi2.ppf(LEVEL, freedom):
             return ""
         times = np.sqrt(squares / freedom)

@@ -190,15 +190,16 @@ def _found(sample: Sample) -> LineFound:
     ended = sample.reached > sample.prepared.scene.numerics.sampling_tolerance and sample.lines.nested
     if anchor is None:
         return LineFound(first, first.balance, cells, together, missed=sample.missed, map_ends=ended)
+    shared = sample.joined
     return LineFound(
-        _divided(sample, together),
+        _divided(sample, together, shared.load),
         first.balance,
         cells,
         together,
         anchor.response,
         sample.gap_error,
         anchor.grid,
-        anchor.response.gap_of_load(sample.joined.open / sample.joined.load),
+        anchor.response.gap_of_load(shared.open / shared.load),
         map_ends=ended,
     )
 
@@ -210,11 +211,11 @@ def _lubricated(anchor: Anchor) -> Lubricated:
     return balance
 
 
-def _divided(sample: Sample, together: Pooled) -> Solved:
-    """The point of the anchor, with the load divided as all lines and the grid demand."""
+def _divided(sample: Sample, together: Pooled, shared: float) -> Solved:
+    """The point of the anchor, with the load divided as all lines, which carry ``shared`` [N] as one, and the grid
+    demand."""
     anchor, scene = sample.known, sample.prepared.scene
     balance = _lubricated(anchor)
-    shared = sample.joined.load
     whole = replace(balance, contact_load=shared, film_load=scene.bodies.load - shared)
     split = whole.split + anchor.response.split * mean_of(anchor.grid, "gap", 0.0)
     point = at(sample.prepared, sample.speed, anchor.contact, balance)
