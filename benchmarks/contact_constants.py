@@ -25,7 +25,7 @@ from benchmarks import page
 from benchmarks.contact_before_after import E_PRIME, surface
 from lubfric import solve_contact
 from lubfric.contact import careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil
-from lubfric.halfspace import half_space
+from lubfric.contact.operator import half_space
 
 SPACING = 2e-6
 MODULES = (careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil)

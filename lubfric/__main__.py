@@ -1,5 +1,5 @@
 """``python -m lubfric`` is the ``lubfric`` command."""
 
-from .cli import main
+from .output.command_line import main
 
 raise SystemExit(main())

@@ -108,22 +108,22 @@ KERNELS = (
     Mutant(
         "kernel_factor_2",
         "influence coefficients halved, as printed in the paper's Appendix 1",
-        {"lubfric.halfspace.operator:_symbol": times(0.5)},
+        {"lubfric.contact.operator:_symbol": times(0.5)},
     ),
     Mutant(
         "couette_sign",
         "Couette flow of Reynolds' equation runs backwards",
-        {"lubfric.ehl.newton:residual": reversed_couette},
+        {"lubfric.film.newton:residual": reversed_couette},
     ),
     Mutant(
         "missing_y_mean",
         "volume balance on one row instead of the mean along y",
-        {"lubfric.rough.half_space:HalfSpaceContact._state": first_row_only},
+        {"lubfric.contact.half_space:HalfSpaceContact._state": first_row_only},
     ),
     Mutant(
         "viscosity_exponent",
         "Roelands' exponent with the decadic logarithm",
-        {"lubfric.lubricant:Lubricant.roelands_exponent": decadic_exponent},
+        {"lubfric.oil.lubricant:Lubricant.roelands_exponent": decadic_exponent},
     ),
     Mutant(
         "penetration_ignored",
@@ -133,22 +133,24 @@ KERNELS = (
             "lubfric.contact.looked:contact_residuals": no_penetration,
         },
     ),
-    Mutant("half_the_load", "rough contact carries half of F_C", {"lubfric.rough.half_space:solve_contact": half_load}),
+    Mutant(
+        "half_the_load", "rough contact carries half of F_C", {"lubfric.contact.half_space:solve_contact": half_load}
+    ),
     Mutant("shear_side", "shear taken on the lower surface", {"lubfric.film.contract:shear_force": lower_side}),
     Mutant(
         "lost_images",
         "semi-periodic operator without its waves along y, the sum over images",
-        {"lubfric.halfspace.operator:semiperiodic_coefficients": mean_wave_only},
+        {"lubfric.contact.operator:semiperiodic_coefficients": mean_wave_only},
     ),
     Mutant(
         "stale_warm_start",
         "contact of the neighbouring load returned for this one",
-        {"lubfric.rough.half_space:solve_contact": stale},
+        {"lubfric.contact.half_space:solve_contact": stale},
     ),
     Mutant(
         "half_cell",
         "film and strip half a cell off the roughness",
-        {"lubfric.rough.half_space:centred_axis": corner_axis},
+        {"lubfric.contact.half_space:centred_axis": corner_axis},
     ),
 )
 MUTANTS = (*KERNELS, *wiring_mutants.MUTANTS)

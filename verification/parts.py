@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from lubfric.contact import ContactResult
-from lubfric.point.balance import Lubricated
-from lubfric.point.decision import Decision
-from lubfric.prepared import Prepared
-from lubfric.result import FrictionResult
-from lubfric.rough.half_space import HalfSpaceContact
+from lubfric.contact.half_space import HalfSpaceContact
+from lubfric.contact.result import ContactResult
+from lubfric.sampling.result import FrictionResult
+from lubfric.sharing.balance import Lubricated
+from lubfric.sharing.decision import Decision
+from lubfric.sharing.prepared import Prepared
 
 T = TypeVar("T")
 

@@ -115,43 +115,40 @@ MUTANTS = (
     Mutant(
         "transient_newtonian",
         "Eyring's law dropped in a transient",
-        {"lubfric.unsteady.film_shear:shear_stress": sheared_without(eyring_stress=None)},
+        {"lubfric.time.film_shear:shear_stress": sheared_without(eyring_stress=None)},
         TIME,
     ),
     Mutant(
         "transient_no_limit",
         "limiting stress dropped in a transient",
-        {"lubfric.unsteady.film_shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
+        {"lubfric.time.film_shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
         TIME,
     ),
     Mutant(
         "transient_density",
         "density law dropped in a transient",
-        {"lubfric.unsteady.setup:ContactHistory": in_time_without(density_law="constant")},
+        {"lubfric.time.setup:ContactHistory": in_time_without(density_law="constant")},
         TIME,
     ),
     Mutant(
         "transient_viscosity_law",
         "viscosity law of a transient is Roelands' whatever was asked",
-        {"lubfric.unsteady.setup:ContactHistory": in_time_without(viscosity_law="roelands")},
+        {"lubfric.time.setup:ContactHistory": in_time_without(viscosity_law="roelands")},
         TIME,
     ),
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {
-            f"lubfric.unsteady.{where}:sliding_at": lambda f: lambda *args: 2 * f(*args)
-            for where in ("at_a_time", "moment")
-        },
+        {f"lubfric.time.{where}:sliding_at": lambda f: lambda *args: 2 * f(*args) for where in ("at_a_time", "moment")},
         TIME,
     ),
     Mutant(
         "transient_load",
         "load of a transient taken as load per width",
-        {"lubfric.unsteady.setup:ContactHistory": of_unit_width},
+        {"lubfric.time.setup:ContactHistory": of_unit_width},
         TIME,
     ),
-    Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.history.kinds:Ramp.at": still}, TIME),
+    Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.scene.history:Ramp.at": still}, TIME),
     Mutant(
         "film_viscosity_law",
         "viscosity law not passed to the film",
@@ -191,43 +188,43 @@ MUTANTS = (
     Mutant(
         "half_a_column",
         "contact fraction half a column off",
-        {"lubfric.rough.contract:ContactState.touching": half_a_column},
+        {"lubfric.contact.rough_contract:ContactState.touching": half_a_column},
         CONTACT,
     ),
     Mutant(
         "flat_hardness",
         "hardness not passed to the flat curve",
-        {"lubfric.rough.flat:contact_curve": with_keywords(hardness=None)},
+        {"lubfric.contact.flat:contact_curve": with_keywords(hardness=None)},
         CONTACT,
     ),
     Mutant(
         "asperity_hardness",
         "hardness not passed to the asperities of a flat contact",
-        {"lubfric.rough.flat:asperity_curve": with_keywords(hardness=None)},
+        {"lubfric.contact.flat:asperity_curve": with_keywords(hardness=None)},
         CONTACT,
     ),
     Mutant(
         "asperity_hardness_cylinder",
         "hardness not passed to the asperities under a cylinder",
-        {"lubfric.rough.asperities:find_asperities": with_keywords(hardness=None)},
+        {"lubfric.contact.asperities:find_asperities": with_keywords(hardness=None)},
         CONTACT,
     ),
     Mutant(
         "cylinder_hardness",
         "hardness not passed to the contact under a cylinder",
-        {"lubfric.rough.half_space:solve_contact": with_keywords(hardness=None)},
+        {"lubfric.contact.half_space:solve_contact": with_keywords(hardness=None)},
         CONTACT,
     ),
     Mutant(
         "region",
         "area A is the whole patch, whatever was asked",
-        {"lubfric.rough.half_space:area_weight": whole_patch},
+        {"lubfric.contact.half_space:area_weight": whole_patch},
         CONTACT,
     ),
     Mutant(
         "subsampled_grids",
         "coarse grids take every other height instead of means",
-        {"lubfric.rough.half_space_grid:HalfSpaceGrid.coarsened": subsampled},
+        {"lubfric.contact.half_space_grid:HalfSpaceGrid.coarsened": subsampled},
         CONTACT,
     ),
     Mutant("motion_axis", "motion_axis = 'y' ignored", {"lubfric.surface.height_map:Surface.transposed": itself}, MAPS),
@@ -257,33 +254,36 @@ MUTANTS = (
         MAPS,
     ),
     Mutant(
-        "map_unit", "unit of a file ignored", {"lubfric.rough.height_map:read_surface": with_keywords(unit=None)}, MAPS
+        "map_unit",
+        "unit of a file ignored",
+        {"lubfric.contact.height_map:read_surface": with_keywords(unit=None)},
+        MAPS,
     ),
     Mutant(
         "map_form",
         "form of a file ignored",
-        {"lubfric.rough.height_map:read_surface": with_keywords(form="plane")},
+        {"lubfric.contact.height_map:read_surface": with_keywords(form="plane")},
         MAPS,
     ),
     Mutant(
-        "map_cells", "cell lengths of a file swapped", {"lubfric.rough.height_map:read_surface": swapped_cells}, MAPS
+        "map_cells", "cell lengths of a file swapped", {"lubfric.contact.height_map:read_surface": swapped_cells}, MAPS
     ),
     Mutant(
         "seed",
         "seed of a generated map ignored",
-        {"lubfric.rough.height_map:generate_surface": with_keywords(seed=1)},
+        {"lubfric.contact.height_map:generate_surface": with_keywords(seed=1)},
         MAPS,
     ),
     Mutant(
         "decay_level",
         "level at which a correlation length is read ignored",
-        {"lubfric.rough.height_map:generate_surface": with_keywords(decay_level=0.3679)},
+        {"lubfric.contact.height_map:generate_surface": with_keywords(decay_level=0.3679)},
         MAPS,
     ),
     Mutant(
         "one_length",
         "one correlation length for both axes",
-        {"lubfric.rough.height_map:generate_surface": one_length},
+        {"lubfric.contact.height_map:generate_surface": one_length},
         MAPS,
     ),
 )

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import lubfric
-from lubfric.analytic.film import moes_flow_film
+from lubfric.film.formulas import moes_flow_film
 
 CONTACT = dict(
     radius=0.01,  # m

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import lubfric
-from lubfric.analytic import hertz
+from lubfric.film import hertz
 
 RADIUS, E_PRIME, LOAD = 0.01, 230e9, 1e5  # m, Pa, N/m
 half_width = hertz.line_half_width(LOAD, RADIUS, E_PRIME)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..halfspace.strip import rounded
+from .strip_kernel import rounded
 
 DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
 

@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from ..halfspace.operator import filtered, wavenumber
 from .fields import begun
 from .long_waves import worth
+from .operator import filtered, wavenumber
 from .projection import with_load
 from .residual import dot
 from .stencil import Stencil

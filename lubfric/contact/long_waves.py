@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..halfspace.operator import filtered, wavenumber
+from .operator import filtered, wavenumber
 
 FACTOR = 4  # cells, each way, that are one here
 LEAST = 64  # cells along an axis: on shorter ones it costs more than it saves

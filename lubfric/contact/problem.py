@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..halfspace import HalfSpace, half_space
+from .operator import HalfSpace, half_space
 from .residual import spread
 
 COARSEST = 24  # cells along an axis below which it is not halved

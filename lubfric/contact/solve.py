@@ -44,7 +44,7 @@ def solve_contact(
     mean_pressure : load per area of the whole array [Pa], or
     mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count as zero
     hardness : limit of the pressure [Pa]; None: elastic
-    boundary : "periodic" or "free" for each axis, see `lubfric.halfspace.half_space`
+    boundary : "periodic" or "free" for each axis, see `lubfric.contact.half_space`
     tolerance : largest residual accepted
     start : an earlier `ContactResult`, or a pressure field [Pa], to start from
     operator : a `HalfSpace` built before for this grid, to share between solves

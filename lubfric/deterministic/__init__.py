@@ -1,11 +1,1 @@
-"""The deterministic model: the film of a rough line contact with one gap and one pressure, solved as a whole.
-
-`lay_out` puts a height map under a cylinder; `solve_point` solves it.
-"""
-
-from .domain import lay_out
-from .problem import Problem
-from .result import DeterministicResult
-from .solve import solve_point
-
-__all__ = ["DeterministicResult", "Problem", "lay_out", "solve_point"]
+"""One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..scene import Scene
 from ..scene.resolved_gap import check_resolved_gap
-from ..surface import Surface
+from ..scene.scene import Scene
+from ..surface.height_map import Surface
 from .domain import lay_out
 from .problem import Problem
 from .refine import Refined, solve_refined

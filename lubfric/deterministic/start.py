@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from ..contact import ContactResult, solve_contact
+from ..contact.result import ContactResult
+from ..contact.solve import solve_contact
 from .problem import Problem
 from .state import FLUID, RUPTURED, State
 

@@ -1,5 +1,1 @@
-"""The smooth film: what every film offers (`contract`), its levels from the simplest up, and its shear.
-
-`levels`: isoviscous, piezoviscous, EHL, and the choice of the lowest that is enough; `rigid`: closed forms between
-rigid surfaces, and `rigid_error`, what they leave out; `shear`: the force on the surfaces.
-"""
+"""The smooth film of a line contact: closed forms, EHL, heat."""

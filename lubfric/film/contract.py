@@ -13,12 +13,12 @@ from typing import Protocol
 
 import numpy as np
 
-from ..ehl.imposed import LinePressure
-from ..ehl.rolling import Rolling
-from ..heat.point import WarmFilm
-from ..line_contact import LineContact
-from ..lubricant import Lubricant
+from ..oil.lubricant import Lubricant
 from ..report import Report
+from ..sharing.heat import WarmFilm
+from .imposed import LinePressure
+from .line_contact import LineContact
+from .rolling import Rolling
 from .shear import ShearForce, shear_force
 
 

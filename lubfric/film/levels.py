@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from ..ehl import EHLResult
-from ..ehl.imposed import line_pressure
-from ..ehl.solve import Effort, solve_line_contact
-from ..line_contact import LineContact
-from ..lubricant import Lubricant
-from ..scene import Numerics
+from ..oil.lubricant import Lubricant
+from ..scene.numerics import Numerics
 from .contract import Film, FilmLevel, LeftOut
+from .ehl import Effort, solve_line_contact
+from .ehl_result import EHLResult
+from .imposed import line_pressure
+from .line_contact import LineContact
 from .rigid import RigidFilm, isoviscous_film, piezoviscous_film
 from .rigid_error import compression, elastic_error
 from .shear import ShearForce

@@ -1,7 +1,7 @@
 """The film between rigid surfaces, with the same interface as an `EHLResult`.
 
 ``h = h0 + x²/2R`` with Swift-Stieber rupture, at constant density. In the reduced pressure ``q = ∫ dp eta0/eta(p)``
-Reynolds' equation is the isoviscous one. Its closed form is `lubfric.analytic.rigid.pressure`. The load fixes h0:
+Reynolds' equation is the isoviscous one. Its closed form is `lubfric.film.rigid_cylinder.pressure`. The load fixes h0:
 directly for a constant viscosity, by one bracketed root with a viscosity law.
 """
 
@@ -13,10 +13,10 @@ from functools import cache, lru_cache
 
 import numpy as np
 
-from ..analytic import rigid
-from ..line_contact import LineContact, OfLineContact
-from ..lubricant import Lubricant, log_viscosity_ratio, viscosity
+from ..oil.lubricant import Lubricant, log_viscosity_ratio, viscosity
 from ..report import CONVERGED, Report
+from . import rigid_cylinder as rigid
+from .line_contact import LineContact, OfLineContact
 
 INLET, OUTLET = 30.0, 6.0  # ends of the nodes, in units of sqrt(2 R h0)
 CELLS = 256  # before rupture, even in arsinh(x/sqrt(2 R h0))

@@ -7,9 +7,9 @@ from functools import cache
 
 import numpy as np
 
-from ..ehl.kernel import hat_kernel
-from ..lubricant import Lubricant, density_ratio, log_viscosity_ratio
+from ..oil.lubricant import Lubricant, density_ratio, log_viscosity_ratio
 from .contract import Film
+from .kernel import hat_kernel
 from .rigid import CELLS, unit_nodes
 
 STRIDE = 2  # of the nodes: the deflection is smooth

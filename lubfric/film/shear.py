@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..ehl.rolling import Rolling
-from ..lubricant import Lubricant, carried_stress, shear_stress
+from ..oil.lubricant import Lubricant, carried_stress, shear_stress
+from .rolling import Rolling
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class ShearForce:
       one. The parts are those of rising and of falling pressure. For a film that knows the force in another way, they
       are that of the whole film and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
-      (`lubfric.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
+      (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
 
     couette: float
@@ -62,7 +62,7 @@ def shear_force(
     term reaches from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own
     heat as the first node: at any h that is the same factor) to the rupture. cavitated="striated" adds the streamers
     behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
-    on the Couette term. ``warm``: `lubfric.heat.point.WarmFilm`, the stress of the heated film and the viscosity that
+    on the Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that
     it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: summed.
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius

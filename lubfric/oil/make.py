@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from .oil import Oil
 from .temperature import CELSIUS, ViscosityTable, walther

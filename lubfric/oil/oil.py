@@ -8,9 +8,9 @@ from typing import Any, overload
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
+from .._base.shown import Brief
 from ..errors import InputError
-from ..show.shown import Brief
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
 from .viscosity_index import viscosity_index

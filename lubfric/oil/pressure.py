@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .. import validate
+from .._base import validate
 
 GOLD = {  # s [1/GPa at 1 mm²/s], t [-]
     "mineral": (9.904, 0.1390),

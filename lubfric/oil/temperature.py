@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 
 CONSTANT = 0.7  # of D341, mm²/s (older charts: 0.8, which moves 68 / 8.6 mm²/s at 60 °C from 28.49 to 28.58)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from .index_table import AT_100, HIGH, LOW
 

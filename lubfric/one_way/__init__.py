@@ -1,2 +1,1 @@
-"""Load sharing with a film in the gap of the rough contact: ``numerics.closure = "one-way"``
-(docs/deterministic.md)."""
+"""Load sharing one way: a film in the gap of the dry contact."""

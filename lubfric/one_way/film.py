@@ -22,7 +22,7 @@ from ..deterministic.problem import Problem
 from ..deterministic.reynolds import first_film
 from ..deterministic.start import RUPTURE
 from ..errors import ConvergenceError
-from ..lubricant import Lubricant
+from ..oil.lubricant import Lubricant
 from ..report import STAGNATED, Report
 
 SETS = 400  # of active cells tried

@@ -13,10 +13,10 @@ from functools import partial
 
 import numpy as np
 
+from .._base.roots import Root, increasing_root
 from ..deterministic.problem import Problem
-from ..lubricant import shear_stress
+from ..oil.lubricant import shear_stress
 from ..report import CONVERGED, Report
-from ..roots import Root, increasing_root
 from .film import Kept
 from .lift import GUESS
 from .lift import TOLERANCE as LIFT_TOLERANCE

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from ..deterministic.point import LEAST, grids, layer
 from ..deterministic.refine import estimate
-from ..scene import Scene
 from ..scene.resolved_gap import check_resolved_gap
-from ..surface import Surface
+from ..scene.scene import Scene
+from ..surface.height_map import Surface
 from .point import OneWay, on_cells, solve_one_way
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import ContactResult
+from ..contact.result import ContactResult
 from ..deterministic.problem import Problem
 from ..deterministic.start import dry_contact
 from ..film.rigid import true_pressure

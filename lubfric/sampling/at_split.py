@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..point.balance import Lubricated
-from ..point.forces import forces
-from ..point.operating_point import OperatingPoint, Settings, Start, Trial
-from ..prepared import Prepared
-from ..rough.contract import ContactState, RoughContact
-from ..rough.strip import weighted_mean
+from ..contact.hertz_strip import weighted_mean
+from ..contact.rough_contract import ContactState, RoughContact
+from ..sharing.balance import Lubricated
+from ..sharing.forces import forces
+from ..sharing.operating_point import OperatingPoint, Settings, Start, Trial
+from ..sharing.prepared import Prepared
 
 ANY = 0.1  # tolerance of a film whose grid is given
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..point.adapt import Solved
-from ..point.balance import Balance
-from ..point.forces import Forces
+from ..sharing.adapt import Solved
+from ..sharing.balance import Balance
+from ..sharing.forces import Forces
 from .grid_pair import gap_left, mean_of, second_order
 from .influence import BlockError
 from .line_record import Pooled

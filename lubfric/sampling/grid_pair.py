@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..contact.rough_contract import ContactState
 from ..film.contract import Film
-from ..lines.pieces import thinned
-from ..point.operating_point import OperatingPoint
-from ..rough.contract import ContactState
+from ..sharing.lines_pieces import thinned
+from ..sharing.operating_point import OperatingPoint
 from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 from .other_cells import half_again
 

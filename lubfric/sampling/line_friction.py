@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..lines.cells import Cells
-from ..lines.pieces import line_contact
-from ..point.adapt import Solved, solved
-from ..point.balance import Balance, Lubricated, balanced, separated
-from ..point.deflection import solved_as_deflected
-from ..point.split import divided
-from ..prepared import Prepared, on_halved_cells
-from ..rough.contract import ContactState
-from ..rough.half_space import HalfSpaceContact
+from ..contact.half_space import HalfSpaceContact
+from ..contact.rough_contract import ContactState
+from ..sharing.adapt import Solved, solved
+from ..sharing.balance import Balance, Lubricated, balanced, separated
+from ..sharing.deflection import solved_as_deflected
+from ..sharing.lines_cells import Cells
+from ..sharing.lines_pieces import line_contact
+from ..sharing.prepared import Prepared, on_halved_cells
+from ..sharing.split import divided
 from .at_split import at, grown, quantities, redivided
 from .grid_pair import GridStep, mean_of
 from .influence import BlockError

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..contact.rough_contract import ContactState, Grid
 from ..film.shear import ShearForce
-from ..point.adapt import Solved
-from ..point.forces import forces
-from ..prepared import Prepared
-from ..rough.contract import ContactState, Grid
+from ..sharing.adapt import Solved
+from ..sharing.forces import forces
+from ..sharing.prepared import Prepared
 
 SQUARE = 8 * math.asinh(1) / math.pi  # E' times the deflection amid a square under pressure, over pressure and side
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 
-from ..point.adapt import Solved
-from ..prepared import Prepared
-from ..validity.entry import Validity
+from ..sharing.adapt import Solved
+from ..sharing.prepared import Prepared
+from ..sharing.validity import Validity
 from .at_split import at
 
 EVERY = (2, 4)  # cells of which one is kept

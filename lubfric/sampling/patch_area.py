@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from ..point.adapt import Solved
-from ..prepared import Prepared
-from ..rough.contract import ContactState, Grid
+from ..contact.rough_contract import ContactState, Grid
+from ..sharing.adapt import Solved
+from ..sharing.prepared import Prepared
 from .at_split import at
 
 SURE = 1.5  # times the estimate: seen to hold in 95 % of random scenes

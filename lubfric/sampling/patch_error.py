@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..lines.generated import lengths_of
-from ..lines.windows import length_or_half
-from ..point.adapt import Solved
-from ..point.balance import Balance
-from ..rough.height_map import measured, rough_bodies
+from ..contact.height_map import measured, rough_bodies
+from ..sharing.adapt import Solved
+from ..sharing.balance import Balance
+from ..sharing.lines_generated import lengths_of
+from ..sharing.lines_windows import length_or_half
 from .estimate import (
     AREAS,
     ORDER,

@@ -27,7 +27,7 @@ class Uncertainty:
     participation : number of equally loaded spots that would carry the load as unevenly
     length : of the line used [m]
     area_needed : how many times more of a measured map would be needed (1: enough; NaN: ``sampling`` is not known)
-    model_form : estimated relative error of load sharing itself (`lubfric.validity.model_form`), not in the interval;
+    model_form : estimated relative error of load sharing itself (`lubfric.sampling.model_form`), not in the interval;
         NaN if it is not known
     """
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .. import validate
-from ..analytic import hertz
+from .._base import validate
+from .._base.shown import Brief
 from ..errors import InputError
-from ..show.shown import Brief
+from ..film import hertz
 
 
 @dataclass(frozen=True, repr=False)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..history.plan import Transient
-from ..plausible import told_slips
-from ..roughness import Roughness, as_given, counterface, named
-from ..short_forms import resolve, short_keys
+from .plausible import told_slips
+from .roughness import Roughness, as_given, counterface, named
+from .short_forms import resolve, short_keys
+from .transient import Transient
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:

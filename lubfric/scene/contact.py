@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .. import validate
+from .._base import validate
+from .._base.shown import Brief
 from ..errors import InputError
-from ..show.shown import Brief
 
 GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
@@ -29,7 +29,7 @@ class ContactDomain(Brief):
     shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are left out, a measured map keeps its own
         grid
     model : "half-space": every point of the surface may carry load, and deforms all others; "summits" or "patches":
-        independent Hertz contacts (`lubfric.asperity`)
+        independent Hertz contacts (`lubfric.contact`)
     asperity_separation : how the film sets the separation of independent asperities: "volume" (Eq. 8 without
         deflection) or "mean-plane" (the mean film itself)
     """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .. import validate
-from ..show.shown import Brief
+from .._base import validate
+from .._base.shown import Brief
 
 FASTEST = 1e6  # m/s
 LARGEST_RATIO = 1e6  # slide-roll ratio

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .. import budget, validate
+from .._base import validate
+from .._base.shown import Brief
 from ..errors import InputError
-from ..show.shown import Brief
+from . import budget
 
 MOST_THREADS = 1024
 CAVITATED_SHEAR = ("none", "striated")

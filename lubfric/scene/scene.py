@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..history.plan import Transient
-from ..line_contact import LineContact
-from ..lubricant import Lubricant
-from ..roughness import Roughness
-from ..show.scene import SceneShown
+from ..film.line_contact import LineContact
+from ..oil.lubricant import Lubricant
 from .bodies import Bodies
 from .change import changed_section
 from .contact import ContactDomain
 from .motion import Motion
 from .numerics import Numerics
+from .roughness import Roughness
+from .shown import SceneShown
+from .transient import Transient
 
 
 @dataclass(frozen=True, repr=False)
@@ -84,7 +84,7 @@ class Scene(SceneShown):
 
     def to_toml(self) -> str:
         """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
-        from ..scene_text import scene_as_toml
+        from .text import scene_as_toml
 
         return scene_as_toml(self)
 

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from ..curve.choose import next_speed
-from ..curve.interpolate import Samples
-from ..curve.span import first_speeds
-from ..prepared import Prepared
-from ..result import FrictionResult
+from ..sampling.result import FrictionResult
+from ..sharing.prepared import Prepared
+from .choose import next_speed
+from .interpolate import Samples
+from .span import first_speeds
 
 AUTO = "auto"
 CHOSEN = 12  # speeds that a curve chooses, about

@@ -2,7 +2,7 @@
 
 The time of a point is that of its films and of the transforms of its contact. Their number depends on Moes' film of the
 whole load over Sq; the counts come from the built-in scenes. On a long line the transforms grow with the length that
-`lubfric.lines.outlook` predicts.
+`lubfric.sharing.lines_outlook` predicts.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from ..curve.span import film_ratio
-from ..ehl.solve import solve_line_contact
-from ..lines.contract import Lines
-from ..lines.length import PILOT
-from ..lines.make import lines_of, takes_line
-from ..lines.outlook import foretold, piece_cells, pilot_length
-from ..rough.height_map import contact_map
-from ..scene import Scene
+from ..contact.height_map import contact_map
+from ..film.ehl import solve_line_contact
+from ..scene.scene import Scene
+from ..sharing.lines_contract import Lines
+from ..sharing.lines_length import PILOT
+from ..sharing.lines_make import lines_of, takes_line
+from ..sharing.lines_outlook import foretold, piece_cells, pilot_length
+from .span import film_ratio
 
 LIFTED, LIFTED_LINE = 3.5, 5.0  # Moes' film over Sq beyond which a patch, and a line, mostly do not touch
 CLEAR = 0.4  # films of a point that is clear of contact, in those solved from nothing

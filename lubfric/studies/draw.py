@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._base.axes import axes_or_new
 from ..quantities import KEYS
-from ..show.axes import axes_or_new
 from .table_row import SPEED
 
 MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ..curve.span import first_speeds
 from ..errors import InputError
-from ..scene import Scene
+from ..scene.scene import Scene
 from .adaptive import CHOSEN
 from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
 from .journal import Journal
+from .span import first_speeds
 from .walk import Batch
 
 SAMPLED = 2000  # points at most whose cost is foretold one by one

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..scene_file import load_scene, read_toml
-from ..short_forms.motion import speeds_of_range
+from ..scene.file import load_scene, read_toml
+from ..scene.short_motion import speeds_of_range
 from .plan import StudyPlan, plan_study
 from .vary import Between, sample
 

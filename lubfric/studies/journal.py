@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from .. import validate
+from .._base import validate
+from .._base.files import read_checked, write_checked, write_whole
 from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
 from ..report import Report
-from ..result import FrictionResult
-from ..store import Records, decode, encode, read_checked, write_checked, write_whole
-from ..store.codec import from_plain, to_plain
-from ..validity.entry import Validity
+from ..sampling.result import FrictionResult
+from ..sharing.validity import Validity
+from .codec import decode, encode, from_plain, to_plain
+from .records import Records
 
 POINTS, STATES, FIELDS = "points", "states", "fields"
 SPEED = "speed"  # in a record

@@ -8,13 +8,14 @@ from itertools import product
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..prepared import scene_of
-from ..scene import FASTEST, Scene
-from ..store import fingerprint
+from ..scene.motion import FASTEST
+from ..scene.scene import Scene
+from ..sharing.prepared import scene_of
 from .adaptive import AUTO, CHOSEN
 from .cost import by_curve
+from .fingerprint import fingerprint
 from .vary import Axis, axes_of
 from .walk import MOST, Batch, Walk
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, is_dataclass
 
 import numpy as np
 
-from .. import validate
-from ..curve.interpolate import Interpolant, knee_of
+from .._base import validate
+from .._base.plain import plain
+from .._base.shown import Shown
+from .._base.version import __version__
 from ..errors import InputError
-from ..plain import plain
 from ..quantities import QUANTITIES
-from ..scene import scene_as_dict
-from ..show import Shown
-from ..version import __version__
+from ..scene.scene import scene_as_dict
 from .adaptive import AUTO, FEWEST, samples_at
+from .interpolate import Interpolant, knee_of
 from .journal import SPEED, Journal
 from .table_row import CONVERGED, MISSING, STATUS, UNUSED, VALIDITY, row_of
 from .walk import chosen_keys

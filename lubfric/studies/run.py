@@ -8,13 +8,14 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 
-from .. import validate
+from .._base import validate
+from .._base.files import clear_parts, write_whole
+from .._base.lock import FolderLock
 from ..errors import InputError
-from ..scene import Scene
-from ..store import FolderLock, growth, write_whole
-from ..store.whole import clear_parts
+from ..scene.scene import Scene
 from .journal import POINTS, Journal
 from .plan import StudyPlan, plan_study
+from .records import growth
 from .result import PLAN, StudyResult, plan_as_dict
 from .spread import checked_executor, spread
 from .table_row import row_of

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Future
 from queue import Empty, SimpleQueue
 
+from .._base.validate import shown
 from ..errors import InputError
-from ..validate import shown
 
 LOOK = 0.1  # s between two looks at what is under way, at least
 SHARE = 0.1  # of the time spent on looking, at most

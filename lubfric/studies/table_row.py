@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..store.codec import from_plain
-from ..validity.entry import in_a_cell
+from ..sharing.validity import in_a_cell
 from .adaptive import DECIDED
+from .codec import from_plain
 from .journal import SPEED
 
 STATUS, CONVERGED, VALIDITY = "status", "converged", "validity"

@@ -7,10 +7,10 @@ from importlib import import_module
 
 import numpy as np
 
+from .._base.files import whole_file, write_whole
+from .._base.table import table_bytes
 from ..errors import InputError
 from ..quantities import KEYS, QUANTITIES, described, heading
-from ..store import whole_file, write_whole
-from ..table import table_bytes
 from .table_row import SPEED, UNUSED
 
 UNCERTAINTY, LENGTH = "uncertainty_", "uncertainty_length"  # columns of the uncertainty, and the one in m

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
-from ..roughness import Roughness
-from ..scene import Scene
-from ..short_forms import short_keys
-from ..short_forms.lubricant import SOURCES
+from ..scene.roughness import Roughness
+from ..scene.scene import Scene
+from ..scene.short_forms import short_keys
+from ..scene.short_lubricant import SOURCES
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from ..prepared import Prepared
-from ..scene import Scene
-from ..store import digest
+from ..scene.scene import Scene
+from ..sharing.prepared import Prepared
+from .fingerprint import digest
 
 MOST = 25  # points of a walk at most
 

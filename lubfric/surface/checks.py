@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 
 MOST_POINTS = 2**26  # of any map, 512 MiB of heights

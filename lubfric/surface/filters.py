@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 
 ALPHA = math.sqrt(math.log(2) / math.pi)

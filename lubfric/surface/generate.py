@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from . import checks
 from .height_map import Surface

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
+from .._base.frozen import FrozenArrays
+from .._base.shown import Shown
 from ..errors import InputError
-from ..frozen import FrozenArrays
-from ..show import Shown
 from . import checks, filters, pair, prepare, regrid, statistics
 from .outliers import LIMIT, WINDOW, outliers
 
@@ -93,7 +93,7 @@ class Surface(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned."""
-        from ..show.axes import surface_axes
+        from .._base.axes import surface_axes
 
         return surface_axes(self, ax)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from .height_map import Surface
 from .units import UNITS

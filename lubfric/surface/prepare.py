@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 
 FORMS = ("plane", "quadratic")

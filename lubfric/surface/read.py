@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from . import checks, instrument
 from .height_map import Surface

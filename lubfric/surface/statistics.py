@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 
 INVERSE_E = math.exp(-1)

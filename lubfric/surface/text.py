@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from .. import validate
+from .._base import validate
 from ..errors import InputError
 from .table import read_table
 

@@ -7,7 +7,10 @@ import pytest
 from scipy import integrate
 
 from lubfric import InputError
-from lubfric.analytic import film, grubin, hertz, rigid, westergaard
+from lubfric.contact import westergaard
+from lubfric.film import formulas as film
+from lubfric.film import grubin, hertz
+from lubfric.film import rigid_cylinder as rigid
 
 OIL = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from lubfric import solve_contact
-from lubfric.analytic import hertz, westergaard
+from lubfric.contact import westergaard
+from lubfric.film import hertz
 
 E_PRIME = 231e9
 CYLINDER = ("free", "periodic")

@@ -5,9 +5,9 @@ import pytest
 
 from lubfric import solve_contact
 from lubfric.contact import descent, refine
+from lubfric.contact.operator import half_space
 from lubfric.contact.projection import shifted
 from lubfric.contact.stencil import Stencil, nearest_coefficients
-from lubfric.halfspace import half_space
 
 E_PRIME, DX = 231e9, 2e-6
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.curve import Interpolant, Samples, next_speed
-from lubfric.curve.interpolate import knee_of
-from lubfric.curve.span import first_speeds, span
-from lubfric.ehl.solve import solve_line_contact
-from lubfric.line_contact import LineContact
+from lubfric.film.ehl import solve_line_contact
+from lubfric.film.line_contact import LineContact
+from lubfric.studies.choose import next_speed
+from lubfric.studies.interpolate import Interpolant, Samples, knee_of
+from lubfric.studies.span import first_speeds, span
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.cli import main
-from lubfric.curves.draw import plot_map
+from lubfric.output.command_line import main
+from lubfric.output.draw_curves import plot_map
 
 SCENE = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
@@ -91,7 +91,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     (out / "traction.png").unlink()
     assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
     with monkeypatch.context() as full:
-        full.setattr("lubfric.curves.command.plot_traction", full_disk)
+        full.setattr("lubfric.output.run_traction.plot_traction", full_disk)
         assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
     assert "holds a traction curve" in capsys.readouterr().err
@@ -134,7 +134,7 @@ def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
 
 
 def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
-    module = sys.modules["lubfric.curves.traction"]
+    module = sys.modules["lubfric.studies.traction"]
     real = module.friction
 
     def friction(prepared, *arguments, **options):

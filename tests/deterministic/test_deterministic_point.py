@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import lay_out, solve_point
+from lubfric.deterministic.domain import lay_out
 from lubfric.deterministic.forces import forces
 from lubfric.deterministic.march import march
 from lubfric.deterministic.newton import newton
 from lubfric.deterministic.refine import estimate, solve_refined
-from lubfric.deterministic.solve import Start, Work
+from lubfric.deterministic.solve import Start, Work, solve_point
 from lubfric.deterministic.start import dry_contact, dry_start
 from lubfric.deterministic.state import FLUID, RUPTURED, look, residuals
 from lubfric.deterministic.transfer import refined_start, state_on
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.surface import Surface
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant
+from lubfric.surface.height_map import Surface
 
 E_PRIME, WIDTH, RADIUS = 231e9, 6e-3, 2e-3
 NEWTONIAN = Lubricant(0.36, 25e-9)

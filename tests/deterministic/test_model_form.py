@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.validity.model_form import LEAST, MOST, load_sharing_error, one_way_error
+from lubfric.sampling.model_form import LEAST, MOST, load_sharing_error, one_way_error
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 90e-6 / 48}, numerics={"sampling": "patch"}

@@ -4,17 +4,18 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from lubfric.analytic import rigid
-from lubfric.deterministic import lay_out, solve_point
+from lubfric.contact.operator import half_space
+from lubfric.deterministic.domain import lay_out
 from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.reynolds import balance, derivatives
 from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.deterministic.solve import solve_point
 from lubfric.deterministic.state import _opened
-from lubfric.halfspace import half_space
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant, shear_stress
-from lubfric.surface import Surface
+from lubfric.film import rigid_cylinder as rigid
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant, shear_stress
+from lubfric.surface.height_map import Surface
 
 RADIUS, SPEED = 2e-3, 0.1
 LAWS = {

@@ -13,8 +13,8 @@ import pytest
 from pages import PAGES, ROOT, blocks
 
 import lubfric
-from lubfric.cli import _parser as parser
-from lubfric.cli import main
+from lubfric.output.command_line import _parser as parser
+from lubfric.output.command_line import main
 from verification.__main__ import main as verification
 
 PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]

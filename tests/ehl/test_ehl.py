@@ -9,10 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.analytic import film, grubin, rigid
-from lubfric.ehl import assemble, grid, kernel, newton, problem, reynolds, solve, start
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
+from lubfric.film import assemble, grid, grubin, kernel, newton, problem, reynolds, start
+from lubfric.film import ehl as solve
+from lubfric.film import formulas as film
+from lubfric.film import rigid_cylinder as rigid
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant
 
 ALPHA, Z = 2.2e-8, 0.68
 ROELANDS_VISCOSITY = math.exp(ALPHA * 1.96e8 / Z - 9.67)

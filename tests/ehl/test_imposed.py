@@ -10,14 +10,14 @@ from scipy.integrate import quad
 
 import lubfric
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.analytic import hertz
-from lubfric.ehl import grid, kernel, problem, reynolds, solve, start
-from lubfric.ehl.imposed import LinePressure, find_seats, line_deflection
-from lubfric.ehl.kernel import hat_kernel
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.point import total_pressure
-from lubfric.point.total_pressure import mismatch, spread_of
+from lubfric.film import ehl as solve
+from lubfric.film import grid, hertz, kernel, problem, reynolds, start
+from lubfric.film.imposed import LinePressure, find_seats, line_deflection
+from lubfric.film.kernel import hat_kernel
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant
+from lubfric.sharing import total_pressure
+from lubfric.sharing.total_pressure import mismatch, spread_of
 
 E, R = 231e9, 10e-3
 OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
-from lubfric.analytic import film, hertz, rigid
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
+from lubfric.film import formulas as film
+from lubfric.film import hertz
+from lubfric.film import rigid_cylinder as rigid
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant
 
 OIL = Lubricant(0.04, 2.2e-8)
 STEEL = LineContact(1e5, 0.01, 2.2e11, 1.5, OIL)

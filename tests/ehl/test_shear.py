@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.analytic import rigid
+from lubfric.contact.rough_contract import ContactState
+from lubfric.film import rigid_cylinder as rigid
 from lubfric.film.shear import _upstream, shear_force
-from lubfric.lubricant import Lubricant
-from lubfric.rough.contract import ContactState
+from lubfric.oil.lubricant import Lubricant
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
 OIL = Lubricant(ETA, 1e-13, "barus")

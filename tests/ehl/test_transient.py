@@ -8,20 +8,20 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.ehl import solve_ehl
-from lubfric.ehl import transient as module
-from lubfric.ehl.problem import Problem
-from lubfric.ehl.transient import solve_transient_ehl
-from lubfric.ehl.transient.active_set import solve_step
-from lubfric.ehl.transient.fixed_grid import make_fixed_grid, symmetric_nodes
-from lubfric.ehl.transient.setting import ContactHistory, make_setting, parabola, steady_start
-from lubfric.ehl.transient.squeeze import Conditions, Spring, evaluate, jacobian
-from lubfric.ehl.transient.tail import outside, outside_shear
-from lubfric.history import Constant, Harmonic, Ramp, Table
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.march.bdf import Level, Memory, Progress, advance
-from lubfric.paper.differential.transient import solve_differential_transient
+from lubfric import time as module
+from lubfric.film.ehl import solve_ehl
+from lubfric.film.line_contact import LineContact
+from lubfric.film.problem import Problem
+from lubfric.oil.lubricant import Lubricant
+from lubfric.paper.differential_transient import solve_differential_transient
+from lubfric.scene.history import Constant, Harmonic, Ramp, Table
+from lubfric.time.bdf import Level, Memory, Progress, advance
+from lubfric.time.film import solve_transient_ehl
+from lubfric.time.film_active_set import solve_step
+from lubfric.time.film_grid import make_fixed_grid, symmetric_nodes
+from lubfric.time.film_setting import ContactHistory, make_setting, parabola, steady_start
+from lubfric.time.film_squeeze import Conditions, Spring, evaluate, jacobian
+from lubfric.time.film_tail import outside, outside_shear
 
 SQUEEZE = dict(
     load_per_width=100.0,
@@ -334,7 +334,7 @@ def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
         return found
 
     failing.calls = 0
-    monkeypatch.setattr("lubfric.ehl.transient.setting.solve_step", failing)
+    monkeypatch.setattr("lubfric.time.film_setting.solve_step", failing)
     times = unit * np.array([0.0, 0.01, 50.0])
     with pytest.raises(lubfric.ConvergenceError, match="stagnated") as caught:
         solve_transient_ehl(**keywords, times=times)

@@ -10,10 +10,10 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.cli import main
-from lubfric.fitting.fit import _numerical_variance
-from lubfric.fitting.parameters import parameters_of
-from lubfric.fitting.predict import jacobian, predictor, shares_contact
+from lubfric.output.command_line import main
+from lubfric.studies.fit import _numerical_variance
+from lubfric.studies.fit_parameters import parameters_of
+from lubfric.studies.fit_predict import jacobian, predictor, shares_contact
 
 SCENE = (
     lubfric.load_scene("paper")

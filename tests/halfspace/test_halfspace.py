@@ -8,13 +8,9 @@ from scipy.integrate import dblquad, quad
 from scipy.special import k0
 
 from lubfric import InputError
-from lubfric.halfspace import (
-    half_space,
-    line_coefficients,
-    love_coefficients,
-    reciprocity_error,
-    semiperiodic_coefficients,
-)
+from lubfric.contact.kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
+from lubfric.contact.operator import half_space
+from lubfric.contact.reciprocity import reciprocity_error
 
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
 
@@ -67,7 +63,7 @@ def test_semiperiodic_coefficients_match_quadrature():
 
 @pytest.mark.parametrize("cells_per_wavelength", [1e3, 40, 3, 0.2])
 def test_bessel_cells_over_all_scales(cells_per_wavelength):
-    from lubfric.halfspace.kernels import bessel_cells
+    from lubfric.contact.kernels import bessel_cells
 
     k = 2 * np.pi / cells_per_wavelength
     cells = bessel_cells(np.arange(12), np.full(12, k))
@@ -226,7 +222,7 @@ def test_apply_rejects_another_shape():
 )
 def test_a_loaded_strip_deflects_as_in_the_whole_patch(nx, ny, spacing, first, count):
     """Waves cut off where they end: to rounding the same as transforms of the whole patch, in either precision."""
-    from lubfric.halfspace.operator import filtered
+    from lubfric.contact.operator import filtered
 
     operator = half_space((nx, ny), spacing, 2.0, ("free", "periodic"))
     first = min(first, nx - 1)

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
 import lubfric
-from lubfric.analytic import hertz, nahme
-from lubfric.heat import Surroundings, heated_film, heated_stress, inlet_heat, viscosity_at
-from lubfric.heat.conjunction import isothermal_heat
-from lubfric.heat.flash import flash_matrix
-from lubfric.heat.stress import limiting_stress_at
-from lubfric.lubricant import Lubricant, shear_stress, viscosity
+from lubfric.film import hertz, nahme
+from lubfric.film.conjunction import Surroundings, heated_film, isothermal_heat
+from lubfric.film.flash import flash_matrix
+from lubfric.film.heated_stress import heated_stress, limiting_stress_at, viscosity_at
+from lubfric.film.inlet_heat import inlet_heat
+from lubfric.oil.lubricant import Lubricant, shear_stress, viscosity
 
 T0 = 343.15
 STEEL = math.sqrt(46 * 7850 * 460)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.history import Harmonic, Ramp, Table
-from lubfric.history.plan import Transient
-from lubfric.history.read import history, read_history
+from lubfric.scene.history import Harmonic, Ramp, Table
+from lubfric.scene.history_read import history, read_history
+from lubfric.scene.transient import Transient
 
 LINES = "time [ms],speed [mm/s]\n0,1000\n500,2000\n1000,0\n"
 EXPECTED = Table(times=(0.0, 0.5, 1.0), values=(1.0, 2.0, 0.0))

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
-from lubfric.ehl.limiter import FILM_STEP, VISCOSITY_STEP, step_length
-from lubfric.history import Table
-from lubfric.history.read import checked_history
-from lubfric.march.bdf import Level, Progress
-from lubfric.march.course import checked_times, plan_of, report_of, steps
+from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP, step_length
+from lubfric.scene.history import Table
+from lubfric.scene.history_read import checked_history
+from lubfric.time.bdf import Level, Progress
+from lubfric.time.course import checked_times, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)

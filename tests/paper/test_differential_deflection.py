@@ -8,18 +8,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.analytic import film
-from lubfric.ehl.kernel import hat_kernel
-from lubfric.ehl.problem import Problem
-from lubfric.ehl.result import cubic, smallest
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.paper.differential import newton as differential_newton
-from lubfric.paper.differential import solve as differential_solve
+from lubfric.film import formulas as film
+from lubfric.film.ehl_result import cubic, smallest
+from lubfric.film.kernel import hat_kernel
+from lubfric.film.line_contact import LineContact
+from lubfric.film.problem import Problem
+from lubfric.oil.lubricant import Lubricant
+from lubfric.paper import differential as differential_solve
+from lubfric.paper import differential_newton
 from lubfric.paper.differential import solve_differential_deflection
-from lubfric.paper.differential.equations import evaluate, measure
-from lubfric.paper.differential.mesh import convolve, make_mesh
-from lubfric.paper.differential.newton import Squeeze, newton
+from lubfric.paper.differential_equations import evaluate, measure
+from lubfric.paper.differential_mesh import convolve, make_mesh
+from lubfric.paper.differential_newton import Squeeze, newton
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import solve_contact
-from lubfric.rough.asperity_curve import asperity_curve
-from lubfric.rough.contact_curve import contact_curve
+from lubfric.contact.asperity_curve import asperity_curve
+from lubfric.contact.contact_curve import contact_curve
+from lubfric.contact.solve import solve_contact
 from verification.__main__ import main
 from verification.figures import FIGURES, cylinder, flat_model, spheres
 
@@ -18,7 +18,7 @@ pytest.importorskip("PIL")
 
 
 def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
-    from lubfric.halfspace.kernels import love_coefficients
+    from lubfric.contact.kernels import love_coefficients
 
     count, step = 201, 1e-6
     kernel = love_coefficients((count, count), (step, step), spheres.E_PRIME)

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import solve_contact
-from lubfric.halfspace import half_space
-from lubfric.paper.contact import alternating, single_loop
+from lubfric.contact.operator import half_space
+from lubfric.contact.solve import solve_contact
+from lubfric.paper.alternating import alternating
+from lubfric.paper.single_loop import single_loop
 
 E, D, N, RADIUS = 231e9, 1e-6, 96, 2e-3
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}

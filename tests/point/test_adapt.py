@@ -9,14 +9,16 @@ import pytest
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric import budget
+from lubfric.contact.rough_contract import Grid
 from lubfric.film.contract import LeftOut
-from lubfric.point.balance import balanced
-from lubfric.point.forces import forces
-from lubfric.point.grids import WORST_GRID, coarser_grids, grid_error, on_enough_cells
-from lubfric.point.one_grid import Stage, needed_settings, on_grid
-from lubfric.point.operating_point import OperatingPoint, Settings
-from lubfric.point.tolerances import (
+from lubfric.report import ITERATION_LIMIT
+from lubfric.scene import budget
+from lubfric.sharing.balance import balanced
+from lubfric.sharing.forces import forces
+from lubfric.sharing.grids import WORST_GRID, coarser_grids, grid_error, on_enough_cells
+from lubfric.sharing.one_grid import Stage, needed_settings, on_grid
+from lubfric.sharing.operating_point import OperatingPoint, Settings
+from lubfric.sharing.tolerances import (
     allowed_left_out,
     balance_tolerance,
     contact_tolerance,
@@ -25,8 +27,6 @@ from lubfric.point.tolerances import (
     first_film_tolerance,
     least_cells,
 )
-from lubfric.report import ITERATION_LIMIT
-from lubfric.rough.contract import Grid
 
 PAPER = lubfric.load_scene("paper")
 N = PAPER.numerics
@@ -154,7 +154,7 @@ def fails_from(monkeypatch, number):
         found.append(balance)
         return balance
 
-    monkeypatch.setattr("lubfric.point.one_grid.balanced", jumping)
+    monkeypatch.setattr("lubfric.sharing.one_grid.balanced", jumping)
     return found
 
 

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.point.balance import balanced, separated
-from lubfric.point.operating_point import OperatingPoint, Settings, Start
-from lubfric.point.split import divided
+from lubfric.contact.hertz_strip import strip_weight
 from lubfric.report import ITERATION_LIMIT
-from lubfric.rough.strip import strip_weight
+from lubfric.sharing.balance import balanced, separated
+from lubfric.sharing.operating_point import OperatingPoint, Settings, Start
+from lubfric.sharing.split import divided
 
 SCENE = (
     lubfric.load_scene("paper")

@@ -12,7 +12,7 @@ from toys import EvenFilmLevel, Spring
 import lubfric
 from lubfric.film.contract import FilmLevel, LeftOut
 from lubfric.film.levels import LEVELS, higher, lowest_level
-from lubfric.line_contact import LineContact
+from lubfric.film.line_contact import LineContact
 from lubfric.report import ITERATION_LIMIT, Report
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.point.deflection import own_pressure_error
+from lubfric.sharing.deflection import own_pressure_error
 
 HEAVY = (
     lubfric.load_scene("paper")
@@ -78,7 +78,7 @@ def test_a_tighter_tolerance_asks_for_the_whole_load_earlier():
 
 
 def test_films_in_time_keep_their_own_pressure():
-    from lubfric.unsteady.setup import begin
+    from lubfric.time.setup import begin
 
     small = (
         lubfric.load_scene("paper")
@@ -96,7 +96,7 @@ def test_films_in_time_keep_their_own_pressure():
 @pytest.mark.parametrize("error", [lubfric.ConvergenceError("no", None), lubfric.InputError("a range")])
 def test_a_choice_that_fails_does_not_fail_the_point(monkeypatch, error):
     """The loose solve that chooses is broken; the point is the answer of the safer level, and says so."""
-    from lubfric.point import deflection
+    from lubfric.sharing import deflection
 
     whole = deflection.solved
 

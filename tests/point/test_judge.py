@@ -8,8 +8,8 @@ import pytest
 
 import lubfric
 from lubfric.film.shear import ShearForce
-from lubfric.point.forces import Forces, forces
-from lubfric.point.judge import judged_validity
+from lubfric.sharing.forces import Forces, forces
+from lubfric.sharing.judge import judged_validity
 
 PAPER = (
     lubfric.load_scene("paper")
@@ -122,14 +122,14 @@ def test_a_sweep_marks_the_point_and_keeps_the_rest():
     ],
 )
 def test_bodies_are_judged_before_anything_is_solved(bodies, words, severe):
-    from lubfric.validity.beforehand import of_bodies
+    from lubfric.sharing.validity_beforehand import of_bodies
 
     entries = [e for e in of_bodies(PAPER.with_(bodies={"hardness": None} | bodies).bodies) if words in e.text]
     assert len(entries) == 1 and entries[0].severe is severe
 
 
 def test_steep_maps_and_narrow_ones_are_told():
-    from lubfric.validity.beforehand import of_map
+    from lubfric.sharing.validity_beforehand import of_map
 
     assert not list(of_map(0.3, 20))
     assert [e.severe for e in of_map(0.7, 20)] == [False]
@@ -138,7 +138,7 @@ def test_steep_maps_and_narrow_ones_are_told():
 
 
 def test_the_reynolds_number_is_that_of_the_film():
-    from lubfric.validity.solution import of_motion
+    from lubfric.sharing.validity_solution import of_motion
 
     scene = PAPER.with_(lubricant={"viscosity": 1e-4, "viscosity_law": "constant"})
     number = 870 * 100 * 30e-6 / 1e-4

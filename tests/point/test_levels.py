@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.analytic import rigid
+from lubfric.contact.operator import half_space
+from lubfric.film import rigid_cylinder as rigid
 from lubfric.film.levels import LEVELS, Isoviscous, lowest_level
+from lubfric.film.line_contact import LineContact
 from lubfric.film.rigid import isoviscous_film, piezoviscous_film
 from lubfric.film.rigid_error import elastic_error
 from lubfric.film.shear import shear_force
-from lubfric.halfspace import half_space
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.point.grids import coarser_grids
-from lubfric.prepared import prepare
+from lubfric.oil.lubricant import Lubricant
+from lubfric.sharing.grids import coarser_grids
+from lubfric.sharing.prepared import prepare
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})

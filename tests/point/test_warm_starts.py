@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 import lubfric
-from lubfric.ehl import solve as ehl_solve
-from lubfric.point.adapt import solved
-from lubfric.rough import half_space
+from lubfric.contact import half_space
+from lubfric.film import ehl as ehl_solve
+from lubfric.sharing.adapt import solved
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, generate_surface
-from lubfric.analytic import hertz
-from lubfric.asperity import DEFINITIONS, asperity_contact, separation_for_load
+from lubfric.contact.asperity import DEFINITIONS, asperity_contact
+from lubfric.contact.asperity_separation import separation_for_load
+from lubfric.film import hertz
 
 E_PRIME, RADIUS, STEP = 231e9, 30e-6, 50e-9
 ROUGH = generate_surface((128, 128), 1e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=2)

@@ -7,11 +7,11 @@ import pytest
 from scipy.optimize import brentq
 
 import lubfric
-from lubfric.asperity import asperity_contact, find_asperities
-from lubfric.prepared import prepare
-from lubfric.rough.asperities import AsperityContact
-from lubfric.rough.asperity_curve import asperity_curve
-from lubfric.rough.contact_curve import contact_curve
+from lubfric.contact.asperities import AsperityContact
+from lubfric.contact.asperity import asperity_contact, find_asperities
+from lubfric.contact.asperity_curve import asperity_curve
+from lubfric.contact.contact_curve import contact_curve
+from lubfric.sharing.prepared import prepare
 
 CYLINDER = (
     lubfric.load_scene("paper")

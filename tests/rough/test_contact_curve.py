@@ -5,9 +5,9 @@ import pytest
 
 import lubfric
 from lubfric.contact import nested
+from lubfric.contact.contact_curve import contact_curve
+from lubfric.contact.left_out import left_out
 from lubfric.contact.projection import rescaled, shifted
-from lubfric.rough.contact_curve import contact_curve
-from lubfric.rough.left_out import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.rough.edges import ALLOWED, clear, within_reach
-from lubfric.unsteady.judge import judged_outputs
+from lubfric.contact.edges import ALLOWED, clear, within_reach
+from lubfric.time.judge import judged_outputs
 
 BASE = lubfric.load_scene("paper").with_(
     bodies={"load": 40.0, "hardness": None, "width": 2e-3},
@@ -23,7 +23,7 @@ def patch(cells):
     return BASE.with_(contact={"shape": (cells, 64)})
 
 
-BLIND = "lubfric.rough.half_space.HalfSpaceContact.foretell"
+BLIND = "lubfric.contact.half_space.HalfSpaceContact.foretell"
 
 
 @pytest.mark.parametrize("hardness", [None, 2.5e9])
@@ -31,11 +31,11 @@ def test_a_short_patch_is_refused_before_any_film_or_balance(monkeypatch, hardne
     """One dry contact, loosely solved, is all that is done; what it says leads to a patch that is accepted."""
     half, solves = BASE.bodies.half_width, []
     short = lubfric.prepare(patch(int(2.04 * half / 2e-6) + 1).with_(bodies={"hardness": hardness}))
-    solve = lubfric.rough.half_space.solve_contact
-    for module in ("lubfric.ehl.imposed.line_pressure", "lubfric.film.rigid._film"):
+    solve = lubfric.contact.half_space.solve_contact
+    for module in ("lubfric.film.imposed.line_pressure", "lubfric.film.rigid._film"):
         monkeypatch.setattr(module, lambda *a, **k: 1 / 0)
     monkeypatch.setattr(
-        "lubfric.rough.half_space.solve_contact", lambda *a, **k: solves.append(k["tolerance"]) or solve(*a, **k)
+        "lubfric.contact.half_space.solve_contact", lambda *a, **k: solves.append(k["tolerance"]) or solve(*a, **k)
     )
     with pytest.raises(lubfric.InputError, match="(?s)foretold, no film was solved.*longer in x: contact.shape"):
         lubfric.friction(short)

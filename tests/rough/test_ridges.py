@@ -5,8 +5,8 @@ import pytest
 from scipy import ndimage
 
 import lubfric
-from lubfric.asperity import ridges
-from lubfric.validity.solution import of_patches
+from lubfric.contact.asperity_find import ridges
+from lubfric.sharing.validity_solution import of_patches
 
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.lines.pieces import line_contact
-from lubfric.point.adapt import solved
 from lubfric.sampling.line_record import LineRecord, pooled
+from lubfric.sharing.adapt import solved
+from lubfric.sharing.lines_pieces import line_contact
 
 
 def test_loads_are_averaged_by_length():

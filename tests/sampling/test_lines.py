@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.lines.cells import cells_of_a_box, choose_cells
-from lubfric.lines.generated import generated_lines, seed_of
-from lubfric.lines.length import next_length
-from lubfric.lines.pieces import thinned
-from lubfric.lines.windows import measured_lines, spread, stack
+from lubfric.sharing.lines_cells import cells_of_a_box, choose_cells
+from lubfric.sharing.lines_generated import generated_lines, seed_of
+from lubfric.sharing.lines_length import next_length
+from lubfric.sharing.lines_pieces import thinned
+from lubfric.sharing.lines_windows import measured_lines, spread, stack
 
 PAPER = lubfric.load_scene("paper")
 

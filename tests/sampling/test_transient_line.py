@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.history.plan import Transient
 from lubfric.sampling.line_friction import line_friction
-from lubfric.unsteady.line import long_enough
-from lubfric.unsteady.moment import _thinning
+from lubfric.scene.transient import Transient
+from lubfric.time.line import long_enough
+from lubfric.time.moment import _thinning
 
 HELD = lubfric.load_scene("paper").with_(
     transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.rough.height_map import contact_map
+from lubfric.contact.height_map import contact_map
 
 NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_map`)
 MOVES = 0.02  # least relative change of f by an undone key: twice the tolerance of a scene
@@ -293,7 +293,7 @@ def test_couette_force_is_the_ratio_times_that_of_one():
 
 
 def own_stress(oil, p, rate):
-    """Shear stress by the laws as they are written, apart from `lubfric.lubricant`."""
+    """Shear stress by the laws as they are written, apart from `lubfric.oil.lubricant`."""
     if oil.viscosity_law == "barus":
         log = oil.pressure_viscosity_coefficient * p
     else:

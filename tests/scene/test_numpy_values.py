@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.scene_file import scene_from_table
-from lubfric.store import fingerprint
+from lubfric.scene.file import scene_from_table
+from lubfric.studies.fingerprint import fingerprint
 
 SCENE = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 

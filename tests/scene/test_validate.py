@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from lubfric import validate
+from lubfric._base import validate
 from lubfric.errors import InputError
 
 NO_NUMBERS = [

@@ -6,7 +6,7 @@ import pickle
 import pytest
 
 import lubfric
-from lubfric.plausible import USUAL, doubts, slip
+from lubfric.scene.plausible import USUAL, doubts, slip
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
 

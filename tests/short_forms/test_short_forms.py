@@ -6,8 +6,8 @@ import pytest
 
 import lubfric
 from lubfric import oil
-from lubfric.analytic import hertz
-from lubfric.short_forms.bodies import reduced_radius
+from lubfric.film import hertz
+from lubfric.scene.short_bodies import reduced_radius
 
 PAPER = lubfric.load_scene("paper")
 INF = math.inf

@@ -7,8 +7,8 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.cli import main
-from lubfric.vtk import grid_bytes, vtk_bytes
+from lubfric.output.command_line import main
+from lubfric.output.vtk import grid_bytes, vtk_bytes
 
 SCENE = (
     BODIES_AND_OIL

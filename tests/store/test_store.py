@@ -16,21 +16,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric import cli
-from lubfric.prepared import prepare
-from lubfric.store import (
-    FolderLock,
-    Records,
-    decode,
-    digest,
-    encode,
-    fingerprint,
-    read_checked,
-    write_checked,
-    write_whole,
-)
-from lubfric.store.codec import from_plain, to_plain
+from lubfric._base.files import read_checked, write_checked, write_whole
+from lubfric._base.lock import FolderLock
+from lubfric.output import command_line as cli
+from lubfric.sharing.prepared import prepare
+from lubfric.studies.codec import decode, encode, from_plain, to_plain
+from lubfric.studies.fingerprint import digest, fingerprint
 from lubfric.studies.journal import Journal
+from lubfric.studies.records import Records
 
 ROOT = Path(__file__).parents[2]
 SCENE = lubfric.load_scene("paper").with_(
@@ -48,7 +41,7 @@ def started(code, *arguments):
 
 REPLACER = """
 import sys
-from lubfric.store import write_whole
+from lubfric.studies import write_whole
 print("ready", flush=True)
 while True:
     for letter in (b"a", b"b"):
@@ -112,7 +105,7 @@ def test_any_damage_of_a_checked_file_is_seen(tmp_path_factory, content, data):
 
 ADDER = """
 import sys
-from lubfric.store import Records
+from lubfric.studies import Records
 with Records(sys.argv[1]) as records:
     print("ready", flush=True)
     for i in range(int(sys.argv[3])):
@@ -170,7 +163,7 @@ def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
 
 HOLDER = """
 import sys
-from lubfric.store import FolderLock
+from lubfric.studies import FolderLock
 with FolderLock(sys.argv[1]):
     print("ready", flush=True)
     sys.stdin.read()
@@ -265,7 +258,7 @@ def test_what_another_version_stored_is_told_and_solved_again(tmp_path, name):
 
 
 def test_nothing_but_dataclasses_of_the_package_is_built():
-    for name in ("os.system", "lubfric.store.codec.json", "lubfric.prepare", "builtins.eval"):
+    for name in ("os.system", "lubfric.studies.codec.json", "lubfric.prepare", "builtins.eval"):
         with pytest.raises((ValueError, AttributeError)):
             from_plain({"class": name})
     with pytest.raises(TypeError, match="cannot be stored"):

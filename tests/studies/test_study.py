@@ -266,7 +266,7 @@ def test_a_lost_or_damaged_state_is_solved_again_to_the_same_bits(serial, tmp_pa
 
 
 def test_two_writers_are_refused(tmp_path):
-    with lubfric.store.FolderLock(tmp_path):
+    with lubfric.studies.FolderLock(tmp_path):
         with pytest.raises(lubfric.InputError, match="another run"):
             lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
 

@@ -12,7 +12,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.cli import main
+from lubfric.output.command_line import main
 from lubfric.studies.file import load_study
 
 ROOT = Path(__file__).parents[2]
@@ -128,7 +128,8 @@ def test_bad_options_are_one_line(tmp_path, capsys, arguments):
 
 
 def test_a_table_that_cannot_be_written_is_told_before_any_point(tmp_path, monkeypatch, capsys):
-    from lubfric.studies import command, tables
+    from lubfric.output import run_study as command
+    from lubfric.studies import tables
 
     def missing(name):
         raise ImportError(name)

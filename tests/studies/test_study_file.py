@@ -6,9 +6,9 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.report import Report
+from lubfric.sharing.validity import Validity
 from lubfric.studies.file import load_study
 from lubfric.studies.journal import outcome_of, record_of
-from lubfric.validity import Validity
 
 SCENE = (
     BODIES_AND_OIL

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.cli import main
-from lubfric.table import read_table
+from lubfric._base.table import read_table
+from lubfric.output.command_line import main
 
 SCENE = """
 [bodies]
@@ -118,7 +118,7 @@ def test_the_memory_said_covers_a_contact_solve():
     """Fields of 8 bytes a cell at the peak of a solve, as traced; neither too few nor twice as many."""
     import tracemalloc
 
-    from lubfric.describe import SOLVE_FIELDS
+    from lubfric.output.describe import SOLVE_FIELDS
 
     surface = lubfric.generate_surface((256, 256), 1e-6, sq=1e-7, correlation_length=8e-6, seed=1)
     for boundary in ("periodic", ("free", "periodic")):

@@ -13,9 +13,9 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric import table
-from lubfric.cli import main
-from lubfric.store import FolderLock
+from lubfric._base import table
+from lubfric._base.lock import FolderLock
+from lubfric.output.command_line import main
 
 ROOT = Path(__file__).parents[2]
 SCENE = (
@@ -39,7 +39,7 @@ def counted(*arguments, **options):
     print("solved", flush=True)
     return found
 trail.friction = counted
-from lubfric.cli import main
+from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
 SHARED = """
@@ -53,7 +53,7 @@ def dying(model, speed, **options):
         time.sleep(60)
     return real(model, speed, **options)
 trail.friction = dying
-from lubfric.cli import main
+from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", sys.argv[2], "--workers", "2"]))
 """
 
@@ -238,7 +238,7 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
 
 
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
-    from lubfric.unsteady import checkpoint
+    from lubfric.time import checkpoint
 
     real, count = checkpoint.Checkpoint.save, [0]
 
@@ -261,7 +261,7 @@ def test_broken_streams_never_stop_a_computation(tmp_path, text):
     process = start(
         written(tmp_path, text),
         tmp_path / "out",
-        code="import sys; from lubfric.cli import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
+        code="import sys; from lubfric.output.command_line import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
     )
     process.stderr.close(), process.stdout.close()
     assert process.wait() == 0
@@ -269,7 +269,7 @@ def test_broken_streams_never_stop_a_computation(tmp_path, text):
 
 
 def test_a_closed_stdout_is_no_error_of_info():
-    code = "import sys; from lubfric.cli import main; sys.exit(main(['info', sys.argv[1]]))"
+    code = "import sys; from lubfric.output.command_line import main; sys.exit(main(['info', sys.argv[1]]))"
     process = start("paper", "-", code=code)
     process.stdout.close()
     with process.stderr as stderr:

@@ -3,7 +3,7 @@
 import numpy as np
 
 import lubfric
-from lubfric.cli import main
+from lubfric.output.command_line import main
 
 SCENE = """
 [bodies]

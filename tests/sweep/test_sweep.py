@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.prepared import prepare
-from lubfric.store import digest
+from lubfric.sharing.prepared import prepare
 from lubfric.studies import trail
-from lubfric.sweep import QUANTITIES
+from lubfric.studies.fingerprint import digest
+from lubfric.studies.sweep_points import QUANTITIES
 
 SCENE = (
     lubfric.load_scene("paper")

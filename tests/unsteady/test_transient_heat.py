@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric import cli
-from lubfric.history import Harmonic, Ramp
+from lubfric.output import command_line as cli
+from lubfric.scene.history import Harmonic, Ramp
 
 BASE = lubfric.load_scene("flat").with_(
     bodies={"load": 3000.0, "radius": 1e-2, "width": 1e-2},

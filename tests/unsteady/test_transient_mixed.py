@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.cli import main
-from lubfric.history import Harmonic, Ramp, Table
-from lubfric.history.plan import Transient
-from lubfric.prepared import prepare
-from lubfric.store import write_checked
-from lubfric.unsteady.checkpoint import OUTPUTS, STATE, Checkpoint
-from lubfric.unsteady.sharing import Sharing
+from lubfric._base.files import write_checked
+from lubfric.output.command_line import main
+from lubfric.scene.history import Harmonic, Ramp, Table
+from lubfric.scene.transient import Transient
+from lubfric.sharing.prepared import prepare
+from lubfric.time.checkpoint import OUTPUTS, STATE, Checkpoint
+from lubfric.time.sharing import Sharing
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -193,8 +193,8 @@ SCRIPT = """
 import os, signal, sys, time
 import numpy as np
 import lubfric
-from lubfric.history import Harmonic
-from lubfric.history.plan import Transient
+from lubfric.scene import Harmonic
+from lubfric.scene.transient import Transient
 scene = lubfric.load_scene("paper").with_(
     numerics={"sampling": "patch"},
     contact={"shape": (64, 64), "spacing": 0.8e-6},
@@ -331,7 +331,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
         Path(path).write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("lubfric.unsteady.command.plot_history", full_disk)
+    monkeypatch.setattr("lubfric.output.run_history.plot_history", full_disk)
     assert main(["plot", str(tmp_path / "out")]) != 0
     assert (tmp_path / "out" / "history.png").read_bytes() == drawn
     assert {p.name for p in (tmp_path / "out").iterdir()} == names

@@ -3,9 +3,9 @@
 import pytest
 
 import lubfric
-from lubfric.cli import main
-from lubfric.describe import describe_scene
-from lubfric.validity.foretold import foretold
+from lubfric.output.command_line import main
+from lubfric.output.describe import describe_scene
+from lubfric.sharing.validity_outlook import foretold
 
 HEAVY = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "material": "steel"},

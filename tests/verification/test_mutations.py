@@ -30,13 +30,13 @@ def test_every_place_exists_and_is_restored(mutant):
 
 
 def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
-    from lubfric.rough import half_space
+    from lubfric.contact import half_space
 
     original = half_space.centred_axis
     gone = Mutant(
         "gone",
         "",
-        {"lubfric.rough.half_space:centred_axis": lambda f: f, "lubfric.rough.half_space:no_such": lambda f: f},
+        {"lubfric.contact.half_space:centred_axis": lambda f: f, "lubfric.contact.half_space:no_such": lambda f: f},
     )
     with pytest.raises(AttributeError, match="no_such"), applied(gone):
         pass
@@ -44,14 +44,14 @@ def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
 
 
 def test_calls_are_counted():
-    from lubfric.rough import half_space
+    from lubfric.contact import half_space
 
     mutant = next(m for m in MUTANTS if m.name == "half_cell")
     right = half_space.centred_axis(4, 2.0)
     with applied(mutant) as calls:
         assert calls == []
         assert np.allclose(half_space.centred_axis(4, 2.0), right - 1.0)
-    assert calls == ["lubfric.rough.half_space:centred_axis"]
+    assert calls == ["lubfric.contact.half_space:centred_axis"]
     half_space.centred_axis(4, 2.0)
     assert len(calls) == 1
 

@@ -9,8 +9,9 @@ from functools import lru_cache, partial
 import numpy as np
 
 from lubfric import ConvergenceError, solve_contact
-from lubfric.halfspace import half_space
-from lubfric.paper.contact import alternating, single_loop
+from lubfric.contact.operator import half_space
+from lubfric.paper.alternating import alternating
+from lubfric.paper.single_loop import single_loop
 
 from ..check import Check
 from ..opponents import CONTACT

@@ -25,7 +25,7 @@ CONTACT = (
     START
     + """
 from lubfric import solve_contact
-from lubfric.halfspace import half_space
+from lubfric.contact import half_space
 from verification.charts.growth import rough
 n = int(sys.argv[1])
 z = rough(n)
@@ -63,10 +63,10 @@ work, size = r.report.iterations, nodes"""
 NEWTON = (
     START
     + """
-from lubfric.ehl.grid import make_grid
-from lubfric.ehl.newton import newton
-from lubfric.ehl.solve import problem_nodes
-from lubfric.ehl.start import rupture_guess, warm_start
+from lubfric.film.grid import make_grid
+from lubfric.film.newton import newton
+from lubfric.film.ehl import problem_nodes
+from lubfric.film.start import rupture_guess, warm_start
 from verification.charts.growth import newton_problem
 problem, state = newton_problem()
 
@@ -93,7 +93,7 @@ SWEEP = (
     START
     + """
 import lubfric
-from lubfric.prepared import prepare
+from lubfric.sharing.prepared import prepare
 model = prepare(lubfric.load_scene("paper").with_(
     numerics={"sampling": "patch"}, contact={"shape": (50, 50), "spacing": 1.8e-6}
 ))
@@ -120,9 +120,9 @@ def rough(n: int) -> np.ndarray:
 def newton_problem():
     """A contact (M = 20, L = 5) and a solution to start every grid from."""
     from lubfric import solve_ehl
-    from lubfric.ehl.problem import Problem
-    from lubfric.line_contact import LineContact
-    from lubfric.lubricant import Lubricant
+    from lubfric.film.line_contact import LineContact
+    from lubfric.film.problem import Problem
+    from lubfric.oil.lubricant import Lubricant
 
     from ..cases import case_of
 

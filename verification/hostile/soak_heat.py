@@ -1,4 +1,4 @@
-"""Heat as the judge of the soak has it: the physics of `lubfric.heat` by other numerics.
+"""Heat as the judge of the soak has it: the physics of `lubfric.film` by other numerics.
 
 The temperature across the film comes from its double integral on a grid, by a fixed point, and not in closed form. That
 of the surfaces comes from heat that is constant in each cell, and that of the inlet from Moes' film and bisection.

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import lubfric
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
 
 from ..check import AT_MOST, TOLD, Check, Item, Table
 from ..frame import Command
@@ -83,7 +83,7 @@ def model_error(level: str, folder: Path | None = None, scene: Scene | None = No
     ratios = [d.rms / d.told for d in gathered if d.method in held_out.TELLING and d.surfaces > 1]
     if ratios:  # at the quick level each group has one surface
         name = "largest rms of f over uncertainty.model_form"
-        yield Check(name, max(ratios), MOST_OVER, 0.0, "lubfric.validity.model_form", AT_MOST)
+        yield Check(name, max(ratios), MOST_OVER, 0.0, "lubfric.sampling.model_form", AT_MOST)
     yield from held_out.held_out(level, None if folder is None else folder / "held-out.jsonl")
     yield charts.over_speed("light", light, "5.5 N, Newtonian")
     for load in sorted({d.load for d in gathered if d.load > 10}):

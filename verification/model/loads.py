@@ -15,11 +15,10 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import solve_point
 from lubfric.deterministic.point import layer
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.result import DeterministicResult
-from lubfric.deterministic.solve import Start
+from lubfric.deterministic.solve import Start, solve_point
 from lubfric.deterministic.transfer import state_on
 
 from .. import kept

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy import fft
 
-import lubfric.halfspace
+import lubfric.contact
 
 
 def deflection(
@@ -26,7 +26,7 @@ def deflection(
         return fft.ifft2(fft.fft2(pressure) * 4 / (e_prime * k)).real
     if boundary == ("free", "free"):
         return _love_sum(pressure, spacing, e_prime)
-    return lubfric.halfspace.half_space(pressure.shape, spacing, e_prime, boundary).apply(pressure)
+    return lubfric.contact.half_space(pressure.shape, spacing, e_prime, boundary).apply(pressure)
 
 
 def _love_sum(pressure, spacing, e_prime) -> np.ndarray:

@@ -99,7 +99,7 @@ def solved(here: Condition, gap0, spacing, boundary, second=False, solver=solve_
 
 
 def _second(result, gap0, spacing, physical) -> dict[str, float]:
-    operator = lubfric.halfspace.half_space(gap0.shape, spacing, E_PRIME)
+    operator = lubfric.contact.half_space(gap0.shape, spacing, E_PRIME)
     p, converged = polonsky_keer(gap0, operator, physical["mean_pressure"], tolerance=1e-9, max_iterations=3000)
     if not converged:
         return {}

@@ -14,16 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric import (
-    LubfricError,
-    friction,
-    load_scene,
-    solve_contact,
-    solve_differential_deflection,
-    solve_ehl,
-)
-from lubfric.prepared import Prepared, prepare
-from lubfric.rough.flat import FlatContact
+from lubfric import LubfricError, friction, load_scene, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric.contact.flat import FlatContact
+from lubfric.sharing.prepared import Prepared, prepare
 
 from ..check import Check
 from .cell import Condition, judged

@@ -15,11 +15,12 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import lay_out, solve_point
+from lubfric.contact.operator import half_space
+from lubfric.deterministic.domain import lay_out
 from lubfric.deterministic.problem import Problem
-from lubfric.halfspace import half_space
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
+from lubfric.deterministic.solve import solve_point
+from lubfric.film.line_contact import LineContact
+from lubfric.oil.lubricant import Lubricant
 
 from .. import kept
 from ..check import Check

@@ -8,9 +8,10 @@ import time
 import numpy as np
 
 import lubfric
-from lubfric.contact import solve_contact
-from lubfric.halfspace import half_space
-from lubfric.paper.contact import alternating, single_loop
+from lubfric.contact.operator import half_space
+from lubfric.contact.solve import solve_contact
+from lubfric.paper.alternating import alternating
+from lubfric.paper.single_loop import single_loop
 
 from ..check import AT_MOST, Check, Table
 

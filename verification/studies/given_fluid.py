@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import lay_out, solve_point
-from lubfric.deterministic.domain import reach
+from lubfric.deterministic.domain import lay_out, reach
 from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.result import DeterministicResult
-from lubfric.line_contact import LineContact
+from lubfric.deterministic.solve import solve_point
+from lubfric.film.line_contact import LineContact
 
 from ..check import ABSOLUTE, Check
 from ..fem.compliance import Elastic

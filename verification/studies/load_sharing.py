@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.halfspace import HalfSpace
-from lubfric.halfspace.kernels import semiperiodic_coefficients
-from lubfric.halfspace.operator import _even_transform
-from lubfric.prepared import Prepared, prepare
+from lubfric.contact.kernels import semiperiodic_coefficients
+from lubfric.contact.operator import HalfSpace, _even_transform
+from lubfric.sharing.prepared import Prepared, prepare
 
 from .. import parts, plotting
 from ..check import AT_LEAST, Check, Field, Table

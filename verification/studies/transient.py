@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 
 from lubfric import ConvergenceError
-from lubfric.ehl import solve_ehl
-from lubfric.ehl.problem import Problem
-from lubfric.ehl.transient import solve_transient_ehl
-from lubfric.ehl.transient.fixed_grid import make_fixed_grid, symmetric_nodes
-from lubfric.ehl.transient.setting import ContactHistory, make_setting, parabola
-from lubfric.history import Constant, Harmonic, Ramp
-from lubfric.history import Table as History
-from lubfric.line_contact import LineContact
-from lubfric.lubricant import Lubricant
-from lubfric.march.bdf import Level, Memory, Progress, advance
-from lubfric.paper.differential.transient import solve_differential_transient
+from lubfric.film.ehl import solve_ehl
+from lubfric.film.line_contact import LineContact
+from lubfric.film.problem import Problem
+from lubfric.oil.lubricant import Lubricant
+from lubfric.paper.differential_transient import solve_differential_transient
+from lubfric.scene.history import Constant, Harmonic, Ramp
+from lubfric.scene.history import Table as History
+from lubfric.time.bdf import Level, Memory, Progress, advance
+from lubfric.time.film import solve_transient_ehl
+from lubfric.time.film_grid import make_fixed_grid, symmetric_nodes
+from lubfric.time.film_setting import ContactHistory, make_setting, parabola
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.history import Harmonic, Ramp
-from lubfric.history import Table as History
-from lubfric.history.plan import Transient
-from lubfric.prepared import prepare
+from lubfric.scene.history import Harmonic, Ramp
+from lubfric.scene.history import Table as History
+from lubfric.scene.transient import Transient
+from lubfric.sharing.prepared import prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
-from lubfric.history import Ramp
-from lubfric.scene import Scene
+from lubfric.scene.history import Ramp
+from lubfric.scene.scene import Scene
 
 from ..check import Check
 from .film import FIXED, mixed

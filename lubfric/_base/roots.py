@@ -1,0 +1,148 @@
+"""One bracketed root of an increasing function; it stops by the value of the function, not by the step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from ..report import CONVERGED, ITERATION_LIMIT
+
+NEARER = 0.3  # of the value before: the secant leads on
+
+
+@dataclass(frozen=True)
+class Root:
+    """x, f(x), its payload, |f| at every step, how it ended, and the slope of f between the last two points (None if
+    they do not determine it)."""
+
+    x: float
+    value: float
+    payload: Any
+    history: tuple[float, ...]
+    status: str
+    slope: float | None = None
+
+
+def increasing_root(
+    f: Callable[[float, Any], tuple[float, Any]],
+    guess: float,
+    *,
+    step: float,
+    bounds: tuple[float, float],
+    tolerance: float,
+    slope: float | None = None,
+    first: tuple[float | None, Any] = (None, None),
+    max_evaluations: int = 60,
+) -> Root:
+    """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
+
+    ``f(x, last)`` returns (value, payload); ``last``: the payload before it. ``first``: value and payload at ``guess``
+    inside the bounds, if they are known, which counts as an evaluation; or None and a payload to begin with. Stops when
+    |value| <= tolerance. The bracket grows by doubled steps inside ``bounds``, or by the secant if a step came much
+    nearer. A function of one sign there ends with "iteration_limit". If ``slope`` is roughly known, the first step is
+    Newton's, at most ``step``. Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149,
+    doi:10.1016/S0965-9978(96)00051-8.
+    """
+    search = _Search(f, tolerance, max_evaluations, first[1])
+    if (value := first[0]) is not None:
+        search.keep(guess, value, first[1])
+    bracket = _bracket(search, min(max(guess, bounds[0]), bounds[1]), step, bounds, slope)
+    if bracket is not None:
+        _close_in(search, *bracket)
+    return search.root()
+
+
+class _Search:
+    """One search: f, and its values so far."""
+
+    def __init__(self, f, tolerance: float, max_evaluations: int, first):
+        self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
+        self.points: list[tuple[float, float]] = []
+        self.best: tuple[float, float, Any] = (math.nan, math.inf, None)
+
+    def at(self, x: float) -> tuple[float, float]:
+        """(x, f(x))."""
+        return self.keep(x, *self.f(x, self.last))
+
+    def keep(self, x: float, value: float, payload) -> tuple[float, float]:
+        """(x, f(x)), found with its payload."""
+        self.last = payload
+        self.points.append((x, value))
+        if len(self.points) == 1 or abs(value) < abs(self.best[1]):
+            self.best = (x, value, payload)
+        return x, value
+
+    @property
+    def done(self) -> bool:
+        """Whether the best is good enough, or enough has been tried."""
+        return abs(self.best[1]) <= self.tolerance or len(self.points) >= self.max_evaluations
+
+    def root(self) -> Root:
+        """The result."""
+        status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
+        x, value, payload = self.best
+        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, self._slope())
+
+    def _slope(self) -> float | None:
+        if len(self.points) < 2:
+            return None
+        (a, fa), (b, fb) = self.points[-2:]
+        return (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
+
+
+def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
+    """Points (upper, lower) of both signs; None if the search ended before they were found."""
+    lower = upper = None
+    point = search.points[0] if search.points else search.at(x)
+    while not search.done:
+        if point[1] < 0:
+            lower = point
+        else:
+            upper = point
+        if lower is not None and upper is not None:
+            return upper, lower
+        if slope and len(search.points) == 1:
+            step = min(step, abs(point[1]) / slope)
+        edge = bounds[1] if upper is None else bounds[0]
+        if x == edge:
+            return None
+        x = min(x + step, edge) if upper is None else max(x - step, edge)
+        last, point = point, search.at(x)
+        step = abs(point[1] / (point[1] - last[1])) * step if abs(point[1]) < NEARER * abs(last[1]) else 2 * step
+    return None
+
+
+def _close_in(search: _Search, a, b) -> None:
+    """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or until the bracket is down to
+    rounding and f still jumps in it."""
+    fraction, c = _secant(a, b), None
+    while True:
+        x = a[0] + fraction * (b[0] - a[0])
+        if x in (a[0], b[0]):
+            return
+        point = search.at(x)
+        if search.done:
+            return
+        if (point[1] > 0) == (a[1] > 0):
+            c, a = a, point
+        else:
+            c, b, a = b, a, point
+        fraction = _next_fraction(a, b, c)
+
+
+def _secant(a, b) -> float:
+    return min(max(a[1] / (a[1] - b[1]), 0.02), 0.98)
+
+
+def _next_fraction(a, b, c) -> float:
+    """Inverse quadratic interpolation where it is safe (Chandrupatla), else bisection; in (0, 1)."""
+    xi = (a[0] - b[0]) / (c[0] - b[0])
+    phi = (a[1] - b[1]) / (c[1] - b[1])
+    if not (phi**2 < xi and (1 - phi) ** 2 < 1 - xi):
+        return 0.5
+    t = a[1] / (b[1] - a[1]) * c[1] / (b[1] - c[1]) + (c[0] - a[0]) / (b[0] - a[0]) * a[1] / (c[1] - a[1]) * b[1] / (
+        c[1] - b[1]
+    )
+    return min(max(t, 1e-3), 1 - 1e-3)

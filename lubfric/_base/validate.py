@@ -1,0 +1,255 @@
+"""Checks of input values; each failure names quantity, value, allowed range and unit."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import os
+from collections.abc import Iterable
+from contextlib import suppress
+from decimal import Decimal
+from numbers import Real
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+
+LONGEST_SHOWN = 80  # characters of a value in a message
+DEEPEST = 3  # nested lists that are looked into
+LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
+SANE = {  # unit: least and largest magnitude of a quantity given; far beyond what exists, so that nothing overflows
+    "m": (1e-30, 1e6),
+    "m/s": (1e-30, 1e30),
+    "N": (1e-30, 1e15),
+    "N/m": (1e-30, 1e15),
+    "Pa": (1e-12, 1e18),
+    "Pa s": (1e-12, 1e12),
+    "1/Pa": (1e-30, 1e6),
+    "s": (1e-18, 1e12),
+    "Hz": (1e-12, 1e18),
+    "1/K": (1e-30, 1e6),
+    "(-)": (1e-60, 1e60),
+}
+NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
+
+
+def shown(value: Any) -> str:
+    """``value`` for a message: its ``repr``, cut where it is long. A value without one (an integer of 5000 digits)
+    is shown by its type."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):
+        return f"<{type(value).__name__}>"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[: LONGEST_SHOWN - 4]} ..."
+
+
+def python_value(value: Any) -> Any:
+    """A number of NumPy as a Python one, an array as a tuple, also inside lists and tuples; anything else as it is."""
+    if isinstance(value, np.ma.MaskedArray):
+        return value
+    if isinstance(value, (np.generic, np.ndarray)):
+        given = value.tolist()
+        return tuple(python_value(part) for part in given) if isinstance(given, list) else given
+    if type(value) in (list, tuple):
+        return type(value)(python_value(part) for part in value)
+    return value
+
+
+def python_fields(part: Any) -> None:
+    """Make the fields of a frozen dataclass `python_value` (call it first in ``__post_init__``). A pair in an array is
+    a pair, a scene prints and is written as numbers, and nothing is computed in single precision."""
+    for name, value in list(vars(part).items()):
+        object.__setattr__(part, name, python_value(value))
+
+
+def _real(value: Any) -> float:
+    """``value`` as a float. Raises TypeError if it is not one real number, OverflowError if it is too large for a
+    float."""
+    if type(value) in (float, int):
+        return float(value)
+    if isinstance(value, (np.ma.MaskedArray, str, bytes)):
+        raise TypeError
+    if not isinstance(value, (np.ndarray, np.generic)) and isinstance(value, (Real, Decimal)):
+        if isinstance(value, bool):
+            raise TypeError
+        return float(value)
+    scalar = np.asarray(value)
+    if scalar.ndim or scalar.dtype.kind not in NUMBERS:
+        raise TypeError
+    return float(scalar[()])
+
+
+def number(
+    name: str, value: Any, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
+) -> float:
+    """A finite real number with ``above < value``, ``minimum <= value <= maximum``.
+
+    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `LEAST`.
+    """
+    return _within(name, value, unit, above, minimum, maximum, LEAST if unit in SANE else 0.0)
+
+
+def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum: float = math.inf) -> float:
+    """A finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
+    least = max(minimum, SANE.get(unit, (LEAST, LARGEST))[0])
+    return _within(name, value, unit, 0.0, -math.inf, maximum, least)
+
+
+def _within(name, value, unit, above, minimum, maximum, least) -> float:
+    largest = SANE.get(unit, (LEAST, LARGEST))[1]
+    minimum, maximum = max(minimum, -largest), min(maximum, largest)
+    low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
+    allowed = f"a finite number in {low}, {maximum:g}] {unit}"
+    try:
+        x = _real(value)
+    except OverflowError:
+        raise InputError(f" = {shown(value)} {unit} is out of range", name, allowed) from None
+    except (TypeError, ValueError, RecursionError):
+        raise InputError(f" = {shown(value)} is not a number", name, allowed) from None
+    if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
+        raise InputError(f" = {x:g} {unit} is out of range", name, allowed)
+    if 0 < abs(x) < least:
+        raise InputError(f" = {x:g} {unit} is too small", name, f"{allowed}, of at least {least:g} where it is not 0")
+    return x
+
+
+def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) -> float:
+    """A finite number >= 0."""
+    return number(name, value, unit, minimum=0.0, maximum=maximum)
+
+
+def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
+    """A whole number >= ``minimum`` and <= ``maximum``."""
+    whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+    if not whole or value < minimum or maximum is not None and value > maximum:
+        most = "" if maximum is None else f" and <= {maximum}"
+        raise InputError(f" = {shown(value)} must be a whole number >= {minimum}{most}", name)
+    return int(value)
+
+
+def boolean(name: str, value: Any) -> bool:
+    """True or False; a word such as "no" is neither."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f" = {shown(value)} is neither true nor false", name, "true, false")
+    return bool(value)
+
+
+def instance(name: str, value: Any, kind: type | tuple[type, ...], allowed: str) -> None:
+    """Check that ``value`` is of ``kind``. ``allowed`` says in words how to get such a value."""
+    if not isinstance(value, kind):
+        raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
+
+
+def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
+    """A non-empty array of finite floats with ``ndim`` axes; ``value`` itself if it is one.
+
+    Refused with `InputError`: truth values, complex numbers, words, dates and None, which NumPy would turn into
+    numbers, and a masked array with masked values, whose mask it would drop.
+    """
+    a = real_array(name, value, unit)
+    if np.ma.is_masked(value):
+        told = f" has {np.ma.count_masked(value)} of {a.size} values masked"
+        raise InputError(told, name, f"none (finite values in {unit})")
+    if a.ndim != ndim:
+        raise InputError(f" has {a.ndim} axes (shape {a.shape})", name, f"exactly {ndim} [{unit}]")
+    if a.size == 0:
+        raise InputError(f" is empty (shape {a.shape})", name, f"at least one value [{unit}]")
+    with np.errstate(invalid="ignore"):
+        furthest = max(float(a.max()), -float(a.min()))  # NaN where any value is
+    if not math.isfinite(furthest):
+        bad = a.size - np.count_nonzero(np.isfinite(a))
+        told = f" has {bad} of {a.size} values that are NaN or infinite"
+        raise InputError(told, name, f"finite values in {unit}")
+    most = SANE.get(unit, (LEAST, LARGEST))[1]
+    if furthest > most:
+        raise InputError(f" reaches {furthest:g} {unit}", name, f"up to {most:g} {unit}")
+    return a
+
+
+def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
+    """One number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
+    found = array(name, listed(values), unit, ndim=1).copy()
+    for value in found.tolist():
+        number(name, value, unit, minimum=-most, maximum=most)
+    return found
+
+
+def listed(values: Any) -> Any:
+    """One value as a list of one; anything else as it is, for `array` to check."""
+    try:
+        return [values] if np.ndim(values) == 0 else values
+    except ValueError:  # a list of lists of several lengths
+        return values
+
+
+def folder(name: str, value: Any) -> Path:
+    """A path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
+    if isinstance(value, (str, os.PathLike)) and "\0" not in str(value):
+        path = Path(value)
+        with suppress(OSError):
+            path.exists()
+            return path
+    raise InputError(f" = {shown(value)} is no path", name, "a string or a pathlib.Path that the file system takes")
+
+
+def real_array(name: str, value: Any, unit: str) -> np.ndarray:
+    """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
+    odd = _odd_entry(value, DEEPEST)
+    try:
+        found = np.empty(0) if odd else np.asarray(value)
+        if found.dtype.kind == "O":
+            found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+    except (TypeError, ValueError, OverflowError, RecursionError):
+        instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
+        told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
+        raise InputError(told, name, instead) from None
+    if odd or found.dtype.kind not in NUMBERS:
+        raise InputError(f" holds {odd or f'values of type {found.dtype}'}", name, f"real numbers in {unit}")
+    with np.errstate(over="ignore"):
+        return found.astype(float, copy=False)
+
+
+def _odd_entry(value: Any, depth: int) -> str:
+    """The first entry of a list that is no number but that NumPy would make one: True, False or a masked value."""
+    if isinstance(value, (list, tuple)) and depth > 0:
+        return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
+    if isinstance(value, (bool, np.bool_)):
+        return "truth values"
+    return "masked values" if value is np.ma.masked else ""
+
+
+def choice(name: str, value: Any, options: Iterable) -> Any:
+    """One of ``options``; the error names the nearest valid one."""
+    options = tuple(options)
+    if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
+        return value
+    raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
+
+
+def nearest(word: Any, options: Iterable) -> str:
+    """' (did you mean ...?)' or an empty string."""
+    text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
+    found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=0.4)
+    return f" (did you mean {found[0]!r}?)" if found else ""
+
+
+def keys(where: str, given: Iterable, allowed: Iterable[str]) -> None:
+    """Raise `InputError` for a key of ``given`` that is none of ``allowed``."""
+    options = list(allowed)
+    for key in given:
+        if key not in options:
+            raise InputError(
+                f"unknown key {shown(key)} in {where}{nearest(key, options)}; allowed: {', '.join(options)}"
+            )
+
+
+def spacing(name: str, value: Any) -> tuple[float, float]:
+    """(dx, dy) in metres; one number means equal spacing."""
+    several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
+    if several and len(value) != 2:
+        raise InputError(f" = {shown(value)} must be one length or a pair (dx, dy) in m", name)
+    pair = tuple(value) if several else (value, value)
+    dx, dy = (positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
+    return dx, dy

@@ -1,0 +1,178 @@
+"""Independent asperities instead of a half-space, under a cylinder: nothing deforms outside the single contacts.
+
+The film h(x) less an offset epsilon is the separation, as in the paper's Eq. (7): asperities above it are in contact.
+Since only the contacts deform, the volume balance of Eq. (8) loses its deflection u and becomes
+
+- "volume":      mean of max(h - epsilon - z, 0) over A = mean film over A, Johnson's definition of the
+  separation (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108,
+  doi:10.1016/0043-1648(72)90445-0);
+- "mean-plane":  epsilon = 0: the film is the distance of the mean planes, for z about its mean over A.
+
+Under a cylinder the contact load does not flatten the surface as a whole: its shape is that of the film.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import ConvergenceError, InputError
+from ..scene.scene import Scene
+from .asperity import AsperityResult, find_asperities
+from .hertz_strip import area_weight, centred_axis, check_strip, weighted_mean
+from .rough_contract import ContactState, Grid, RoughContact
+
+
+@dataclass(frozen=True)
+class AsperityContact(RoughContact):
+    """A rough surface with independent asperities under a cylinder, free along x, periodic along y.
+
+    heights [m] (nx, ny) around their mean; x [m] (nx,); weight (nx,): area A; definition, reading: see the module.
+    tolerance: of the mean gap, relative.
+    """
+
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+    weight: np.ndarray
+    e_prime: float
+    width: float
+    hardness: float | None
+    definition: str
+    reading: str
+    tolerance: float
+
+    def close(self, film, load, start=None, shape=None) -> ContactState:
+        """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
+
+        The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
+        continuous. Raises `ConvergenceError` if the load cannot be reached.
+        """
+        from scipy.optimize import brentq
+
+        under = self._under(film, shape)
+        law, touch = self._law(), float((under[:, None] - self.heights).min())
+        target = load * self.heights.shape[1] * self.spacing[1] / self.width
+        if load == 0:
+            return self._state(film, under, touch, None)
+        span, approach = float(np.ptp(self.heights)), 0.02 * float(np.ptp(self.heights))
+        last = 0.0
+        while law(under[:, None] - touch - approach).load < target:
+            last, approach = approach, 1.5 * approach
+            if approach > 20 * span:
+                raise ConvergenceError(
+                    f"{self.definition} cannot carry {load:.4g} N on a width of {self.width:.3g} m: below the deepest "
+                    "valley at the end of the search"
+                )
+        mean_film = weighted_mean(film, self.weight)
+        root = brentq(
+            lambda a: law(under[:, None] - touch - a).load / target - 1,
+            last,
+            approach,
+            xtol=0.1 * self.tolerance * max(mean_film, 1e-3 * span),
+            rtol=1e-12,
+        )
+        return self._state(film, under, touch + root, law(under[:, None] - touch - root))
+
+    def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
+        """Contact load [N] under the imposed film, found directly, because the offset does not depend on the load."""
+        from scipy.optimize import brentq
+
+        under, mean_film = self._under(film, shape), weighted_mean(film, self.weight)
+        touch = float((under[:, None] - self.heights).min())
+        if self._gap(under, touch) <= mean_film:
+            return 0.0, self._state(film, under, touch, None)
+        offset = brentq(
+            lambda e: self._gap(under, e) - mean_film,
+            touch,
+            touch + 2 * (float(np.ptp(under)) + np.ptp(self.heights)),
+            xtol=1e-3 * self.tolerance * mean_film,
+            rtol=1e-14,
+        )
+        found = self._law()(under[:, None] - offset)
+        load = found.load * self.width / (self.heights.shape[1] * self.spacing[1])
+        return load, self._state(film, under, offset, found)
+
+    @property
+    def name(self) -> str:
+        return f"independent {self.definition}"
+
+    @property
+    def grid(self) -> Grid:
+        return Grid(self.heights.shape, self.spacing)
+
+    def again(self, scene: Scene, old: Scene) -> AsperityContact:
+        """The contact for another scene, on the same heights."""
+        check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
+        return asperities_under_cylinder(scene, self.heights, self.spacing)
+
+    def _law(self):
+        return find_asperities(
+            self.heights,
+            self.spacing,
+            self.e_prime,
+            definition=self.definition,
+            hardness=self.hardness,
+            periodic=(False, True),
+        ).at
+
+    @staticmethod
+    def _under(film, shape) -> np.ndarray:
+        return film if shape is None else shape
+
+    def _gap(self, under, offset) -> float:
+        gap = under[:, None] - offset - self.heights
+        if self.reading == "volume":
+            gap = np.maximum(gap, 0.0)
+        return float(np.dot(gap.mean(axis=1), self.weight) / self.weight.sum())
+
+    def _state(self, film, under, offset, found: AsperityResult | None) -> ContactState:
+        weight = self.weight / self.weight.sum()
+        fraction = np.zeros(self.x.size) if found is None else self._contact_fraction(found)
+        plastic = (
+            0.0
+            if found is None or found.contact_area == 0
+            else found.plastic_area_fraction * (fraction @ weight) / found.contact_area_fraction
+        )
+        return ContactState(
+            mean_gap=self._gap(under, offset),
+            mean_film=float(film @ weight),
+            x=self.x,
+            contact_fraction=fraction,
+            real_contact_area_fraction=float(fraction @ weight),
+            plastic_area_fraction=float(plastic),
+        )
+
+    def _contact_fraction(self, found: AsperityResult) -> np.ndarray:
+        """Share of the width inside the contact discs, column by column; 1 if overlapping discs add up to more."""
+        centre = self.x[found.index[:, 0]]
+        radius = np.sqrt(found.radii * found.overlap)
+        edges = np.append(self.x - self.spacing[0] / 2, self.x[-1] + self.spacing[0] / 2)
+        s = np.clip((edges[:, None] - centre) / radius, -1.0, 1.0)
+        area = (s * np.sqrt(1 - s**2) + np.arcsin(s)) * radius**2  # of the disc left of the edge, + pi/2
+        column = np.diff(area.sum(axis=1)) / (self.spacing[0] * self.heights.shape[1] * self.spacing[1])
+        return np.minimum(column, 1.0)
+
+
+def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact:
+    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean."""
+    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
+    if numerics.film_deflection == "total":
+        raise InputError(
+            f"contact.model = {contact.model!r} under a cylinder has no deflection for film_deflection = "
+            "'total'; allowed: 'half-space'"
+        )
+    x = centred_axis(heights.shape[0], spacing[0])
+    return AsperityContact(
+        heights=heights,
+        spacing=spacing,
+        x=x,
+        weight=area_weight(scene, x, spacing[0]),
+        e_prime=bodies.e_prime,
+        width=bodies.width,
+        hardness=bodies.hardness,
+        definition=contact.model,
+        reading=contact.asperity_separation,
+        tolerance=numerics.tolerances.contact,
+    )

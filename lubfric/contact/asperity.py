@@ -1,0 +1,146 @@
+"""Load and area of all asperities at a separation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .._base import validate
+from ..errors import InputError
+from ..report import Report
+from .asperity_find import FINDERS
+
+DEFINITIONS = ("summits", "patches")
+
+
+@dataclass(frozen=True)
+class AsperityResult:
+    """All contacts at one separation. Arrays have one entry for each contact.
+
+    Attributes
+    ----------
+    separation : height of the flat [m], one number or (nx, ny)
+    load : on the whole map [N]
+    mean_pressure : load over the area of the map [Pa]
+    contact_area : sum of pi a² [m²], and contact_area_fraction of the map [-]
+    plastic_area_fraction : where the pressure is at the hardness [-]
+    contacts : how many
+    index : their highest grid points, (contacts, 2)
+    overlap : delta [m], (contacts,)
+    radii : R [m], (contacts,)
+    forces : [N], (contacts,)
+    report : of the search, when the load was given
+    """
+
+    definition: str
+    separation: float | np.ndarray
+    load: float
+    mean_pressure: float
+    contact_area: float
+    contact_area_fraction: float
+    plastic_area_fraction: float
+    contacts: int
+    index: np.ndarray
+    overlap: np.ndarray
+    radii: np.ndarray
+    forces: np.ndarray
+    report: Report | None = None
+
+
+@dataclass(frozen=True)
+class Asperities:
+    """The asperities of a height map (nx, ny) [m]. ``find(flat)`` gives (index, overlap, radius) of those that touch a
+    flat (nx, ny) [m]."""
+
+    definition: str
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    e_prime: float
+    hardness: float | None
+    find: Callable[[np.ndarray], tuple[Any, Any, Any]]
+
+    def at(self, separation) -> AsperityResult:
+        """Their contact with a flat held at ``separation`` [m], a number or (nx, ny)."""
+        flat = np.broadcast_to(np.asarray(separation, dtype=float), self.heights.shape)
+        index, overlap, radius = self.find(flat)
+        area = math.pi * radius * overlap
+        force = 2 / 3 * self.e_prime * np.sqrt(radius) * overlap**1.5
+        plastic = np.zeros(overlap.size)
+        if self.hardness is not None:
+            ratio = np.minimum(self.hardness * area / (1.5 * force), 1.0)  # P_u/p0
+            force = np.where(ratio < 1, self.hardness * area * (1 - ratio**2 / 3), force)
+            plastic = area * (1 - ratio**2)
+        whole = flat.size * self.spacing[0] * self.spacing[1]
+        return AsperityResult(
+            definition=self.definition,
+            separation=separation,
+            load=float(force.sum()),
+            mean_pressure=float(force.sum() / whole),
+            contact_area=float(area.sum()),
+            contact_area_fraction=float(area.sum() / whole),
+            plastic_area_fraction=float(plastic.sum() / whole),
+            contacts=overlap.size,
+            index=index,
+            overlap=overlap,
+            radii=radius,
+            forces=force,
+        )
+
+
+def find_asperities(heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True) -> Asperities:
+    """`Asperities` of a height map; arguments as in `asperity_contact`. Summits are looked for only once."""
+    heights = validate.array("heights", heights, "m", ndim=2)
+    validate.positive("e_prime", e_prime, "Pa")
+    validate.choice("definition", definition, DEFINITIONS)
+    if hardness is not None:
+        validate.positive("hardness", hardness, "Pa")
+    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
+    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
+        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
+    spacing = validate.spacing("spacing", spacing)
+    find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
+    return Asperities(definition, heights, spacing, e_prime, hardness, find)
+
+
+def asperity_contact(
+    heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
+) -> AsperityResult:
+    """Contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
+
+    Parameters
+    ----------
+    heights : (nx, ny) [m], upwards
+    spacing : (dx, dy) or one length [m]
+    e_prime : E' [Pa], ``2/E' = sum (1 - nu²)/E``
+    separation : height of the flat [m], in the same coordinate as ``heights``; for heights about their mean it is the
+        distance of the undeformed mean planes. One number, or (nx, ny) under a curved film
+    definition : "summits" or "patches"
+    hardness : the pressure of every contact is cut off at this value [Pa]; None: elastic
+    periodic : whether neighbours wrap around, one value or one for each axis. A summit needs all 8 neighbours
+
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+
+    Notes
+    -----
+    An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a² = pi R delta`` (Hertz 1882).
+    A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
+    """
+    options = {"definition": definition, "hardness": hardness, "periodic": periodic}
+    found = find_asperities(heights, spacing, e_prime, **options)
+    try:
+        flat = np.broadcast_to(np.asarray(separation, dtype=float), found.heights.shape)
+    except (TypeError, ValueError):
+        shape = found.heights.shape
+        raise InputError(f"separation must be a number or an array of shape {shape} in m") from None
+    validate.array("separation", flat, "m", ndim=2)
+    return found.at(separation)

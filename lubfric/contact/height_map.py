@@ -1,0 +1,200 @@
+"""The height map of a scene on its contact grid, periodic along the axes on which the contact is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from scipy.fft import next_fast_len
+
+from .._base import validate
+from ..errors import InputError
+from ..scene.contact import ContactDomain
+from ..scene.roughness import Roughness, named
+from ..scene.scene import Scene
+from ..surface.generate import generate_surface
+from ..surface.height_map import Surface
+from ..surface.outliers import outliers
+from ..surface.read import read_surface
+from ..surface.statistics import rms_slope
+from .hertz_strip import TOO_SHORT, check_strip
+
+REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
+STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
+
+
+def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
+    """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
+    become one map. A given ``surface`` is taken as it is.
+
+    A measured map is mirrored along every axis on which the contact is periodic. Under a cylinder it is cut, about its
+    middle, to the length of ``contact.shape`` (default: 6 Hertz half-widths on each side). The notes of the surface
+    tell everything that was done.
+    """
+    if surface is None:
+        surface = _of_the_scene(scene)
+    validate.instance("surface", surface, Surface, "a lubfric.Surface")
+    if not np.isfinite(surface.heights).all():
+        missing = f"{100 * surface.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
+        raise InputError(f"surface: {missing}; call level() and fill() first")
+    check_grid(scene, surface)
+    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
+        surface = surface.periodic("mirror", axes=(True, False))
+    return surface
+
+
+def _of_the_scene(scene: Scene) -> Surface:
+    surface = whole_map(scene)
+    return _cut_to_contact(scene, surface, extended(scene)) if measured(scene) else surface
+
+
+def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
+    """The roughness of each body that has one, and its section of the scene."""
+    bodies = [(scene.surface, "surface"), (scene.counterface, "counterface")]
+    return [(rough, name) for rough, name in bodies if rough is not None]
+
+
+def measured(scene: Scene) -> bool:
+    """Whether any of its maps comes from a file."""
+    return any(rough.file is not None for rough, _ in rough_bodies(scene))
+
+
+def extended(scene: Scene) -> bool:
+    """The map continued by its mirror image, if it is too short."""
+    return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
+
+
+def whole_map(scene: Scene) -> Surface:
+    """The heights of both bodies as one map: measured ones whole and on their own grid, generated ones on the contact
+    grid. A generated one that faces a measured one is made as large as that. If it were repeated instead, a few of its
+    summits would stand for all."""
+    bodies, domain, found = rough_bodies(scene), scene.contact, {}
+    for rough, name in bodies:
+        if rough.file is not None:
+            with named(name):
+                found[name] = measured_map(rough, name)
+            domain = over(found[name], scene.contact)
+    for rough, name in bodies:
+        if rough.file is None:
+            with named(name):
+                found[name] = generated_map(rough, domain, name)
+    maps = [found[name] for _, name in bodies]
+    return maps[0] if len(maps) == 1 else maps[0].combined(_beside(scene, maps[1]))
+
+
+def _beside(scene: Scene, second: Surface) -> Surface:
+    """The map of the ``second`` body, mirrored in y if that of the first is a mirror image.
+
+    A map whose axes were exchanged (`measured_map`) is the mirror image of its body in y. For one map, or for two
+    mirrored ones, that changes no friction. If only one of two is mirrored, the other has to be mirrored too: else
+    oblique ridges that cross would run side by side.
+    """
+    axes = [rough.motion_axis for rough, _ in rough_bodies(scene) if rough.file is not None]
+    if set(axes) != {"x", "y"}:
+        return second
+    mask = None if second.mask is None else second.mask[:, ::-1]
+    note = "mirrored in y: one of the two maps has its axes exchanged"
+    return replace(second, heights=second.heights[:, ::-1], mask=mask, notes=(*second.notes, note))
+
+
+def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
+    """``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
+    ``surface``."""
+    spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
+    nx, ny = (next_fast_len(math.ceil(a / d * (1 - 1e-9))) for a, d in zip(surface.size, spacing))
+    return replace(domain, shape=(nx, ny), spacing=spacing)
+
+
+def check_grid(scene: Scene, surface: Surface) -> None:
+    """Raise `InputError` for slopes that no surface has, for cells too coarse for the Hertz strip, and for a patch too
+    small for it."""
+    slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
+    if slope > STEEPEST:
+        raise InputError(
+            f"surface: rms slope = {slope:.3g} of heights with Sq {surface.sq:.3g} m on a spacing of "
+            f"{surface.spacing[0]:.3g} m; allowed: up to {STEEPEST:g} (are both in m?)"
+        )
+    if scene.contact.geometry == "flat":
+        return
+    check_strip(scene, surface.spacing[0], surface.size[0])
+
+
+def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
+    """A generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
+    if domain.shape is None or domain.spacing is None:
+        raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}")
+    surface = generate_surface(
+        tuple(rough.oversize * n for n in domain.shape),
+        validate.spacing("contact.spacing", domain.spacing),
+        sq=rough.sq,
+        correlation_length=rough.correlation_length,
+        acf=rough.acf,
+        decay_level=rough.decay_level,
+        seed=rough.seed if name == "surface" else other_seed(rough.seed),
+    )
+    if rough.oversize == 1:
+        return surface
+    surface = surface.cropped(domain.shape).periodic("mirror", axes=(domain.geometry == "flat", True))
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
+
+
+def other_seed(seed: int) -> int:
+    """A seed whose random numbers are independent of those of ``seed``, and of those of its neighbours."""
+    return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
+
+
+def measured_map(rough: Roughness, name: str = "surface") -> Surface:
+    """A map from a file, prepared as ``rough`` says: form removed, outliers treated, filtered, filled, turned and
+    scaled."""
+    surface = read_surface(
+        rough.file,
+        spacing=rough.spacing,
+        unit=rough.unit,
+        form=rough.form,
+        decimal=rough.decimal,
+        missing_value=rough.missing_value,
+        fill=False,
+    )
+    if rough.outliers == "mask":
+        surface = surface.without_outliers().level(rough.form)
+    elif rough.outliers == "refuse":
+        refuse_outliers(surface, name)
+    surface = surface.filtered(s=rough.s_filter, l=rough.l_filter).fill()
+    if rough.motion_axis == "y":
+        surface = surface.transposed()
+    return surface if rough.sq is None else surface.scaled(sq=rough.sq)
+
+
+def refuse_outliers(surface: Surface, name: str) -> None:
+    """Raise `InputError` for points that stand alone above their neighbours: they are no roughness, and would carry the
+    load."""
+    off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
+    worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
+    if off[worst] > 0:
+        z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
+        raise InputError(
+            f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours and "
+            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; give {name}.outliers = "
+            "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
+        )
+
+
+def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
+    """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
+    domain, reach = scene.contact, 2 * REACH * scene.bodies.half_width
+    if domain.spacing is not None:
+        surface = surface.resampled(spacing=domain.spacing)
+    if continued:
+        length = reach if domain.shape is None else domain.shape[0] * surface.spacing[0]
+        surface = surface.continued(length) if domain.shape or domain.geometry == "cylinder" else surface
+    nx, ny = domain.shape or surface.shape
+    if domain.shape is None and domain.geometry == "cylinder":
+        nx = min(nx, 2 * int(REACH * scene.bodies.half_width / surface.spacing[0]) + 1)
+    if nx > surface.shape[0] or ny > surface.shape[1]:
+        raise InputError(
+            f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
+            f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
+            f"{'' if continued else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
+        )
+    return surface.cropped((nx, ny)).periodic("mirror", axes=(domain.geometry == "flat", True))

@@ -1,0 +1,170 @@
+"""What every rough contact under a film must offer: all that you need to know to write one.
+
+`RoughContact` is the contract. `close` and `carry` have to be written. The rest has defaults for a contact that is
+always solved as it stands. `lubfric.prepare` takes one from outside (``contact``), and the balance needs nothing else.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene.bodies import Bodies
+from ..scene.scene import Scene
+from .result import ContactResult
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """A rough contact at one division of the load: where it touches, and both sides of the volume balance, Eq. (8).
+
+    - ``mean_gap`` [m]: lubricant volume per area of A between the rough surfaces; ``mean_film`` [m]: the same between
+      the smooth ones.
+    - ``contact_fraction`` (nx,): share of the width in contact at each ``x`` [m]; ``real_contact_area_fraction``,
+      ``plastic_area_fraction``: of the area A.
+    - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
+      (ny,): of their cells.
+    - ``pressure`` [Pa] (nx, ny): from which a neighbour may start.
+    - ``gap_error`` [m], ``area_error`` [-]: estimated errors of ``mean_gap`` and ``real_contact_area_fraction`` where
+      they are interpolated.
+    """
+
+    mean_gap: float
+    mean_film: float
+    x: np.ndarray
+    contact_fraction: np.ndarray
+    real_contact_area_fraction: float
+    plastic_area_fraction: float
+    fields: ContactResult | None = None
+    pressure: np.ndarray | None = field(default=None, repr=False)
+    y: np.ndarray | None = field(default=None, repr=False)
+    gap_error: float = 0.0
+    area_error: float = 0.0
+
+    @property
+    def volume_residual(self) -> float:
+        """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
+        return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
+
+    @property
+    def contact(self) -> ContactResult | None:
+        """``fields``, by the name it had up to version 0.1."""
+        return self.fields
+
+    def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
+        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal sections of the width.
+        Needs ``fields``; ``stretches``, the number of sections, divides the number of cells along y."""
+        if self.fields is None:
+            raise InputError("a contact without fields has nothing along y; solve a half-space contact with fields")
+        load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
+        gap = weight @ gap / np.sum(weight)
+        return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
+
+    def touching(self, x) -> np.ndarray:
+        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
+        way. (The columns of the contact are finer than the cells of a film, and vary from one to the next.)"""
+        step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
+        edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
+        touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
+        return np.diff(np.interp(x, edges, touched)) / np.diff(x)
+
+
+class Grid(NamedTuple):
+    """Cells (nx, ny) of a contact and their size (dx, dy) [m]."""
+
+    cells: tuple[int, int]
+    spacing: tuple[float, float]
+
+
+class RoughContact:
+    """A rough contact under a film, immutable. Loads are in N on the whole width of the line.
+
+    ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the contact needs the film, around the line of
+    contact; ``weight`` (nx,): the part of each cell that is inside the area A of Eq. (8).
+    """
+
+    x: np.ndarray
+    weight: np.ndarray
+
+    @property
+    def name(self) -> str:
+        """The contact in words."""
+        raise NotImplementedError
+
+    def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
+        """The contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
+
+        ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, if it is not the film itself;
+        ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be solved.
+        """
+        raise NotImplementedError
+
+    def carry(self, film, start: ContactState | None = None, shape=None) -> tuple[float, ContactState]:
+        """Load [N] of the contact on which ``film`` is imposed, so that mean gap = mean film, and the state."""
+        raise NotImplementedError
+
+    @property
+    def nominally_flat(self) -> bool:
+        """Whether the load is spread evenly over the Hertz strip, without a distribution along x."""
+        return False
+
+    @property
+    def capacity(self) -> float:
+        """The largest load [N] that it can carry under any film; infinite if `close` has to tell."""
+        return math.inf
+
+    @property
+    def grid(self) -> Grid | None:
+        """Its cells; None if it has no grid on which f depends."""
+        return None
+
+    @property
+    def adjustable_tolerance(self) -> float | None:
+        """The tolerance of the mean gap, relative to Sq, that `tightened` changes (None: it changes nothing)."""
+        return None
+
+    def tightened(self, tolerance: float) -> RoughContact:
+        """The same contact, solved to ``tolerance``."""
+        return self
+
+    def coarsened(self) -> RoughContact | None:
+        """The same on cells twice as long and wide, with averaged heights; None if that is not possible."""
+        return None
+
+    def thinned(self, every: int) -> RoughContact | None:
+        """The same on every ``every``-th cell along each axis, with their own heights; None if that is not possible."""
+        return None
+
+    lost = 0.0  # height [m] by which its highest summits fall short of those of the grid it was coarsened from
+
+    @property
+    def sq(self) -> float:
+        """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""
+        return 0.0
+
+    def cut(self, state: ContactState, found_on: RoughContact) -> RoughContact:
+        """The part that is enough for a contact such as ``state``, which was found on the same or a coarser grid."""
+        return self
+
+    def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
+        """Whether nothing outside of ``part``, which was cut from this contact, touches. ``shape`` (nx,) [m] is on the
+        x of this contact."""
+        return True
+
+    def on_the_ends(self, state: ContactState) -> float:
+        """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact, on a part
+        of it, or on coarser cells. A cell that is longer counts by the part of it that belongs to these columns."""
+        return 0.0
+
+    def foretell(self, bodies: Bodies, film: float) -> None:
+        """Raise `InputError`, before any film is solved, if it is clear that too much will be `on_the_ends`. ``film``
+        [m]: roughly the smooth film of the whole load."""
+
+    def again(self, scene: Scene, old: Scene) -> RoughContact:
+        """The same map for ``scene``, which differs in load, motion or tolerance from ``old``, for which the contact
+        was made. Raises `InputError` if that is not possible."""
+        return self

@@ -1,0 +1,286 @@
+"""`solve_ehl`: nested grids from a warm or a cold start. `solve_line_contact` is the same for a `LineContact`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .._base.validate import instance, integer, number, positive
+from ..errors import InputError
+from ..oil.lubricant import Lubricant
+from ..report import CONVERGED
+from ..scene.renamed import density_before
+from .assemble import assemble, grid_error
+from .ehl_result import EHLResult
+from .grid import FAR_INLET, make_grid, node_positions
+from .imposed import LinePressure, Seat, find_seats, line_pressure
+from .line_contact import LineContact
+from .newton import Solution, newton
+from .problem import Problem
+from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
+
+COARSEST, LAST_START, FINEST = 48, 768, 3072
+WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
+COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
+DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
+EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+
+
+@dataclass(frozen=True)
+class Effort:
+    """The accuracy asked for and the effort allowed: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
+    rupture that are used even if the films need fewer, and Newton steps per grid."""
+
+    tolerance: float = 3e-3
+    least_cells: int = 0
+    max_iterations: int = 60
+
+    def __post_init__(self):
+        number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
+        integer("least_cells", self.least_cells, minimum=0)
+        integer("max_iterations", self.max_iterations, minimum=1)
+
+    @property
+    def cells(self) -> int:
+        """``least_cells``, or the number of cells of the finest grid."""
+        return min(self.least_cells, FINEST)
+
+
+@density_before
+def solve_ehl(
+    *,
+    load_per_width: float,
+    radius: float,
+    e_prime: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_viscosity_coefficient: float,
+    viscosity_law: str = "roelands",
+    density_law: str = "constant",
+    tolerance: float = 3e-3,
+    inlet_length: float | None = None,
+    imposed_pressure=None,
+    start: EHLResult | None = None,
+    least_cells: int = 0,
+    max_iterations: int = 60,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """Film of a smooth line contact: Reynolds' equation, elastic half-spaces, a given load.
+
+    The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
+    (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
+    Newton's method on nested grids (`lubfric.film.reynolds`), and checked for Moes' M = 1e-6 to 1000, L = 0 to 20. The
+    cells are doubled until the largest residual of the report (`EHLResult`) is <= tolerance.
+
+    Parameters
+    ----------
+    load_per_width : > 0 [N/m]
+    radius, e_prime : R > 0 [m]; E' > 0 [Pa], 2/E' = sum (1 - nu²)/E
+    entrainment_speed : U = (u1 + u2)/2 [m/s], not 0; a negative one mirrors the solution
+    viscosity, pressure_viscosity_coefficient : eta0 at ambient pressure [Pa s]; alpha [1/Pa]
+    viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
+    tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
+    inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m] upstream of the line of
+        centres at which the lubricant begins (starved)
+    imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
+        between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
+    start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
+    least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
+    raise_on_failure : False returns an unconverged result with its report
+
+    Returns
+    -------
+    EHLResult
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : residuals above tolerance; carries report and result
+    """
+    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
+    return solve_line_contact(
+        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant),
+        Effort(tolerance, least_cells, max_iterations),
+        inlet_length=inlet_length,
+        imposed=line_pressure(imposed_pressure),
+        start=start,
+        raise_on_failure=raise_on_failure,
+    )
+
+
+def solve_line_contact(
+    contact: LineContact,
+    effort: Effort = Effort(),
+    *,
+    inlet_length: float | None = None,
+    imposed: LinePressure | None = None,
+    start: EHLResult | None = None,
+    raise_on_failure: bool = True,
+) -> EHLResult:
+    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
+    problem = make_problem(contact, inlet_length, imposed)
+    if start is not None:
+        instance("start", start, EHLResult, "an EHLResult or None")
+    seats = find_seats(problem)
+    levels: list[Solution] = []
+    first: list[Solution] = []
+    notes: tuple[str, ...] = ()
+    if start is not None:
+        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
+        problem = replace(problem, seat=(alike or seats)[0])
+        levels = _warm(problem, effort, start.state)
+        if not _sound(levels):
+            notes = ("the warm start failed; solved again from a cold start",)
+    if not _sound(levels):
+        problem, levels, first, retries = _cold(problem, seats, effort)
+        notes += retries
+    result = assemble(problem, levels, first, effort.tolerance, notes)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def make_problem(contact: LineContact, inlet_length: float | None, imposed: LinePressure | None = None) -> Problem:
+    """The contact in Moes' units, along its motion. Raises `InputError` if the lubricant begins inside the dry
+    contact."""
+    if imposed is not None and contact.entrainment_speed < 0:
+        imposed = imposed.mirrored()
+    if inlet_length is None:
+        return Problem(contact, None, imposed)
+    problem = Problem(contact, positive("inlet_length", inlet_length, "m"), imposed)
+    half_width = problem.flat_half_width * problem.length_unit
+    if inlet_length <= half_width:
+        raise InputError(
+            f"inlet_length = {inlet_length:g} m lies inside the dry contact; "
+            f"allowed: more than its half-width {half_width:.4g} m"
+        )
+    return problem
+
+
+def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
+    """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
+    n = _coarsest(problem)
+    needed = max(effort.cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
+    while 2 * n < min(needed, FINEST):
+        n *= 2
+    return _ascend(problem, effort, state, n, 2)
+
+
+def _cold(
+    problem: Problem, seats: tuple[Seat, ...], effort: Effort
+) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
+    """A solution from a cold start on grids from the coarsest up; if that fails, from another start or on a finer grid.
+
+    Returns the problem on its seat with its solutions, the solutions that led there, and notes.
+    """
+    spent: list[Solution] = []
+    notes: tuple[str, ...] = ()
+    for n, seat, doublings in _attempts(seats, _coarsest(problem)):
+        if spent:
+            notes += (f"the cold start failed; tried again from {n} cells",)
+        problem = replace(problem, seat=seat)
+        state, first = _first_state(problem, n, effort.max_iterations, doublings)
+        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
+        if _sound(levels):
+            return problem, levels, spent + first, notes
+        spent += first + levels
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= LAST_START:
+            break  # it is not the start that fails
+    return problem, levels, spent[: -len(levels)], notes
+
+
+def _coarsest(problem: Problem) -> int:
+    """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
+    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
+
+
+def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
+    """The cold starts to try, one after the other: (cells, seat, doublings of the speed)."""
+    grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
+    grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
+    if len(seats) == 1:
+        return [(n, seats[0], 0) for n in grids]
+    return [
+        (n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))
+    ]
+
+
+def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
+    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they are as accurate as asked."""
+    rupture = rupture_guess(problem)
+    levels: list[Solution] = []
+    while True:
+        grid = make_grid(problem_nodes(problem, n, rupture))
+        z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
+        levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
+        if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
+            return levels
+        if len(levels) >= fewest and n >= effort.cells and grid_error(levels) <= effort.tolerance:
+            return levels
+        rupture = levels[-1].z[-1]
+        n *= 2
+
+
+def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
+    """The first solution: rough ones on n cells while alpha rises from the value at which L = EASY.
+
+    With an imposed pressure it begins with the cylinder of the seat, or with a speed that is doubled so many times.
+    """
+    if doublings:
+        return _descent(problem, n, max_steps, doublings)
+    if problem.imposed is not None:
+        alone, led_there = _first_state(problem.alone(), n, max_steps)
+        return from_alone(problem, alone), led_there
+    state: State | None = None
+    solutions: list[Solution] = []
+    share = min(1.0, EASY / max(problem.L, EASY))
+    while True:
+        stage = problem.softened(share)
+        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
+        z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
+        solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
+        state = solution_state(stage, solutions[-1], 0.0)
+        if share == 1.0 or not np.isfinite(solutions[-1].error):
+            return state, solutions
+        share = min(1.0, STAGE * share)
+
+
+def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
+    """Begin with a thick film, which bridges any gap that an imposed pressure leaves, and halve the speed again and
+    again."""
+
+    def stage_of(k: int) -> Problem:
+        faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
+        stage = replace(problem, contact=faster)
+        return replace(stage, seat=find_seats(stage)[0])
+
+    state, solutions = _first_state(stage_of(doublings), n, max_steps)
+    for k in range(doublings, 0, -1):
+        stage = stage_of(k)
+        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
+        solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
+        state = solution_state(stage, solutions[-1], 0.0)
+        if solutions[-1].status != CONVERGED:
+            break
+    return state, solutions
+
+
+def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
+    """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
+    distance = None
+    if problem.inlet_length is not None:
+        distance = problem.inlet_length / problem.length_unit + rupture
+    elif problem.imposed is not None:
+        distance = 3.0 * problem.flat_half_width + FAR_INLET * math.sqrt(2.0 * problem.film_guess) + rupture
+    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat.radius, n, distance)
+
+
+def _sound(levels: list[Solution]) -> bool:
+    """Whether a solution has converged, and is not a root with tension in the film or with the inlet on the wrong
+    side."""
+    if not levels or levels[-1].status != CONVERGED:
+        return False
+    P, X = levels[-1].terms.P, levels[-1].terms.X
+    return bool(X[0] < 0.0 and X[-1] < -X[0] and P.min() >= -1e-3 * P.max())

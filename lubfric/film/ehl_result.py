@@ -1,0 +1,172 @@
+"""The film of a line contact, and its continuation outside the computed domain."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .._base.shown import Shown
+from ..report import Report
+from .imposed import LinePressure, line_deflection
+from .line_contact import LineContact, OfLineContact
+from .rolling import Rolling
+from .start import State
+
+LUMP = 6  # neighbouring nodes that act as one line force far away
+
+
+@dataclass(frozen=True, repr=False)
+class EHLResult(Shown, OfLineContact):
+    """Steady film of a smooth line contact. Arrays are (n,), x ascending.
+
+    Attributes
+    ----------
+    x : nodes [m], the line of centres at 0, from the inlet to a stretch of cavitated outlet
+    pressure, film_thickness, viscosity : at the nodes [Pa, m, Pa s]
+    density_ratio : rho/rho0 at the nodes [-]
+    rupture : where the film ruptures, p = dp/dx = 0 [m]
+    min_film, central_film : smallest film, and the film at x = 0 [m]
+    flow_film : mass flux/(rho0 |U|) [m]. It is the film at the rupture point, where dp/dx = 0 and rho = rho0. With
+        constant density it is also the film at every other point where dp/dx = 0
+    flux : mass flux/rho0, along +x when positive [m²/s]
+    approach : h0 [m] in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'
+    half_width, hertz_pressure : Hertz values of the load [m, Pa]
+    contact : what was solved, a `LineContact`
+    imposed : the pressure, if any, that deflects the film beside its own
+    report : how the solve ended
+    state : what a neighbouring solve starts from
+    rolling : half of ∫ h dp [N/m] and its estimated error (`lubfric.film.rolling`; None: not known)
+
+    Notes
+    -----
+    All residuals of the report of `lubfric.solve_ehl` are relative:
+
+    - discretisation: ``max(c1, c0/3)/2``, and ``2/3 c1`` on two grids. c1 is the largest change of min_film and
+      flow_film against the grid of half the cells, c0 the change before that (`lubfric.film.assemble.grid_error`).
+      Second order would allow c1/3. At random M, L and laws it bounds the error in nine cases of ten, and the rest
+      mostly within a factor of two. Where the pressure spike sits at x = 0 (M near 2, L above 12), no grid converges
+      central_film, and a note tells its change
+    - domain: estimated effect of the finite inlet on flow_film
+    - mass: largest |flux through a face/q - 1|, <= 1e-3 tolerance
+    - load: |∫ p dx/load - 1|, <= 1e-3 tolerance
+    - complementarity: largest of -p/p_max before rupture and of 1 - h/h_rupture behind it
+    """
+
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    viscosity: np.ndarray
+    density_ratio: np.ndarray
+    min_film: float
+    central_film: float
+    flow_film: float
+    flux: float
+    rupture: float
+    approach: float
+    half_width: float
+    hertz_pressure: float
+    contact: LineContact
+    report: Report
+    state: State = field(repr=False)
+    imposed: LinePressure | None = field(default=None, repr=False)
+    rolling: Rolling | None = None
+
+    @property
+    def load_number(self) -> float:
+        """Moes' M."""
+        return self.contact.M
+
+    @property
+    def material_number(self) -> float:
+        """Moes' L."""
+        return self.contact.L
+
+    @property
+    def cells(self) -> int:
+        """Number of cells of the finest grid, before rupture."""
+        return self.state.pressure.size
+
+    def _facts(self) -> dict[str, str]:
+        return {
+            "": f"{self.x.size} nodes",
+            "M": f"{self.load_number:.3g}",
+            "L": f"{self.material_number:.3g}",
+            "min film": f"{self.min_film:.4g} m",
+            "central film": f"{self.central_film:.4g} m",
+            "status": self.report.status,
+        }
+
+    def film_at(self, x) -> np.ndarray:
+        """Film thickness [m] at any positions ``x`` [m], any shape.
+
+        Between the nodes the deflection by the own pressure is interpolated by cubics; outside it is the line kernel
+        of the pressure lumped in groups of nodes.
+        """
+        return film_at(self, x)
+
+    def imposed_deflection(self, x) -> np.ndarray:
+        """Part of the film [m] at ``x`` [m], any shape, that is due to the imposed pressure, up to a constant."""
+        x = np.asarray(x, dtype=float)
+        if self.imposed is None:
+            return np.zeros(x.shape)
+        b, imposed = self.half_width, self.imposed
+        found, _ = line_deflection(x.ravel() / b, imposed.x / b, imposed.pressure)
+        return (b / self.e_prime * found).reshape(x.shape)
+
+
+def film_at(result: EHLResult, x) -> np.ndarray:
+    """Film thickness [m] of an `EHLResult` at any positions ``x`` [m]; see `EHLResult.film_at`."""
+    x = np.asarray(x, dtype=float)
+    flat = x.ravel()
+    parabola = flat**2 / (2.0 * result.radius)
+    nodes = result.x
+    inside = (flat >= nodes[0]) & (flat <= nodes[-1])
+    film = np.empty_like(flat)
+    bend = result.film_thickness - nodes**2 / (2.0 * result.radius)
+    if result.imposed is not None:
+        bend -= result.imposed_deflection(nodes)
+        parabola += result.imposed_deflection(flat)
+    film[inside] = cubic(nodes, bend, flat[inside])
+    film[~inside] = result.approach + _far_deflection(result, flat[~inside])
+    return (film + parabola).reshape(x.shape)
+
+
+def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Piecewise cubic Lagrange interpolation on four neighbouring nodes."""
+    first = np.clip(np.searchsorted(nodes, x) - 2, 0, nodes.size - 4)
+    a, b, c, d = (nodes[first + k] for k in range(4))
+    ta, tb, tc, td = x - a, x - b, x - c, x - d
+    return (
+        values[first] * tb * tc * td / ((a - b) * (a - c) * (a - d))
+        + values[first + 1] * ta * tc * td / ((b - a) * (b - c) * (b - d))
+        + values[first + 2] * ta * tb * td / ((c - a) * (c - b) * (c - d))
+        + values[first + 3] * ta * tb * tc / ((d - a) * (d - b) * (d - c))
+    )
+
+
+def smallest(x: np.ndarray, values: np.ndarray) -> float:
+    """Minimum of the parabola through the smallest value and its neighbours."""
+    i = int(np.clip(np.argmin(values), 1, values.size - 2))
+    d1 = (values[i] - values[i - 1]) / (x[i] - x[i - 1])
+    d2 = (values[i + 1] - values[i]) / (x[i + 1] - x[i])
+    curvature = (d2 - d1) / (x[i + 1] - x[i - 1])
+    if curvature <= 0.0:
+        return float(values[i])
+    slope = d1 + curvature * (x[i] - x[i - 1])
+    return float(values[i] - slope**2 / (4.0 * curvature))
+
+
+def _far_deflection(result: EHLResult, x: np.ndarray) -> np.ndarray:
+    cells = np.diff(result.x)
+    force = np.zeros_like(result.x)
+    force[1:] += 0.5 * cells * result.pressure[1:]
+    force[:-1] += 0.5 * cells * result.pressure[:-1]
+    starts = np.arange(0, force.size, LUMP)
+    lumps = np.add.reduceat(force, starts)
+    moments = np.add.reduceat(force * result.x, starts)
+    keep = lumps > 0.0
+    lumps, centres = lumps[keep], moments[keep] / lumps[keep]
+    logs = np.log(np.abs(x[:, None] - centres[None, :]) / result.half_width)
+    return -4.0 / (math.pi * result.e_prime) * (logs @ lumps)

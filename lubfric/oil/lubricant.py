@@ -1,0 +1,169 @@
+"""The lubricant: viscosity and density against pressure, shear stress against shear rate.
+
+Pressures are gauge pressures in Pa. A pressure below ambient (it occurs only inside an iteration: a
+converged film has p >= 0) continues each law by its tangent at p = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base.shown import Brief
+from .._base.validate import choice, nonnegative, number, positive, python_fields
+from ..errors import InputError
+from .oil import Oil
+from .temperature import checked_temperature
+
+ROELANDS_PRESSURE = 1.96e8  # Pa
+DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
+ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
+CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
+NO_LIQUID = 1e10  # Pa: no oil flows there
+VISCOSITY_LAWS = ("roelands", "barus", "constant")
+DENSITY_LAWS = ("constant", "dowson-higginson")
+
+
+@dataclass(frozen=True, repr=False)
+class Lubricant(Brief):
+    """A lubricant at one temperature.
+
+    Parameters
+    ----------
+    viscosity : dynamic viscosity at ambient pressure, eta0 > 0 [Pa s]; above exp(-9.67) =
+        6.3e-5 Pa s for the Roelands law
+    pressure_viscosity_coefficient : d ln(eta)/dp at ambient pressure, alpha >= 0 [1/Pa];
+        > 0 for the Roelands law, not used by the constant law
+    viscosity_law : "roelands" (Roelands 1966, thesis Delft, z = alpha p0/(ln eta0 + 9.67), p0 = 1.96e8 Pa;
+        fitted to about 1 GPa, an extrapolation above), "barus" (Barus 1893, exp(alpha p);
+        overestimates above a few 100 MPa) or "constant"
+    density_law : "constant" or "dowson-higginson" (Dowson & Higginson 1966, mineral oil, in the
+        form (5.9e8 + 1.34 p)/(5.9e8 + p) usual in EHL; some authors round it to 1 + 0.6e-9 p/(1 + 1.7e-9 p),
+        which is up to 0.7 % denser at 1 GPa; fitted to about 0.4 GPa, at most 34 % denser)
+    eyring_stress : Eyring stress tau_E > 0 [Pa] (Ree-Eyring flow, typically 2-10 MPa);
+        None: Newtonian
+    limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
+        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
+    limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
+    temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
+        ambient pressure [1/K]; None: the heat of the film is not known
+    conductivity : thermal, of the film [W/(m K)]
+    oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
+
+    Raises
+    ------
+    InputError : a value out of range, or Roelands with alpha = 0
+    """
+
+    viscosity: float
+    pressure_viscosity_coefficient: float = 0.0
+    viscosity_law: str = "roelands"
+    density_law: str = "constant"
+    eyring_stress: float | None = None
+    limiting_stress_coefficient: float | None = None
+    limiting_stress_offset: float = 1e6
+    temperature: float | None = None
+    temperature_coefficient: float | None = None
+    conductivity: float = 0.13
+    oil: Oil | None = None
+
+    def __post_init__(self):
+        python_fields(self)
+        choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
+        choice("density_law", self.density_law, DENSITY_LAWS)
+        eta0 = positive("viscosity", self.viscosity, "Pa s")
+        alpha = nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
+        if self.viscosity_law == "roelands":
+            if alpha == 0.0:
+                raise InputError(
+                    " = 0 1/Pa has no Roelands exponent",
+                    "pressure_viscosity_coefficient",
+                    "> 0 1/Pa, or viscosity_law = 'constant'",
+                )
+            if math.log(eta0) + ROELANDS_LOG_VISCOSITY <= 0.0:
+                raise InputError(
+                    f" = {eta0:g} Pa s is out of range for the Roelands law",
+                    "viscosity",
+                    f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s",
+                )
+        if self.eyring_stress is not None:
+            positive("eyring_stress", self.eyring_stress, "Pa")
+        if self.limiting_stress_coefficient is not None:
+            positive("limiting_stress_coefficient", self.limiting_stress_coefficient, "")
+        nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
+        if self.temperature is not None:
+            checked_temperature(self.temperature, "lubricant.temperature")
+        if self.temperature_coefficient is not None:
+            nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
+        number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
+
+    @property
+    def heats(self) -> bool:
+        """True where temperature and temperature coefficient are known, so that the heat of the film can be found."""
+        return self.temperature is not None and bool(self.temperature_coefficient)
+
+    @property
+    def newtonian(self) -> bool:
+        """True where the shear stress grows with the shear rate without end."""
+        return self.eyring_stress is None and self.limiting_stress_coefficient is None
+
+    @property
+    def roelands_exponent(self) -> float:
+        """z = alpha p0/(ln eta0 + 9.67)."""
+        return (
+            self.pressure_viscosity_coefficient
+            * ROELANDS_PRESSURE
+            / (math.log(self.viscosity) + ROELANDS_LOG_VISCOSITY)
+        )
+
+
+def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+    """ln(eta/eta0) [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
+    p = np.asarray(pressure, dtype=float)
+    alpha = lubricant.pressure_viscosity_coefficient
+    if lubricant.viscosity_law == "constant":
+        return np.zeros_like(p), np.zeros_like(p)
+    if lubricant.viscosity_law == "barus":
+        return alpha * p, np.full_like(p, alpha)
+    z = lubricant.roelands_exponent
+    base = 1.0 + np.maximum(p, 0.0) / ROELANDS_PRESSURE
+    slope = alpha * base ** (z - 1.0)
+    value = (slope * base - alpha) * (ROELANDS_PRESSURE / z)
+    return np.where(p > 0.0, value, alpha * p), slope
+
+
+def viscosity(lubricant: Lubricant, pressure) -> np.ndarray:
+    """Dynamic viscosity eta(p) [Pa s] at each pressure [Pa]."""
+    return lubricant.viscosity * np.exp(log_viscosity_ratio(lubricant, pressure)[0])
+
+
+def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+    """rho/rho0 [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
+    p = np.asarray(pressure, dtype=float)
+    if lubricant.density_law == "constant":
+        return np.ones_like(p), np.zeros_like(p)
+    d = DENSITY_PRESSURE + np.maximum(p, 0.0)
+    return 1.0 + 0.34 * p / d, 0.34 * DENSITY_PRESSURE / d**2
+
+
+def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
+    """Shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
+
+    Newtonian ``eta(p) shear_rate``; with ``eyring_stress`` the Ree-Eyring law
+    ``tau_E asinh(eta shear_rate/tau_E)`` (Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129);
+    with ``limiting_stress_coefficient`` the result is cut at ``tau_0 + Lambda p``.
+    """
+    tau = viscosity(lubricant, pressure) * np.asarray(shear_rate, dtype=float)
+    if lubricant.eyring_stress is not None:
+        tau = lubricant.eyring_stress * np.arcsinh(tau / lubricant.eyring_stress)
+    if lubricant.limiting_stress_coefficient is not None:
+        limit = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
+        tau = np.clip(tau, -limit, limit)
+    return tau
+
+
+def carried_stress(pressure) -> np.ndarray:
+    """What an oil carries at most [Pa] at ``pressure`` [Pa], any shape: 5 MPa + 0.12 p."""
+    return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)

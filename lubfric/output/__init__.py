@@ -1,0 +1,1 @@
+"""Tables, pictures, reports and the command line."""

@@ -1,0 +1,100 @@
+"""``lubfric fit``: find parameters of a scene from a measured curve, and write them to a folder."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from .._base.files import write_whole
+from .._base.lock import FolderLock
+from .._base.plain import plain
+from .._base.plot import new_figure
+from .._base.validate import shown
+from ..errors import InputError
+from ..scene.file import load_scene
+from ..studies.fit import fit
+from ..studies.fit_outlook import explain_fit
+from ..studies.fit_plot import plot_fit, plot_residuals
+from ..studies.fit_result import FitResult
+from ..studies.measured import read_measured
+from .console import Pace, say, say_written
+from .run_folder import drawn
+
+
+def run_fit(arguments) -> int:
+    """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json; returns the exit code."""
+    bounds = _bounds(arguments.parameter)
+    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
+    measured = read_measured(
+        arguments.measured,
+        coefficient=arguments.coefficient,
+        speed=arguments.speed,
+        slide_roll_ratio=arguments.ratio,
+        deviation=arguments.deviation,
+    )
+    say(explain_fit(scene, measured, bounds))
+    begun = time.perf_counter()
+    found = fit(scene, measured, bounds, on_progress=_progress(begun))
+    say(found.explain())
+    say_written(_write(found, arguments.out), arguments.out, begun)
+    return 0
+
+
+def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+    found = {}
+    for text in texts:
+        key, _, ends = text.partition("=")
+        try:
+            low, high = map(float, ends.split(":"))
+        except ValueError:
+            raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
+        if key.strip() in found:
+            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
+        found[key.strip()] = (low, high)
+    return found
+
+
+def _progress(begun: float) -> Callable[[int, int, int], None]:
+    pace = Pace()
+
+    def on_progress(curve: int, done: int, total: int) -> None:
+        if pace.due(done == total):
+            say(f"curve {curve}: [{done}/{total}] {time.perf_counter() - begun:.0f} s")
+
+    return on_progress
+
+
+def _write(found: FitResult, folder: Path) -> list[str]:
+    record = {
+        "parameters": list(found.parameters.keys),
+        "values": found.values,
+        "intervals": found.intervals,
+        "covariance": found.covariance,
+        "moved_by_surface": found.moved_by_surface,
+        "undetermined": found.undetermined,
+        "at_bounds": found.at_bounds,
+        "validity": found.validity,
+        "x": found.measured.x,
+        "measured": found.measured.coefficient,
+        "fitted": found.predicted,
+        "report": found.report.as_dict(),
+    }
+    files = {
+        "fitted.toml": found.scene.to_toml().encode(),
+        "fit.png": drawn(_draw, found),
+        "fit.json": json.dumps(plain(record), indent=1).encode(),
+    }
+    with FolderLock(folder):
+        for name, content in files.items():
+            write_whole(folder / name, content)
+    return list(files)
+
+
+def _draw(file, found: FitResult) -> None:
+    figure = new_figure(figsize=(7, 6.5))
+    top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
+    plot_fit(found, top).set_xlabel("")
+    plot_residuals(found, bottom)
+    figure.savefig(file, dpi=150)

@@ -1,0 +1,78 @@
+"""``lubfric study``: carry out a study file into a folder."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from .._base import validate
+from ..errors import ConvergenceError
+from ..report import ITERATION_LIMIT, Report
+from ..studies.cost import in_words
+from ..studies.file import load_study
+from ..studies.pool import MOST_WORKERS, pool
+from ..studies.result import StudyResult, open_study
+from ..studies.run import study
+from ..studies.table_row import CONVERGED, UNUSED
+from ..studies.tables import check_tools, to_netcdf
+from .console import Pace, keeping, put, say, say_written
+
+
+def run_study(arguments) -> int:
+    """Plan, solve and write study.csv (and study.nc, study.parquet); returns the exit code."""
+    import sys
+
+    workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
+    plan = load_study(arguments.study)
+    if arguments.explain:
+        put(sys.stdout, plan.explain(arguments.out) + "\n")
+        return 0
+    check_tools(arguments.netcdf, arguments.parquet)
+    say(plan.explain(arguments.out))
+    begun = time.perf_counter()
+    with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
+        result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
+    written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
+    if result.cautioned:
+        say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
+    say_written(written, arguments.out, begun)
+    if result.failed:
+        first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))
+        report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
+        raise ConvergenceError(f"{result.failed} of {result.solved} points failed; first: {first}", report, result)
+    return 0
+
+
+def write_tables(result: StudyResult, folder: Path, netcdf: bool, parquet: bool) -> list[str]:
+    """Write study.csv, and what else is asked for. Returns the names of the files."""
+    result.to_csv(folder / "study.csv")
+    written = ["study.csv"]
+    if netcdf:
+        to_netcdf(result, folder / "study.nc")
+        written.append("study.nc")
+    if parquet:
+        result.to_parquet(folder / "study.parquet")
+        written.append("study.parquet")
+    return written
+
+
+def _kept(folder) -> str:
+    if not (Path(folder) / "study.json").is_file():
+        return "interrupted before the first point"
+    found = open_study(folder)
+    left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
+    return f"interrupted; {found.solved} points are kept in {folder}, {left}: the same command goes on from there"
+
+
+def _progress(begun: float):
+    pace, first = Pace(), -1
+
+    def on_progress(done: int, total: int) -> None:
+        nonlocal first
+        first = done if first < 0 else first  # what the store held already took no time
+        if pace.due(done == total):
+            passed = time.perf_counter() - begun
+            left = f", about {in_words(passed * (total - done) / (done - first))} left" if first < done < total else ""
+            say(f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s{left}")
+
+    return on_progress

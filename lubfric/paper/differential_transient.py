@@ -1,0 +1,168 @@
+"""The differential-deflection method in time: the same banded Newton's method with a squeeze term.
+
+Speed and load may change. The flow keeps its direction (towards +x), because the grid has one inlet. Where motion stops
+or reverses, use `lubfric.time.solve_transient_ehl`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .._base import validate
+from ..errors import ConvergenceError
+from ..film.ehl_result import cubic, smallest
+from ..film.line_contact import LineContact
+from ..film.problem import Problem
+from ..oil.lubricant import Lubricant
+from ..report import CONVERGED
+from ..scene.history import History
+from ..scene.history_read import checked_history
+from ..scene.renamed import density_before
+from ..time.bdf import Memory, started
+from ..time.course import Plan, checked_times, plan_of, report_of, steps
+from ..time.film import TransientFilm
+from ..time.film_setting import FIRST_STEP, WET
+from .differential import UniformEffort, domain_ends, solve_differential
+from .differential_equations import Squeeze
+from .differential_mesh import NEAR, make_mesh
+from .differential_newton import newton
+
+TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
+
+
+@dataclass(frozen=True)
+class Step:
+    """A solved step in SI units. z holds pressures and films."""
+
+    status: str
+    z: np.ndarray
+    film: np.ndarray
+    payload: None = None
+
+
+@dataclass(frozen=True)
+class UniformSetting:
+    """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m] (a
+    `lubfric.time.bdf.Solver`)."""
+
+    contact: LineContact  # as it is before t = 0
+    load: History
+    speed: History
+    domain: tuple[float, float]
+    nodes: int
+    bandwidth: int
+
+    @property
+    def x(self) -> np.ndarray:
+        """The nodes [m]."""
+        return np.linspace(*self.domain, self.nodes)
+
+    def problem(self, time: float) -> Problem:
+        """The problem just before ``time`` [s]."""
+        return Problem(
+            replace(self.contact, load_per_width=self.load.before(time), entrainment_speed=self.speed.before(time))
+        )
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> Step:
+        """One implicit step (`lubfric.time.bdf.Solver`)."""
+        problem, n = self.problem(time), self.nodes
+        unit, film, pressure = problem.length_unit, problem.film_unit, problem.pressure_unit
+        mesh = make_mesh(self.domain[0] / unit, self.domain[1] / unit, n, self.bandwidth, True)
+        rate = memory.rate * unit / problem.contact.entrainment_speed
+        squeeze = Squeeze(rate, rate * memory.film / film)
+        found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, squeeze)
+        stored = problem.density(found.P)[0] * found.H * film
+        return Step(found.status, np.concatenate([found.P * pressure, found.H * film]), stored)
+
+    def error_of(self, solution: Step, difference: np.ndarray) -> float:
+        """Root mean square of a difference of films over the pressurised film, relative to the film."""
+        P = solution.z[: self.nodes]
+        return math.sqrt(float(np.mean((difference / solution.film)[P > WET * P.max()] ** 2)))
+
+
+@density_before
+def solve_differential_transient(
+    *,
+    load_per_width,
+    radius: float,
+    e_prime: float,
+    entrainment_speed,
+    viscosity: float,
+    pressure_viscosity_coefficient: float,
+    times,
+    domain: tuple[float, float],
+    viscosity_law: str = "roelands",
+    density_law: str = "constant",
+    nodes: int = 1025,
+    bandwidth: int = NEAR,
+    time_tolerance: float = 1e-5,
+    raise_on_failure: bool = True,
+) -> TransientFilm:
+    """Film of a smooth line contact in time by differential deflection, from the steady state before t = 0.
+
+    Parameters
+    ----------
+    load_per_width, entrainment_speed : [N/m] and [m/s], numbers or histories, both > 0 at all times
+    domain : first and last node [m]
+
+    The other parameters are those of `solve_differential_deflection` and `solve_transient_ehl`. Each step is solved
+    until the residuals of `lubfric.paper.differential_equations.measure` are <= 1e-6.
+
+    Raises
+    ------
+    InputError : a value out of range, before any work
+    ConvergenceError : a step failed for good; carries the films so far
+    """
+    times = checked_times(times)
+    duration = float(times[-1])
+    load = checked_history("load_per_width", load_per_width, "N/m", duration)
+    speed = checked_history("entrainment_speed", entrainment_speed, "m/s", duration)
+    validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
+    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
+    contact = LineContact(load.before(0.0), radius, e_prime, speed.before(0.0), lubricant)
+    setting = UniformSetting(contact, load, speed, domain, nodes, bandwidth)
+    first = _start(setting)
+    width = math.hypot(setting.problem(0.0).half_width, 3.0) * contact.length_unit
+    plan = plan_of(times, (load, speed), FIRST_STEP * width / speed.range(duration)[1], time_tolerance)
+    result = _march(setting, first, plan)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def _start(setting: UniformSetting) -> Step:
+    """The steady state before t = 0 on the grid of the run."""
+    problem = setting.problem(0.0)
+    ends = domain_ends(problem, setting.domain)
+    start = solve_differential(problem, UniformEffort(nodes=setting.nodes), ends, raise_on_failure=False)
+    x = setting.x
+    z = np.concatenate([np.interp(x, start.x, start.pressure), cubic(start.x, start.film_thickness, x)])
+    first = setting.solve(0.0, Memory(0.0, np.zeros(setting.nodes)), z)
+    if first.status != CONVERGED:
+        raise ConvergenceError("differential deflection: no steady film to start from", start.report, start)
+    return first
+
+
+def _march(setting: UniformSetting, first: Step, plan: Plan) -> TransientFilm:
+    now = started(first, plan.first_step)
+    times, states = ([0.0], [first.z]) if plan.times[0] == 0.0 else ([], [])
+    for now in steps(setting, plan, now):
+        if now.at_output:
+            times.append(now.time)
+            states.append(now.solution.z)
+    x, n = setting.x, setting.nodes
+    P, H = (np.array([z[part] for z in states]).reshape(-1, n) for part in (slice(None, n), slice(n, None)))
+    parabola = x**2 / (2.0 * setting.contact.radius)
+    return TransientFilm(
+        np.array(times),
+        x,
+        P,
+        H,
+        np.array([smallest(x, h) for h in H]),
+        np.array([float(cubic(x, h - parabola, np.zeros(1))[0]) for h in H]),
+        np.trapezoid(P, x, axis=1) - 0.5 * x[0] * P[:, 0],  # with the tail |x|^-3
+        report_of("transient by differential deflection, BDF2", plan, now, f"{n} nodes", {}),
+    )

@@ -1,0 +1,174 @@
+"""Contact under an imposed film: the film gives the shape of the separation h - epsilon, and Eq. (8) gives epsilon.
+
+Both methods of the paper solve this problem: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8),
+doi:10.1007/s11249-015-0536-z. With the signs of this library the gap is ``g = h - epsilon - z + K p``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .._base import validate
+from ..contact.problem import Problem, starting_pressure
+from ..contact.residual import contact_residuals, length_scale
+from ..contact.result import ContactResult
+from ..errors import InputError
+from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+
+
+@dataclass(frozen=True)
+class ImposedFilm:
+    """A rough surface under a film of given shape.
+
+    ``problem`` holds gap0 = h - z [m], shifted so that its minimum is zero, with operator and limits. The area A is
+    given by weights that sum to 1; the mean film over A is in m. Offsets epsilon [m] inside this class refer to that
+    gap0.
+    """
+
+    problem: Problem
+    weight: np.ndarray
+    mean_film: float
+
+    def mean(self, field) -> float:
+        """Mean of a field over the area A."""
+        return float(np.vdot(self.weight, field))
+
+    @property
+    def separated(self) -> bool:
+        """Whether the film fits between the undeformed surfaces without contact."""
+        return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
+
+    def lubricated_offset(self, displacement, pressure) -> float:
+        """epsilon [m] of Eq. (8) as printed: the lubricated part of A contains the volume of the film.
+
+        It is NaN when the pressure leaves no cell of A free, because Eq. (8) then has no solution.
+        """
+        free = self.weight * (pressure == 0)
+        wet = free.sum()
+        volume = np.vdot(free, self.problem.gap0 + displacement)
+        return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
+
+    def offset(self, displacement, overlap=0.0) -> float:
+        """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero: the same solution.
+
+        ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
+        """
+        return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
+
+    def scale(self, pressure, displacement) -> float:
+        """The length [m] to which gaps are compared, as in `lubfric.solve_contact`."""
+        return length_scale(pressure, displacement, self.problem.gap0, self.problem.operator)
+
+    def first_pressure(self) -> np.ndarray:
+        """A first pressure, proportional to the overlap at the offset of the undeformed surfaces, with the best
+        factor."""
+        overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
+        stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
+        return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
+
+    def certify(self, state: Outcome, solver: str) -> ContactResult:
+        """The result of an iteration, with residuals computed anew from the pressure alone."""
+        problem, p = self.problem, state.pressure
+        u = problem.operator.apply(p)
+        gap = problem.gap0 + u - state.offset
+        scale = self.scale(p, u)
+        residuals = contact_residuals(p, gap, scale, problem.hardness, p.mean())
+        del residuals["load"]
+        film = self.mean(np.maximum(gap, 0.0))
+        residuals["volume"] = abs(film - self.mean_film) / min(scale, self.mean_film)
+        worst = max(residuals.values())
+        worst = worst if math.isfinite(worst) else math.inf
+        status = state.status
+        if worst <= problem.tolerance:
+            status = CONVERGED
+        elif status == CONVERGED:
+            status = STAGNATED
+        report = Report(
+            solver,
+            status,
+            state.iterations,
+            worst,
+            problem.tolerance,
+            residuals,
+            tuple(state.history),
+            state.convolutions + 1,
+            tuple(state.notes),
+        )
+        size = p.size
+        return ContactResult(
+            p,
+            gap,
+            u,
+            float(state.offset) + problem.offset,
+            float(p.mean()),
+            float(np.maximum(gap, 0.0).mean()),
+            np.count_nonzero(p) / size,
+            np.count_nonzero(p >= problem.hardness) / size,
+            report,
+        )
+
+    def solved(self, iterate: Iteration, solver: str, start, raise_on_failure: bool) -> ContactResult:
+        """The contact by ``iterate``, started from ``start``: a pressure, a result, or None for a guess."""
+        pressure = starting_pressure(self.problem, start)
+        if self.separated:
+            return self._touchless()
+        if pressure is not None and not pressure.any():
+            pressure = None
+        result = self.certify(iterate(self, self.first_pressure() if pressure is None else pressure), solver)
+        if pressure is not None and not result.report.converged:  # no start decides what can be solved
+            again = iterate(self, self.first_pressure())
+            note = f"from the start: {result.report.status}; begun again without it"
+            result = self.certify(replace(again, notes=[note, *again.notes]), solver)
+        if raise_on_failure:
+            result.report.raise_if_failed(result)
+        return result
+
+    def _touchless(self) -> ContactResult:
+        """The result if the film keeps the surfaces apart."""
+        zero = np.zeros_like(self.problem.gap0)
+        state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
+        return self.certify(state, "none")
+
+
+@dataclass
+class Outcome:
+    """The present state of an iteration, or its end."""
+
+    pressure: np.ndarray
+    offset: float
+    status: str = ITERATION_LIMIT
+    iterations: int = 0
+    convolutions: float = 0
+    history: Sequence[float] = ()
+    notes: Sequence[str] = ()
+
+
+Iteration = Callable[[ImposedFilm, np.ndarray], Outcome]  # from a first pressure
+
+
+def impose(heights, film, weight, make: Callable[[np.ndarray], Problem]) -> ImposedFilm:
+    """The validated contact; ``make(gap)`` makes the `Problem` of h - z (nx, ny) [m]."""
+    heights = validate.array("heights", heights, "m", ndim=2)
+    film = _on_grid("film", film, heights.shape, "m")
+    weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
+    if weight.min() < 0 or weight.sum() == 0:
+        raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
+    weight = weight / weight.sum()
+    problem = make(film - heights)
+    mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
+    return ImposedFilm(problem, weight, mean_film)
+
+
+def _on_grid(name, value, shape, unit) -> np.ndarray:
+    field = np.asarray(value, dtype=float)
+    if field.ndim == 1:
+        field = field[:, None]  # along x
+    try:
+        field = np.broadcast_to(field, shape)
+    except ValueError:
+        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
+    return validate.array(name, field, unit, ndim=2)

@@ -1,0 +1,189 @@
+"""The result of one operating point: `FrictionResult`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from .._base.shown import Shown
+from ..deterministic.refine import Refined
+from ..errors import InputError
+from ..one_way.point import OneWay
+from ..report import Report
+from ..sharing.balance import Balance
+from ..sharing.decision import Decision
+from ..sharing.validity import Validity
+from .cite import cited
+from .line_friction import LineStart
+from .uncertainty import FieldErrors, Uncertainty
+
+
+@dataclass(frozen=True, repr=False)
+class FrictionResult(Shown):
+    """One operating point.
+
+    The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult` or `RigidFilm`)
+    and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On a long line it
+    has the fields of the first 180 correlation lengths; forces and areas are those of all of the line.
+
+    Attributes
+    ----------
+    speed : entrainment speed U [m/s]
+    coefficient : f = (f_b F_C + F_sh)/F_T [-] (Akchurin et al. 2015, Eq. 9, doi:10.1007/s11249-015-0536-z)
+    contact_load, film_load : F_C and F_H [N]
+    shear_force : F_sh [N] = couette_force + rolling_force [N]
+    boundary_force : f_b F_C [N], zero in pure rolling
+    real_contact_area_fraction, plastic_area_fraction : shares of the area A that touch, and that yield [-]
+    real_contact_area : area in contact on the whole line [m²]
+    min_film, central_film : thickness of the smooth film that carries F_H [m]; NaN without entrainment
+    mean_gap : mean distance between the rough surfaces [m]; the film thickness when they are separated
+    film_to_roughness_ratio : central_film/Sq [-]
+    inlet_film_factor : film thickness over that without the heat of the inlet [-]; 1 where heat is left out
+    flash_temperature_rise : largest temperature rise of the surfaces [K]; 0 where heat is left out
+    film_temperature_rise : largest rise of the film, mean across it, over the surfaces [K]; 0 where heat is left out
+    load_residual : (F_C + F_H - F_T)/F_T [-]
+    volume_residual : (gap - film)/(gap + film) [-]
+    seconds : time of the solve [s]
+    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
+    validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
+    uncertainty : of the coefficient: from solvers and grids, and because a finite surface stands for all of it
+        (`Uncertainty`, docs/uncertainty.md)
+    errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
+    methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
+    line : on a long line, what a neighbouring speed starts from
+    """
+
+    speed: float
+    coefficient: float
+    contact_load: float
+    film_load: float
+    shear_force: float
+    couette_force: float
+    rolling_force: float
+    boundary_force: float
+    real_contact_area_fraction: float
+    real_contact_area: float
+    plastic_area_fraction: float
+    min_film: float
+    central_film: float
+    mean_gap: float
+    film_to_roughness_ratio: float
+    inlet_film_factor: float
+    flash_temperature_rise: float
+    film_temperature_rise: float
+    load_residual: float
+    volume_residual: float
+    seconds: float
+    report: Report
+    balance: Balance | None = None
+    decision: Decision | None = None
+    validity: tuple[Validity, ...] = ()
+    deterministic: Refined | None = None
+    one_way: tuple[OneWay, ...] = ()
+    uncertainty: Uncertainty = Uncertainty()
+    errors: FieldErrors = FieldErrors()
+    methods: tuple[str, ...] = ()
+    line: LineStart | None = field(default=None, repr=False)
+
+    @property
+    def starts(self) -> bool:
+        """Whether a neighbouring speed can start from it, which needs its fields and a film."""
+        whole = self.deterministic is not None or bool(self.one_way)
+        return whole or (self.balance is not None and self.balance.film is not None)
+
+    def without_fields(self) -> FrictionResult:
+        """A copy with its numbers alone."""
+        return replace(self, balance=None, deterministic=None, one_way=(), line=None)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {
+            "U": f"{self.speed:.4g} m/s",
+            "f": f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}",
+            "F_C": f"{self.contact_load:.4g} N",
+            "F_H": f"{self.film_load:.4g} N",
+            "lambda": f"{self.film_to_roughness_ratio:.3g}",
+            "": self.report.status,
+        }
+        if self.validity:
+            facts["cautions"] = "; ".join(entry.what for entry in self.validity)
+        return facts
+
+    def cite(self) -> str:
+        """The papers behind what was used for this result, one a line, the model's first."""
+        return cited(self.methods)
+
+    @property
+    def shows_contact(self) -> bool:
+        """Whether `pressure` and `gap` are available."""
+        whole = self.deterministic is not None or bool(self.one_way)
+        return whole or (self.balance is not None and self.balance.contact.fields is not None)
+
+    @property
+    def x(self) -> np.ndarray:
+        """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
+        if self.deterministic is not None:
+            return self.deterministic.result.x
+        if self.one_way:
+            return self.one_way[-1].x
+        return self._kept("x", None if self.balance is None else self.balance.contact.x)
+
+    @property
+    def y(self) -> np.ndarray:
+        """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
+        if self.deterministic is not None:
+            whole = self.deterministic.result
+            return np.arange(whole.pressure.shape[1]) * whole.spacing[1]
+        if self.one_way:
+            count = self.one_way[-1].gap.shape[1]
+            return np.arange(count) * self.uncertainty.length / count
+        return self._kept("y", None if self.balance is None else self.balance.contact.y)
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
+        if self.deterministic is not None:
+            return self.deterministic.result.pressure
+        if self.one_way:
+            return self.one_way[-1].contact_pressure
+        return self._fields("pressure").pressure
+
+    @property
+    def gap(self) -> np.ndarray:
+        """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
+        if self.deterministic is not None:
+            return self.deterministic.result.gap
+        if self.one_way:
+            return self.one_way[-1].gap
+        return self._fields("gap").gap
+
+    def plot_contact(self, ax=None):
+        """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
+        from .._base.axes import pressure_axes
+
+        return pressure_axes(self, ax)
+
+    def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
+        if found is None:
+            raise InputError(
+                f"this point keeps no {name}; solve it by lubfric.friction(..., fields=True), under a cylinder"
+            )
+        return found
+
+    def _fields(self, name: str) -> Any:
+        if self.balance is None or self.balance.contact.fields is None:
+            why = (
+                "it is separated"
+                if self.contact_load == 0
+                else "its fields were not kept, or come from a contact curve"
+            )
+            raise InputError(
+                f"this point has no {name} of its contact: {why}; a point in contact, solved with fields=True, has one"
+            )
+        return self.balance.contact.fields
+
+
+def _interval(interval: tuple[float, float]) -> str:
+    low, high = interval
+    return f" ({low:.4g} to {high:.4g} at 95 %)" if np.isfinite(low) and np.isfinite(high) else ""

@@ -1,0 +1,216 @@
+"""Scenes as TOML: strict reading."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from copy import deepcopy
+from dataclasses import fields
+from difflib import get_close_matches
+from importlib import resources
+from pathlib import Path
+
+from .._base import validate
+from ..errors import InputError
+from ..oil.lubricant import Lubricant
+from .bodies import Bodies
+from .contact import ContactDomain
+from .history_read import history
+from .missing import check_complete
+from .motion import Motion
+from .numerics import Numerics
+from .plausible import told_slips
+from .roughness import GENERATED, Roughness, check_keys, named
+from .scene import Scene
+from .short_forms import resolve, short_keys
+from .transient import Transient
+
+SECTIONS = {
+    "bodies": Bodies,
+    "lubricant": Lubricant,
+    "motion": Motion,
+    "surface": Roughness,
+    "counterface": Roughness,
+    "contact": ContactDomain,
+    "numerics": Numerics,
+    "transient": Transient,
+}
+OPTIONAL = ("counterface", "contact", "numerics", "transient")
+ROUGH = ("surface", "counterface")
+HISTORIES = {
+    "speed": ("motion", "entrainment_speed"),
+    "sliding": ("motion", "sliding_speed"),
+    "load": ("bodies", "load"),
+    "radius": ("bodies", "radius"),
+    "viscosity": ("lubricant", "viscosity"),
+}
+
+
+def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
+    """Read a scene from a TOML file, from a dict of its tables, or one of the two built in.
+
+    Parameters
+    ----------
+    source : path of a file; a dict; "paper" (Tables 1 and 2 of the paper) or "flat" (its Sec. 3.1). A ``surface.file``
+        is relative to the folder of the scene; that of a dict is relative to the working folder
+    surface_file, counterface_file : height maps to use instead of the scene's own. A map in the place of a generated
+        surface keeps its own grid
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError : a file is missing, a key is unknown (the message names the nearest valid one), a value is missing or
+        out of range
+    """
+    if isinstance(source, dict):
+        table, folder, name = deepcopy(source), Path(), "unnamed"
+    else:
+        table, folder, name = _read(source)
+    for section, path in zip(ROUGH, (surface_file, counterface_file)):
+        if path is not None:
+            _put_map(table, section, path)
+    return scene_from_table(table, folder, name)
+
+
+def read_toml(path, what: str) -> dict:
+    """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (UnicodeDecodeError, OSError) as error:
+        raise InputError(f"{what} {str(path)!r} cannot be read as UTF-8 text: {error}") from None
+    except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
+        told = validate.shown(str(error))
+        raise InputError(
+            f"{what} {path} is not valid TOML: {told} (numbers have a decimal point and no unit)"
+        ) from None
+
+
+def _put_map(table: dict, section: str, path) -> None:
+    path = _map_path(f"{section}_file", path, Path())
+    rough, contact = table.setdefault(section, {}), table.setdefault("contact", {})
+    if not isinstance(rough, dict) or not isinstance(contact, dict):
+        return  # told by what reads the tables
+    if "file" not in rough:
+        for key in ("sq", *GENERATED):
+            rough.pop(key, None)
+        if section == "surface":
+            contact.pop("shape", None), contact.pop("spacing", None)
+    rough["file"] = str(path)
+
+
+def _map_path(name: str, given, folder: Path) -> Path:
+    """An existing file, its path absolute."""
+    try:
+        path = (folder / given).absolute()
+        if path.is_file():
+            return path
+    except (TypeError, ValueError, OSError):
+        pass
+    near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
+    meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
+    where = f" in {folder}" if folder.name else ""
+    raise InputError(
+        f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; give its path from there, or all of it"
+    )
+
+
+def builtin_scenes() -> tuple[str, ...]:
+    """Names that `lubfric.load_scene` knows without a file."""
+    folder = resources.files("lubfric") / "scene" / "scenes"
+    return tuple(sorted(f.name.removesuffix(".toml") for f in folder.iterdir() if f.name.endswith(".toml")))
+
+
+def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
+    """A validated `Scene` from the tables of a TOML file."""
+    allowed = ("name", *SECTIONS)
+    validate.keys("scene", table, allowed)
+    for section in SECTIONS:
+        if not isinstance(table.get(section, {}), dict):
+            raise InputError(f"scene entry {section!r} must be a table [{section}]")
+    table, plan = _plan(table, folder)
+    for section in (s for s in SECTIONS if s in table and s != "transient"):
+        validate.keys(f"[{section}]", table[section], _keys(section))
+    check_complete(name, table, {s: kind for s, kind in SECTIONS.items() if s not in OPTIONAL}, ROUGH)
+    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in (*ROUGH, "transient")}
+    for section in ROUGH:
+        if section in table:
+            parts[section] = _rough(section, dict(table[section]), folder)
+    if not isinstance(table.get("name", name), str):
+        raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
+    return Scene(**parts, name=table.get("name", name), transient=plan)
+
+
+def _rough(section: str, given: dict, folder: Path) -> Roughness:
+    if isinstance(given.get("file"), str):
+        given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
+    with named(section):
+        check_keys(given)
+        return _build(section, given)
+
+
+def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
+    """The `Transient` of a scene, and the table without its histories.
+
+    Histories stand in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
+    plain value: the largest load, else the value at the start.
+    """
+    table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
+    given = table.get("transient", {})
+    found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
+    for name, (section, key) in HISTORIES.items():
+        value = table.get(section, {}).get(key)
+        if value is None and name == "sliding":
+            table.get(section, {}).pop(key, None)
+        if isinstance(value, dict) or (value is not None and name == "sliding"):
+            if name in found:
+                raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
+            found[name] = history(f"{section}.{key}", value, folder)
+            table[section].pop(key)
+    if not found and "transient" not in table:
+        return table, None
+    if "duration" not in given:
+        raise InputError("a scene with a history needs [transient] with duration in s")
+    plan = _build("transient", {**given, **found})
+    for name, (section, key) in HISTORIES.items():
+        if name in found and name != "sliding" and key not in table.get(section, {}):
+            value = found[name].range(plan.duration)[1] if name == "load" else found[name].before(0.0)
+            table.setdefault(section, {})[key] = value
+    return table, plan
+
+
+def _read(source) -> tuple[dict, Path, str]:
+    """Its tables, the folder that its files are relative to, and its name."""
+    if not isinstance(source, (str, os.PathLike)):
+        raise InputError(
+            f"scene {validate.shown(source)} is a {type(source).__name__}; allowed: a path, or one of "
+            f"{builtin_scenes()}"
+        )
+    if str(source) in builtin_scenes():
+        return (
+            read_toml(resources.files("lubfric") / "scene" / "scenes" / f"{source}.toml", "scene"),
+            Path(),
+            str(source),
+        )
+    path = Path(source)
+    if not os.path.isfile(path):
+        raise InputError(
+            f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
+            f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"
+        )
+    return read_toml(path, "scene"), path.parent, path.stem
+
+
+def _build(section: str, table: dict):
+    validate.keys(f"[{section}]", table, _keys(section))
+    with told_slips(section, dict(table)):
+        plain = resolve(section, table)
+        return SECTIONS[section](**{k: tuple(v) if isinstance(v, list) else v for k, v in plain.items()})
+
+
+def _keys(section: str) -> tuple[str, ...]:
+    """All keys of a section, short forms and histories too."""
+    histories = ("sliding_speed",) if section == "motion" else ()
+    return (*(f.name for f in fields(SECTIONS[section])), *short_keys(section), *histories)

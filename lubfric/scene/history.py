@@ -1,0 +1,200 @@
+"""Quantities that change in time: constant, ramp, harmonic, table.
+
+Each gives its value just after (``at``) and just before (``before``) a time [s], the times of its jumps, and
+its range. `lubfric.scene.history_read` makes them from a scene file or a CSV file.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base import validate
+from ..errors import InputError
+from .history_corners import corners
+
+ROUNDING = 1e-12  # relative: times that are closer are one time
+
+
+class History:
+    """A quantity that changes in time; the kinds below are its only ones in scene files."""
+
+    def at(self, time: float) -> float:
+        """Value at (just after) ``time`` [s]."""
+        raise NotImplementedError
+
+    def before(self, time: float) -> float:
+        """Value just before ``time`` [s]."""
+        return self.at(time)
+
+    def stops(self, duration: float) -> tuple[float, ...]:
+        """Times [s] inside the run, other than the jumps, at which a step ends."""
+        return ()
+
+    def jumps(self, duration: float) -> tuple[float, ...]:
+        """Times [s] at which the value jumps."""
+        return ()
+
+    def range(self, duration: float) -> tuple[float, float]:
+        """Smallest and largest value from 0 to ``duration`` [s]."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Constant(History):
+    """The same ``value`` at all times."""
+
+    value: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "value", validate.number("history value", self.value, "(SI)"))
+
+    def at(self, time: float) -> float:
+        return self.value
+
+    def range(self, duration: float) -> tuple[float, float]:
+        return self.value, self.value
+
+
+@dataclass(frozen=True, kw_only=True)
+class Harmonic(History):
+    """mean + amplitude sin(2 pi frequency t + phase); frequency [Hz] > 0, phase [rad]."""
+
+    amplitude: float = 0.0
+    frequency: float = 1.0
+    phase: float = 0.0
+    mean: float = 0.0
+
+    def __post_init__(self):
+        for name, unit in (("amplitude", "(SI)"), ("mean", "(SI)"), ("phase", "rad")):
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+        object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
+
+    def at(self, time: float) -> float:
+        return self.mean + self.amplitude * math.sin(2.0 * math.pi * self.frequency * time + self.phase)
+
+    def range(self, duration: float) -> tuple[float, float]:
+        if self.frequency * duration >= 1.0:
+            return self.mean - abs(self.amplitude), self.mean + abs(self.amplitude)
+        turns = (np.pi * (np.arange(-2, 6) + 0.5) - self.phase % (2 * np.pi)) / (2 * np.pi * self.frequency)
+        times = np.concatenate([[0.0, duration], turns[(turns > 0.0) & (turns < duration)]])
+        values = [self.at(t) for t in times]
+        return min(values), max(values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table(History):
+    """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
+
+    A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table must last as
+    long as the run. A step ends at every corner (`lubfric.scene.history_corners`), so that no step passes over a pulse.
+    """
+
+    times: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+    repeat: bool = False
+
+    def __post_init__(self):
+        times = validate.array("history times", self.times, "s", ndim=1)
+        values = validate.array("history values", self.values, "(SI)", ndim=1)
+        if times.size != values.size or times.size < 2:
+            raise InputError(f"history has {times.size} times and {values.size} values; allowed: as many, at least two")
+        falls = np.flatnonzero(np.diff(times) < 0.0)
+        if falls.size:
+            i = int(falls[0])
+            raise InputError(
+                f"history times are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2}); "
+                "allowed: times that do not decrease, in s"
+            )
+        if times[0] > 0.0 or times[-1] <= times[0]:
+            raise InputError(
+                f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a later time"
+            )
+        object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
+        if self.repeat and times[0] != 0.0:
+            raise InputError(f"history times start at {times[0]:g} s; a table that repeats starts at 0 s")
+        if np.any(times[2:] == times[:-2]):
+            raise InputError("history times hold the same time three times; allowed: at most twice (a jump)")
+        object.__setattr__(self, "times", tuple(float(t) for t in times))
+        object.__setattr__(self, "values", tuple(float(v) for v in values))
+
+    def at(self, time: float) -> float:
+        return self._value(time, "right")
+
+    def before(self, time: float) -> float:
+        return self._value(time, "left")
+
+    def _value(self, time: float, side: str) -> float:
+        t, v = self.times, self.values
+        time = self._on_a_row(time, side)
+        i = bisect_left(t, time) if side == "left" else bisect_right(t, time)
+        if i == 0 or i == len(t):
+            return v[min(i, len(t) - 1)]
+        return v[i - 1] + (v[i] - v[i - 1]) * (time - t[i - 1]) / (t[i] - t[i - 1])
+
+    def _on_a_row(self, time: float, side: str) -> float:
+        """``time`` in the first period. If it differs only by rounding from a row of the table, it is the time of that
+        row: 0.1 + 0.2 s is a jump at 0.3 s."""
+        t = self.times
+        near = ROUNDING * max(time, t[-1])
+        if self.repeat and time > 0.0:
+            laps = math.floor((time + near) / t[-1])
+            time = max(time - laps * t[-1], 0.0)
+            if laps and side == "left" and time <= near:
+                return t[-1]
+        i = bisect_left(t, time)
+        return next((row for row in t[max(i - 1, 0) : i + 1] if abs(row - time) <= near), time)
+
+    def stops(self, duration: float) -> tuple[float, ...]:
+        """The corners, of every period."""
+        found = np.array([*corners(np.array(self.times), np.array(self.values)), *self.times[-1:]])
+        if self.repeat:
+            laps = np.arange(math.ceil(duration / self.times[-1]))
+            found = (found[None, :] + laps[:, None] * self.times[-1]).ravel()
+        return tuple(float(x) for x in found if 0.0 < x < duration)
+
+    def jumps(self, duration: float) -> tuple[float, ...]:
+        """Times [s] at which the value jumps, 0 <= t < duration."""
+        t, v = np.array(self.times), np.array(self.values)
+        found = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
+        if self.repeat:
+            if v[0] != v[-1]:
+                found = np.append(found, t[-1])
+            laps = np.arange(math.ceil(duration / t[-1]))
+            found = np.unique((found[None, :] + laps[:, None] * t[-1]).ravel())
+        return tuple(float(x) for x in found if 0.0 <= x < duration)
+
+    def range(self, duration: float) -> tuple[float, float]:
+        inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]
+        values = [*inside, self.at(0.0), self.before(duration)]
+        return min(values), max(values)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ramp(History):
+    """``start`` until the time ``begin`` [s], then a straight line to ``end`` at ``until`` [s], ``end`` after it."""
+
+    start: float = 0.0
+    end: float = 0.0
+    until: float = 1.0
+    begin: float = 0.0
+
+    def __post_init__(self):
+        for name in ("start", "end"):
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), "(SI)"))
+        object.__setattr__(self, "begin", validate.nonnegative("history begin", self.begin, "s"))
+        object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))
+
+    def at(self, time: float) -> float:
+        share = min(max((time - self.begin) / (self.until - self.begin), 0.0), 1.0)
+        return self.start + share * (self.end - self.start)
+
+    def stops(self, duration: float) -> tuple[float, ...]:
+        """The two corners."""
+        return tuple(t for t in (self.begin, self.until) if 0.0 < t < duration)
+
+    def range(self, duration: float) -> tuple[float, float]:
+        return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))

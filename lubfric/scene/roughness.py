@@ -1,0 +1,182 @@
+"""The roughness of one body: a measured map and how it is prepared, or a generated one."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from .._base import validate
+from .._base.shown import Brief
+from ..errors import InputError
+from ..surface.generate import ACFS
+from ..surface.prepare import FORMS
+from ..surface.table import DECIMALS
+from ..surface.units import UNITS
+
+NEEDED = "either 'file', or 'sq' and 'correlation_length' in m"
+OUTLIERS = ("refuse", "keep", "mask")
+EXTENSIONS = ("none", "mirror")
+GENERATED = {  # fields of a generated map, and what they are where left out
+    "correlation_length": None,
+    "acf": "exponential",
+    "decay_level": math.exp(-1),
+    "seed": 0,
+    "oversize": 1,
+}
+MEASURED = {  # fields of a map from a file
+    "motion_axis": "x",
+    "spacing": None,
+    "unit": None,
+    "decimal": None,
+    "missing_value": None,
+    "form": "plane",
+    "outliers": "refuse",
+    "s_filter": None,
+    "l_filter": None,
+    "extension": "none",
+}
+
+
+@dataclass(frozen=True, repr=False)
+class Roughness(Brief):
+    """Where the height map of a body comes from: a file, or a generated surface.
+
+    The keys of a file act in the order in which they stand below.
+
+    Attributes
+    ----------
+    file : path of a height map (`lubfric.read_surface`), or None to generate one
+    sq : standard deviation of the heights [m]; a file is scaled to it when given
+    correlation_length : of a generated map [m], one, or x and y, at ``decay_level``
+    acf : of a generated map: "exponential" or "gaussian"
+    decay_level : value of the autocorrelation at ``correlation_length``
+    seed : of a generated map
+    oversize : a generated map is made this many times as long in x and y. Then its middle is cut out and scaled to sq.
+        This is for correlation lengths that do not fit the patch
+    spacing : of a file that does not carry its own [m]
+    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own
+    decimal : "." or ",", of a text file in which commas can be either
+    missing_value : number in a text or .npy file that stands for "not measured"
+    form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
+    outliers : what to do with points that stand alone (`lubfric.surface.outliers`), which would carry the load:
+        "refuse" the map, "keep" them, or "mask" and fill them
+    s_filter, l_filter : nesting indices [m] of the Gaussian filters of ISO 16610-61. The first takes out what is
+        shorter, the second what is longer
+    motion_axis : the axis of the *file*, "x" or "y", that lies along the motion
+    extension : "mirror" continues a map that is too short along x by its mirror image
+
+    Raises
+    ------
+    InputError : values out of range, and fields that do not apply to the kind of map
+    """
+
+    file: str | None = None
+    sq: float | None = None
+    correlation_length: float | tuple[float, float] | None = None
+    acf: str = "exponential"
+    decay_level: float = math.exp(-1)
+    seed: int = 0
+    motion_axis: str = "x"
+    spacing: float | tuple[float, float] | None = None
+    unit: str | None = None
+    oversize: int = 1
+    form: str = "plane"
+    decimal: str | None = None
+    missing_value: float | None = None
+    outliers: str = "refuse"
+    s_filter: float | None = None
+    l_filter: float | None = None
+    extension: str = "none"
+
+    def __post_init__(self):
+        validate.python_fields(self)
+        if self.file is None and (self.sq is None or self.correlation_length is None):
+            raise InputError(f" needs {NEEDED}", "surface")
+        if isinstance(self.file, os.PathLike):
+            object.__setattr__(self, "file", os.fspath(self.file))
+        if self.file is not None and not isinstance(self.file, str):
+            raise InputError(f" = {validate.shown(self.file)}", "surface.file", way_out="write a path in quotes")
+        for name, check in _CHECKS.items():
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, check(f"surface.{name}", value))
+        for name, default in (MEASURED if self.file is None else GENERATED).items():
+            if getattr(self, name) != default:
+                raise not_for_this(name, getattr(self, name), self.file is None)
+
+
+def not_for_this(name: str, value: Any, generated: bool) -> InputError:
+    """The error for a key that has no meaning for this kind of map."""
+    this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
+    told = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
+    return InputError(told, f"surface.{name}", way_out="leave it out")
+
+
+def check_keys(given: dict[str, Any]) -> None:
+    """Raise `InputError` for a key of a scene file that does not apply, whatever its value."""
+    generated = "file" not in given
+    for name in MEASURED if generated else GENERATED:
+        if name in given:
+            raise not_for_this(name, given[name], generated)
+
+
+@contextmanager
+def named(section: str) -> Iterator[None]:
+    """Make an `InputError` about a `Roughness` name the ``section`` in which it stands."""
+    try:
+        yield
+    except InputError as error:
+        first, dot, key = error.quantity.partition(".")
+        if first == "surface":
+            error.quantity = f"{section}{dot}{key}"
+        raise
+
+
+def counterface(values: dict[str, Any]) -> Roughness:
+    """The roughness of the second body."""
+    for key in values:
+        if key not in Roughness.__dataclass_fields__:
+            allowed = tuple(Roughness.__dataclass_fields__)
+            raise InputError(
+                f"counterface has no field {validate.shown(key)}{validate.nearest(key, allowed)}; allowed: "
+                f"{', '.join(allowed)}"
+            )
+    with named("counterface"):
+        return Roughness(**values)
+
+
+def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
+    """The fields that ``values`` change in ``old``. If a file replaces a generated map, the keys of the generated map
+    go."""
+    if old is not None and old.file is None and values.get("file") is not None:
+        return {"sq": None, **GENERATED, **values}
+    return values
+
+
+def _lengths(name: str, value: Any) -> float | tuple[float, float]:
+    pair = validate.spacing(name, value)
+    return pair if isinstance(value, (list, tuple)) else pair[0]
+
+
+_CHECKS = {
+    "sq": lambda name, value: validate.nonnegative(name, value, "m", maximum=1.0),
+    "correlation_length": _lengths,
+    "acf": lambda name, value: validate.choice(name, value, ACFS),
+    "decay_level": lambda name, value: validate.number(name, value, "(-)", above=0, maximum=0.99),
+    "seed": lambda name, value: validate.integer(name, value, minimum=0, maximum=2**128 - 1),
+    "oversize": lambda name, value: validate.integer(name, value, minimum=1, maximum=64),
+    "motion_axis": lambda name, value: validate.choice(name, value, ("x", "y")),
+    "spacing": _lengths,
+    "unit": lambda name, value: validate.choice(name, value, UNITS),
+    "decimal": lambda name, value: validate.choice(name, value, DECIMALS),
+    "missing_value": lambda name, value: validate.number(name, value, "(unit of the file)"),
+    "form": lambda name, value: validate.choice(name, value, FORMS),
+    "outliers": lambda name, value: validate.choice(name, value, OUTLIERS),
+    "s_filter": lambda name, value: validate.positive(name, value, "m", maximum=1.0),
+    "l_filter": lambda name, value: validate.positive(name, value, "m", maximum=1.0),
+    "extension": lambda name, value: validate.choice(name, value, EXTENSIONS),
+}

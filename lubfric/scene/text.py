@@ -1,0 +1,73 @@
+"""A scene as the TOML text that `lubfric.load_scene` reads back to the same numbers."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from .history import History
+from .history_read import KINDS
+from .short_lubricant import fields_of
+from .shown import SECTIONS
+
+ROUGH = ("surface", "counterface")  # of which keys that do not apply are refused: defaults are left out
+
+
+def scene_as_toml(scene) -> str:
+    """The whole ``scene``, with its defaults except those of a roughness. What is None is left out.
+
+    A ``surface.file`` is written with its whole path. An oil is written as it was given, instead of its numbers at the
+    temperature. Raises `InputError` for a history that scene files do not have.
+    """
+    lines = [f"name = {json.dumps(scene.name)}"]
+    for section in SECTIONS:
+        part = getattr(scene, section)
+        if part is None:
+            continue
+        lines += ["", f"[{section}]"]
+        keys = {field.name: getattr(part, field.name) for field in fields(part)}
+        if section in ROUGH:
+            keys = {field.name: keys[field.name] for field in fields(part) if keys[field.name] != field.default}
+        if keys.get("limiting_stress_coefficient", 0.0) is None:
+            del keys["limiting_stress_offset"]  # refused where it does nothing
+        if keys.get("oil") is not None:
+            keys = _with_oil(keys)
+        if "file" in keys:
+            keys["file"] = str(Path(keys["file"]).absolute())
+        lines += [f"{key} = {_text(value)}" for key, value in keys.items() if value is not None and value != ()]
+    return "\n".join(lines) + "\n"
+
+
+def _with_oil(keys: dict[str, Any]) -> dict[str, Any]:
+    """The ``keys`` of a lubricant with those of its oil in place of the numbers that follow from it."""
+    oil = keys.pop("oil")
+    followed = fields_of(oil, keys["temperature"])
+    own = {key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value}
+    return oil.said | own
+
+
+def _text(value) -> str:
+    if isinstance(value, History):
+        return _history(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    return f"[{', '.join(_text(part) for part in value)}]"
+
+
+def _history(value: History) -> str:
+    shown: Any = value  # a dataclass, whatever kind it is
+    for kind, known in KINDS.items():
+        if type(value) is known:
+            parts = {f.name: getattr(value, f.name) for f in fields(shown)}
+            inner = ", ".join(f"{name} = {_text(part)}" for name, part in parts.items() if part is not None)
+            return f'{{ kind = "{kind}", {inner} }}'
+    raise InputError(
+        f"a history of type {type(value).__name__} has no form in a scene file; allowed: {', '.join(KINDS)}"
+    )

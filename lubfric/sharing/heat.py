@@ -1,0 +1,186 @@
+"""Heat of one operating point, as a level: modelled if leaving it out would change f by more than its share of the
+tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import InputError
+from ..film.conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
+from ..film.flash import FAST
+from ..film.heated_stress import heated_stress
+from ..film.inlet_heat import LARGEST, InletHeat, inlet_heat
+from ..oil.lubricant import NO_LIQUID, Lubricant, shear_stress
+from ..scene import budget
+
+NOTHING = 1e-9  # of the film: less heat than that is none
+
+
+@dataclass(frozen=True)
+class WarmFilm:
+    """The effect of heat on the shear of a film: its stress, and the viscosity [Pa s] of the inlet with which it was
+    solved.
+
+    stress(x, pressure, film): shear stress [Pa] at positions x [m] running downstream; None: isothermal.
+    """
+
+    inlet_viscosity: float
+    stress: Callable | None = None
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Heat of an operating point.
+
+    inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
+    temperatures of film and surfaces, relative (an upper estimate if they are left out, ``heated`` None); peclet: u b
+    rho c/(2 k) of the faster surface.
+    """
+
+    inlet: InletHeat | None = None
+    used: bool = False
+    change: float = 0.0
+    heated: FilmHeat | None = None
+    peclet: float = math.inf
+
+    @property
+    def film_factor(self) -> float:
+        """Factor on the film by the heat of the inlet; 1 if that is left out."""
+        return self.inlet.factor if self.used and self.inlet is not None else 1.0
+
+    @property
+    def flash(self) -> float:
+        """Largest rise of the surfaces [K]; 0 if it is left out."""
+        return self.heated.flash if self.heated else 0.0
+
+    @property
+    def film(self) -> float:
+        """Largest mean rise of the film over the surfaces [K]; 0 if it is left out."""
+        return self.heated.film if self.heated else 0.0
+
+    @property
+    def left_out(self) -> float:
+        """Relative change of f by the temperatures of film and surfaces, at most, where these are left out."""
+        return self.change if self.heated is None else 0.0
+
+    @property
+    def slow(self) -> bool:
+        """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
+        return self.peclet < FAST
+
+    def text(self, tolerance: float) -> str:
+        """The heat in words, each number beside its budget."""
+        if self.inlet is None:
+            return ""
+        limit = f"{100 * budget.HEAT * tolerance:.2g} % budget"
+        inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} %"
+        if self.used:
+            inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
+        if self.heated is None:
+            return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f < {limit}"
+        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f -{100 * self.change:.2g} %"
+
+
+def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
+    """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
+    lubricant, numerics = scene.lubricant, scene.numerics
+    if numerics.heat == "off" or not lubricant.heats or speed == 0:
+        return None, False
+    bodies = scene.bodies
+    found = inlet_heat(
+        viscosity=lubricant.viscosity,
+        temperature_coefficient=lubricant.temperature_coefficient,
+        conductivity=lubricant.conductivity,
+        speed=abs(speed),
+        slide_roll_ratio=scene.motion.slide_roll_ratio,
+        pressure_ratio=4 / math.pi * bodies.mean_hertz_pressure / bodies.e_prime,
+    )
+    wanted = numerics.heat == "on" or numerics.model == "full" or 1 - found.factor > budget.INLET * numerics.tolerance
+    return found, wanted
+
+
+def film_lubricant(scene, speed: float) -> Lubricant:
+    """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
+    thinner by the factor of `inlet_at`."""
+    found, used = inlet_at(scene, speed)
+    if found is None or not used or found.factor > 1 - NOTHING:
+        return scene.lubricant
+    if found.factor <= 0:
+        raise InputError(
+            f"heat of the inlet: thermal number eta0 beta U²/k = {found.thermal_number:.3g} leaves no film by the "
+            f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
+            "viscosity, temperature_coefficient and their units?)"
+        )
+    lubricant, whole = scene.lubricant, scene.line_contact(speed)
+
+    def thinner(log_share):
+        made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
+        return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
+
+    wanted, share = math.log(found.factor), math.log(found.factor) / 0.7
+    for _ in range(6):  # the exponent of the viscosity changes slowly, between 0.5 and 1
+        share *= wanted / thinner(share)
+    return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
+
+
+def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | None]:
+    """Heat at ``balance``, and its effect on the shear of the film (None: none). ``force``: |f F_T| [N] and ``shear``
+    (`ShearForce`) without the heat of the film."""
+    film = balance.film
+    if film is None:
+        return Heat(), None
+    inlet, used = inlet_at(scene, film.entrainment_speed)
+    if inlet is None:
+        return Heat(), None
+    warm = WarmFilm(film_lubricant(scene, film.entrainment_speed).viscosity) if used else None
+    pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
+    if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
+        return Heat(inlet, used), warm
+    x, p, h, around = _surroundings(scene, balance)
+    lubricant, numerics = scene.lubricant, scene.numerics
+    cold = np.abs(shear_stress(lubricant, p, around.sliding / h))
+    once = isothermal_heat(lubricant, x, p, h, around)
+    change = _force(scene, x, around, cold - np.abs(once.stress)) / max(force, 1e-300)
+    wanted = numerics.heat == "on" or numerics.model == "full" or change > budget.HEAT * numerics.tolerance
+    if not wanted:
+        return Heat(inlet, used, change, None, _peclet(scene, film)), warm
+    found = heated_film(lubricant, x, p, h, around)
+    change = _force(scene, x, around, cold - np.abs(found.stress)) / max(force, 1e-300)
+
+    def stress(at, pressure, thickness):
+        return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
+
+    heat = Heat(inlet, used, change, found, _peclet(scene, film))
+    return heat, WarmFilm(warm.inlet_viscosity if warm else lubricant.viscosity, stress)
+
+
+def _surroundings(scene, balance):
+    """Nodes running downstream, pressure and film there, and the `Surroundings`."""
+    film, bodies, motion = balance.film, scene.bodies, scene.motion
+    speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
+    order = np.argsort(film.x * direction)
+    x, p, h = film.x[order] * direction, film.pressure[order], film.film_thickness[order]
+    share = 1.0 - balance.contact.touching(x * direction)
+    share = np.where(x[:-1] < film.rupture * direction, share, 0.0)
+    wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
+    sliding = motion.slide_roll_ratio * speed
+    half = bodies.half_width
+    pressed = 2 * balance.contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
+    spots = bodies.boundary_friction_coefficient * pressed * abs(sliding)
+    surfaces = (abs(speed - 0.5 * sliding), abs(speed + 0.5 * sliding))
+    carried = sum(e * math.sqrt(u) for e, u in zip(bodies.effusivity, surfaces))
+    return x, p, h, Surroundings(carried, sliding, wet, spots)
+
+
+def _force(scene, x, around, stress) -> float:
+    return float(scene.bodies.width * np.trapezoid(around.wet * stress, x))
+
+
+def _peclet(scene, film) -> float:
+    bodies, speed = scene.bodies, abs(film.entrainment_speed)
+    faster = speed * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
+    return min(faster * bodies.half_width * c / (2 * k) for k, c in zip(bodies.conductivity, bodies.volumetric_heat))

@@ -1,0 +1,208 @@
+"""The result of a fit, and how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from .._base.shown import table
+from ..report import Report
+from ..sampling.uncertainty import percent
+from ..scene.scene import Scene
+from ..sharing.validity import Validity, gathered
+from .fit_parameters import Parameters
+from .measured import SPEED, Measured
+
+LEVEL = 0.95
+AT_BOUND = 5e-3  # of the bounds
+
+
+@dataclass(frozen=True, eq=False)
+class FitResult:
+    """Parameters found by `lubfric.fit`, and how well the data determine them.
+
+    The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
+    the mean square of the numerical error of f beside it. The data cannot determine a parameter whose 95 % interval is
+    as wide as its bounds.
+
+    Attributes
+    ----------
+    values : the parameters found, {"section.key": value}
+    deviations : their standard deviations, by key
+    scene : the scene with the values put in
+    predicted : f at the measured points, (n,)
+    unit : the parameters as positions between their bounds, 0 to 1, (p,)
+    unit_covariance : covariance of ``unit``, (p, p)
+    slopes : df/d(unit) at the measured points, (n, p)
+    entries : the assumptions that do not hold at each of the points (`lubfric.Validity`). A severe one is there only
+        where it was accepted; ``validity`` gathers them
+    sampling : relative standard error of f at the points because a finite surface stands for all of it, (n,); NaN where
+        it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
+    """
+
+    base: Scene
+    measured: Measured
+    parameters: Parameters
+    unit: np.ndarray
+    unit_covariance: np.ndarray
+    predicted: np.ndarray
+    slopes: np.ndarray
+    scale: np.ndarray
+    report: Report
+    entries: tuple[tuple[Validity, ...], ...] = ()
+    sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters."""
+        return dict(zip(self.parameters.keys, self.parameters.values(self.unit).tolist()))
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Covariance of the parameters, (p, p) in their units, to first order."""
+        slopes = self.parameters.slopes(self.unit)
+        return self.unit_covariance * slopes[:, None] * slopes
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviations of the parameters."""
+        return dict(zip(self.parameters.keys, np.sqrt(np.diag(self.covariance)).tolist()))
+
+    @property
+    def correlation(self) -> np.ndarray:
+        """Correlation between the parameters, (p, p)."""
+        spread = np.sqrt(np.diag(self.unit_covariance))
+        return self.unit_covariance / np.outer(spread, spread)
+
+    @property
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """95 % intervals of the parameters, cut at their bounds."""
+        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
+        low = self.parameters.values(np.clip(self.unit - reach, 0.0, 1.0))
+        high = self.parameters.values(np.clip(self.unit + reach, 0.0, 1.0))
+        return dict(zip(self.parameters.keys, zip(low.tolist(), high.tolist())))
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Parameters that the data cannot determine: their 95 % interval is as wide as their bounds."""
+        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
+        return tuple(key for key, r in zip(self.parameters.keys, reach) if not 2 * r < 1.0)
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold at some of the points."""
+        unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("(slide-roll ratio)", "ratios")
+        return gathered(list(zip(self.measured.x.tolist(), self.entries)), unit, name)
+
+    @property
+    def at_bounds(self) -> tuple[str, ...]:
+        """Parameters that ended on a bound: a value beyond it would fit the data better."""
+        edge = np.minimum(self.unit, 1.0 - self.unit) < AT_BOUND
+        return tuple(key for key, there in zip(self.parameters.keys, edge) if there)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene with the values found."""
+        return self.parameters.into(self.base, self.parameters.values(self.unit))
+
+    @property
+    def band(self) -> tuple[np.ndarray, np.ndarray]:
+        """(low, high): the 95 % band of the computed curve at the measured points."""
+        reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
+        return self.predicted - reach, self.predicted + reach
+
+    @property
+    def moved_by_surface(self) -> dict[str, float]:
+        """By how much another piece of the surface would move the parameters, as a standard deviation to first order.
+
+        It would move f by ``sampling``, at all points together or at each by itself; the larger effect counts.
+        """
+        off = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.scale
+        effects = np.linalg.pinv(self.slopes / self.scale[:, None], rcond=1e-8) * off
+        moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
+        return dict(zip(self.parameters.keys, (moved * self.parameters.slopes(self.unit)).tolist()))
+
+    def _misfit(self) -> str:
+        """In words that the points lie farther from the fit than their deviations allow (chi-squared, 95 %); "" if
+        they do not, or have none."""
+        if self.measured.deviation is None:
+            return ""
+        from scipy.stats import chi2
+
+        squares, freedom = self.report.residuals["sum of squares"], self.predicted.size - self.unit.size
+        if squares <= chi2.ppf(LEVEL, freedom):
+            return ""
+        times = np.sqrt(squares / freedom)
+        return f"the points lie {times:.2g} times as far off as their deviations say: the intervals are too narrow"
+
+    def _of_surface(self) -> str:
+        """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
+        if not np.isfinite(self.sampling).any():
+            known = self.base.surface.sq != 0 and self.sampling.size
+            return (
+                "not in the intervals: what another piece of the surface would give, which is not known"
+                if known
+                else ""
+            )
+        if np.nanmax(self.sampling) == 0:
+            return ""
+        moved = ", ".join(f"{key} by {move:.2g}" for key, move in self.moved_by_surface.items())
+        return (
+            f"not in the intervals: another piece of the surface (standard error of f up to "
+            f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
+        )
+
+    def contains(self, values: dict[str, float]) -> bool:
+        """Whether parameters lie in the joint 95 % region (F distribution of p and n - p)."""
+        from scipy.stats import f
+
+        away = self.parameters.unit(np.array([values[key] for key in self.parameters.keys])) - self.unit
+        p, n = away.size, self.predicted.size
+        distance = away @ np.linalg.solve(self.unit_covariance, away) / p
+        return bool(distance <= f.ppf(LEVEL, p, n - p))
+
+    def explain(self) -> str:
+        """Values, intervals, correlations, the parameters that the data cannot determine, and the assumptions that do
+        not hold."""
+        lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
+        for key, (low, high) in self.intervals.items():
+            told = " - the data cannot tell it" if key in self.undetermined else ""
+            told += " - on its bound" if key in self.at_bounds else ""
+            lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{told}")
+        keys, correlation = self.parameters.keys, self.correlation
+        for i in range(len(keys)):
+            for j in range(i):
+                if abs(correlation[i, j]) > 0.9:
+                    lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
+        scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
+        cautions = [f"  {text}" for text in (self._misfit(), self._of_surface(), *self.validity) if text]
+        return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
+        return f"<FitResult: {found}; cannot tell: {', '.join(self.undetermined) or 'none'}>"
+
+    def _repr_html_(self) -> str:
+        found, known = self.values, self.intervals
+        words = {key: f"{found[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}" for key, (low, high) in known.items()}
+        return table(words | {"cannot tell": ", ".join(self.undetermined) or "none"}, "FitResult")
+
+    def plot(self, ax=None):
+        """Measured points, fitted curve and its 95 % band; returns the axes."""
+        from .fit_plot import plot_fit
+
+        return plot_fit(self, ax)
+
+    def plot_residuals(self, ax=None):
+        """Deviation of the points from the fitted curve, relative; returns the axes."""
+        from .fit_plot import plot_residuals
+
+        return plot_residuals(self, ax)
+
+    @property
+    def _student(self) -> float:
+        from scipy.stats import t
+
+        return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))

@@ -1,0 +1,1 @@
+"""What changes in time: histories, the march, films and contacts in time."""

@@ -1,0 +1,157 @@
+"""`solve_transient_ehl`: the smooth line contact in time, where the film carries the whole load."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base import validate
+from ..errors import ConvergenceError, InputError
+from ..film.ehl_result import smallest
+from ..oil.lubricant import Lubricant
+from ..report import CONVERGED, Report
+from ..scene.history_read import checked_history
+from ..scene.renamed import density_before
+from .bdf import started
+from .course import Plan, checked_times, plan_of, report_of, steps
+from .film_active_set import StepSolution
+from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, parabola, steady_start
+
+TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
+
+
+@dataclass(frozen=True)
+class TransientFilm:
+    """Film over time, in SI units.
+
+    Attributes
+    ----------
+    time, x : (nt,) [s], (nx,) [m]
+    pressure, film_thickness : (nt, nx) [Pa], [m]
+    min_film, central_film : (nt,) [m] the smallest film, and the film at x = 0
+    load : (nt,) [N/m] what the film carries, with the tails of the inlet
+    """
+
+    time: np.ndarray
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    min_film: np.ndarray
+    central_film: np.ndarray
+    load: np.ndarray
+    report: Report
+
+
+@density_before
+def solve_transient_ehl(
+    *,
+    load_per_width,
+    radius,
+    e_prime: float,
+    entrainment_speed,
+    viscosity,
+    times,
+    pressure_viscosity_coefficient: float = 0.0,
+    viscosity_law: str = "roelands",
+    density_law: str = "constant",
+    initial_film: float | None = None,
+    tolerance: float = 1e-3,
+    time_tolerance: float | None = None,
+    first_step: float | None = None,
+    raise_on_failure: bool = True,
+) -> TransientFilm:
+    """Film of a smooth line contact whose load, radius, speed or viscosity change in time.
+
+    Parameters
+    ----------
+    load_per_width, radius, viscosity : [N/m], [m], [Pa s], all > 0; numbers or histories (`lubfric.scene`)
+    entrainment_speed : [m/s], any sign, also 0; a number or a history
+    e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.oil.lubricant.Lubricant`
+    times : output times [s], increasing, the first >= 0; a step ends at each
+    initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
+        None: from the steady state of the values before t = 0
+    tolerance, time_tolerance : relative error of the film by the grid, 1e-5 to 0.1, and in a step (None: 1 % of it)
+    first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
+
+    ``report.residuals`` are the largest accepted local error ("step") and the error of the grid at the steady start
+    ("grid"), each over its tolerance. Raises `InputError` before any work, and `ConvergenceError` with the films so far
+    when the shortest step fails or there is no accurate steady start. Equations of a step: `squeeze`, `active_set`.
+    """
+    times = checked_times(times)
+    tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
+    if time_tolerance is None:
+        time_tolerance = TIME_SHARE * tolerance
+    validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
+    if first_step is not None:
+        validate.positive("first_step", first_step, "s")
+    duration = float(times[-1])
+    eta = checked_history("viscosity", viscosity, "Pa s", duration)
+    contact = ContactHistory(
+        checked_history("load_per_width", load_per_width, "N/m", duration),
+        checked_history("radius", radius, "m", duration),
+        validate.positive("e_prime", e_prime, "Pa"),
+        checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
+        eta,
+        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density_law),
+        duration,
+        initial_film,
+    )
+    _check_start(contact)
+    setting, start, grid_error = _start(contact, tolerance)
+    plan = plan_of(times, setting.histories, first_step or setting.first_step, time_tolerance)
+    result = _march(setting, start, plan, {} if math.isnan(grid_error) else {"grid": grid_error / tolerance})
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def _check_start(contact: ContactHistory) -> None:
+    if contact.initial_film is not None:
+        validate.positive("initial_film", contact.initial_film, "m")
+    elif contact.speed.before(0.0) == 0.0:
+        raise InputError(
+            "entrainment_speed = 0 m/s before t = 0 carries no steady film; give initial_film > 0 m, or a speed"
+        )
+
+
+def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+    now = started(start, plan.first_step)
+    outputs = [(0.0, start)] if plan.times[0] == 0.0 else []
+    for now in steps(setting, plan, now):
+        if now.at_output:
+            outputs.append((now.time, now.solution))
+    report = report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals)
+    return _collect(setting, outputs, report)
+
+
+def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, StepSolution, float]:
+    """(setting, state at t = 0, grid error). The grid is refined until a steady start is as accurate as asked."""
+    if contact.initial_film is not None:
+        setting = make_setting(contact, tolerance)
+        return setting, setting.at_rest(parabola(setting, contact.initial_film)), math.nan
+    for finer in FINER:
+        setting = make_setting(contact, tolerance, finer=finer)
+        start = steady_start(setting)
+        if start.status == CONVERGED:
+            error = discretisation(setting, start)
+            if error <= tolerance or finer == FINER[-1]:
+                return setting, start, error
+    raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+
+
+def _collect(setting: Setting, outputs: list[tuple[float, StepSolution]], report: Report) -> TransientFilm:
+    p, x = setting.problem, setting.grid.x
+    H = np.array([s.terms.H for _, s in outputs]).reshape(-1, x.size)
+    P = np.array([s.terms.P for _, s in outputs]).reshape(-1, x.size)
+    return TransientFilm(
+        np.array([t for t, _ in outputs]),
+        x * p.length_unit,
+        P * p.pressure_unit,
+        H * p.film_unit,
+        np.array([smallest(x, h) for h in H]) * p.film_unit,
+        H[:, x.size // 2] * p.film_unit,
+        np.array([s.terms.carried for _, s in outputs]) * p.contact.e_prime * p.film_unit,
+        report,
+    )

@@ -1,0 +1,125 @@
+"""A graded grid that does not move, and is the same on both sides of the line of centres.
+
+Flow may reverse, and the film may rupture on either side, on both or on none. So the grid cannot follow a rupture
+point. Cells are smallest at the edges of the Hertz contact on both sides, over the whole range of edges that changing
+loads give. They grow in proportion to the distance from there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..film.grid import trapezoidal
+from ..film.kernel import hat_kernel
+
+EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
+CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
+FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
+
+
+@dataclass(frozen=True)
+class FixedGrid:
+    """The grid with its operators.
+
+    Attributes
+    ----------
+    x : (n + 1,) nodes
+    cells : (n,) lengths of the cells
+    weights : (n + 1,) of the integral of pressure; also the lengths of the control volumes
+    kernel : from pressure to film at the nodes
+    forward, backward, centred : interpolations to the faces, see `Faces`
+    """
+
+    x: np.ndarray
+    cells: np.ndarray
+    weights: np.ndarray
+    kernel: np.ndarray
+    forward: Faces
+    backward: Faces
+    centred: Faces
+
+    @property
+    def n(self) -> int:
+        """Number of cells."""
+        return self.cells.size
+
+    def upwind(self, speed: float) -> Faces:
+        """The interpolation that takes its nodes against the flow."""
+        return self.forward if speed >= 0.0 else self.backward
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Lagrange interpolation from nodes to the faces between them.
+
+    Face i uses the nodes ``columns[i]`` with the weights ``values[i]``. ``kernel`` (n, n + 1): from pressure to film at
+    the faces.
+    """
+
+    columns: np.ndarray
+    values: np.ndarray
+    kernel: np.ndarray
+
+    def __call__(self, nodal: np.ndarray) -> np.ndarray:
+        return np.einsum("fk,fk->f", self.values, nodal[self.columns])
+
+
+def make_fixed_grid(x: np.ndarray) -> FixedGrid:
+    """The grid and its operators on increasing nodes ``x``."""
+    cells = np.diff(x)
+    kernel = hat_kernel(x, x)
+    return FixedGrid(
+        x,
+        cells,
+        trapezoidal(cells),
+        kernel,
+        _faces(x, kernel, (-1, 0, 1)),
+        _faces(x, kernel, (0, 1, 2)),
+        _faces(x, kernel, (-1, 0, 1, 2)),
+    )
+
+
+def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces:
+    n = x.size - 1
+    first = np.clip(np.arange(n) + stencil[0], 0, n + 1 - len(stencil))
+    columns = first[:, None] + np.arange(len(stencil))
+    face = 0.5 * (x[1:] + x[:-1])
+    nodes = x[columns]
+    values = np.ones_like(nodes)
+    for k in range(len(stencil)):
+        for m in range(len(stencil)):
+            if m != k:
+                values[:, k] *= (face - nodes[:, m]) / (nodes[:, k] - nodes[:, m])
+    return Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns]))
+
+
+def symmetric_nodes(
+    resolution: float, edges: tuple[float, float], films: tuple[float, float], reach: float = 0.0
+) -> np.ndarray:
+    """Nodes symmetric about 0; their number is ``resolution`` times what the ranges demand.
+
+    ``edges`` are the smallest and the largest Hertz half-width, ``films`` the smallest and the largest film, all in the
+    units x and h = x²/R. The cells resolve the rise of the smallest film's pressure at every edge. The domain reaches
+    beyond three half-widths by ``FAR`` sqrt(2 h) of the largest film, and at least to ``reach``.
+    """
+    inner, outer = edges
+    small, large = (math.sqrt(2.0 * h) for h in films)
+    rise = small * (small / (small + outer)) ** 0.42
+    far = max(3.0 * outer + FAR * large, reach)
+    fine = EDGE_CELL * rise
+    low, high = max(0.0, inner - 0.5 * rise), outer + 0.5 * rise
+    scale = high + small
+
+    def density(x):
+        away = np.maximum(low - x, 0.0) + np.maximum(x - high, 0.0)
+        return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + CORE / np.hypot(scale, x)
+
+    away = np.concatenate([[0.0], np.geomspace(1e-3 * fine, far + high, 3000)])
+    table = np.unique(np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far))
+    index = np.concatenate([[0.0], np.cumsum(0.5 * (density(table[1:]) + density(table[:-1])) * np.diff(table))])
+    half = np.interp(np.linspace(0.0, index[-1], math.ceil(resolution * index[-1]) + 1), index, table)
+    half[-1] = far
+    return np.concatenate([-half[:0:-1], half])

@@ -1,0 +1,167 @@
+"""What a run gives: `TransientResult`, with its report."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base import validate
+from .._base.axes import history_axes, loop_axes
+from .._base.shown import Shown
+from ..report import Report
+from ..sampling.uncertainty import UncertaintyCurve, percent, student
+from ..sharing.prepared import Prepared
+from ..sharing.validity import Validity, gathered
+from .bdf import Progress
+from .checkpoint import Output
+from .course import Plan, report_of
+from .judge import judged_outputs
+from .moment import UNITS
+from .sharing import Sharing
+
+MANY = 30  # blocks less one: of a line
+
+
+@dataclass(frozen=True)
+class TimeAverage:
+    """The mean of f over a run in time, and relative standard deviations.
+
+    - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. The line is the
+      same at all times, so a longer run does not make this smaller.
+    - ``fixed_scatter``: of the averages of real lines of the contact's width from place to place, if the same spots
+      stay in contact.
+    - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then other
+      spots carry the load every `TransientResult.renewal`.
+    """
+
+    coefficient: float
+    sampling: float
+    fixed_scatter: float
+    moving_scatter: float
+
+
+@dataclass(frozen=True, repr=False)
+class TransientResult(Shown):
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.time.moment.UNITS`, also as attributes.
+
+    Attributes
+    ----------
+    columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
+        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its parts
+        [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the
+        pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last step,
+        per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-], the
+        relative standard error of f because the line of rough surface is finite (`lubfric.sampling.moment_error`; the
+        line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
+        flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
+        the speeds of the moment; heat_change [-], the relative change of f by the two rises; shear_error [-], the
+        estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
+        load on the edge columns of its patch
+    x : (nx,) [m]
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
+    report : how the run ended
+    entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
+    line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
+        surface moves until other spots carry the load [m]; NaN if not known
+    """
+
+    columns: dict[str, np.ndarray]
+    x: np.ndarray
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+    report: Report
+    entries: tuple[tuple[Validity, ...], ...] = ()
+    line_length: float = math.nan
+    width: float = math.nan
+    renewal: float = math.nan
+
+    def average(self) -> TimeAverage:
+        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f); its
+        error; and its scatter for fixed and for moving roughness."""
+        half = 0.5 * np.diff(self.time)
+        weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
+        mean = float(np.average(self.coefficient, weights=weight))
+        sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
+        fixed = sampling * math.sqrt(self.line_length / self.width)
+        moved = float(np.sum(weight * np.abs(self.entrainment_speed)))
+        return TimeAverage(mean, sampling, fixed, fixed / math.sqrt(max(1.0, moved / self.renewal)))
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that does not hold at some time."""
+        return gathered(list(zip(self.time.tolist(), self.entries)), "s", "times")
+
+    @property
+    def uncertainty(self) -> UncertaintyCurve:
+        """Standard error and 95 % interval of f at every time, from the finite surface alone."""
+        unknown = np.full(self.time.size, np.nan)
+        half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
+        both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
+        told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
+        known = ("sampling", "interval", "text", "line_scatter", "length")
+        scatter = self.sampling_error * math.sqrt(self.line_length / self.width)
+        length = np.full(self.time.size, self.line_length)
+        others = {name: unknown for name in UncertaintyCurve.__dataclass_fields__ if name not in known}
+        return UncertaintyCurve(
+            sampling=self.sampling_error, interval=both, text=told, line_scatter=scatter, length=length, **others
+        )
+
+    def plot(self, ax=None):
+        """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
+        return history_axes(self, ax)
+
+    def plot_loop(self, ax=None):
+        """Friction over speed, the hysteresis loop, on ``ax`` or new axes, which are returned."""
+        return loop_axes(self, ax)
+
+    def _facts(self) -> dict[str, str]:
+        facts = {"": f"{self.time.size} times"}
+        if self.time.size:
+            facts |= {
+                "t": f"{self.time[0]:.4g} to {self.time[-1]:.4g} s",
+                "f": f"{self.coefficient.min():.4g} to {self.coefficient.max():.4g}",
+            }
+        return facts | {"status": self.report.status}
+
+    def __getattr__(self, name):
+        columns = self.__dict__.get("columns", {})
+        if name in columns:
+            return columns[name]
+        raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
+
+
+def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
+    """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
+    prepared, setting = sharing.prepared, sharing.setting
+    p, n = setting.problem, setting.grid.n + 1
+    table = np.array([row for row, _ in outputs]).reshape(len(outputs), len(UNITS))
+    columns = dict(zip(UNITS, table.T))
+    surface = float(np.max(columns["sampling_error"], initial=0.0))
+    told = "not known" if np.isnan(surface) else f"standard error of f at most {percent(surface)}"
+    fields = np.array([field for _, field in outputs]).reshape(len(outputs), 2 * n)
+    worst = {
+        "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
+        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
+    }
+    if not np.isnan(grid_error):
+        worst["grid"] = grid_error / prepared.scene.numerics.tolerances.film
+    return TransientResult(
+        columns,
+        setting.grid.x * p.length_unit,
+        fields[:, :n] * p.pressure_unit,
+        fields[:, n:] * p.film_unit,
+        report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
+        judged_outputs(prepared, columns),
+        **_of_the_line(prepared),
+    )
+
+
+def _of_the_line(prepared: Prepared) -> dict[str, float]:
+    """Length, width and renewal [m]. The renewal is the Hertz strip and a correlation length along the motion."""
+    bodies = prepared.scene.bodies
+    known = {"line_length": prepared.surface.size[1], "width": bodies.width}
+    if prepared.lines is not None:
+        known["renewal"] = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.lines.lengths[0]
+    return known

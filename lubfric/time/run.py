@@ -1,0 +1,144 @@
+"""Friction in time: `transient`."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene.scene import Scene
+from ..scene.transient import Transient
+from ..sharing.prepared import Prepared, scene_of
+from ..sharing.validity import Validity, refused
+from .at_a_time import changes
+from .bdf import Progress, started
+from .checkpoint import Checkpoint, Output
+from .course import Plan, checked_times, plan_of, steps
+from .film import TIME_SHARE
+from .film_active_set import StepSolution
+from .moment import UNITS, moment
+from .result import TransientResult, collect
+from .setup import begin
+from .sharing import Sharing
+
+
+def transient(
+    scene: Scene | Prepared, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
+) -> TransientResult:
+    """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
+
+    The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_squeeze`: Swift-Stieber complementarity, either
+    side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
+    (`lubfric.time`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
+    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
+
+    Parameters
+    ----------
+    scene : with a `lubfric.Transient` in ``scene.transient``; or, with ``times``, without one: then nothing changes
+    times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
+    checkpoint : folder that receives the state after every step. An interrupted run of the same scene and times
+        continues from there. It is removed when the run ends well
+    on_step : called as on_step(time, duration, row) after every step; ``row`` holds the numbers of an output, or is
+        None
+    raise_on_failure : False returns what was computed, with its report
+
+    Returns
+    -------
+    TransientResult
+
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : the shortest step failed; carries the rows so far as its result
+    ValidityError : at some time an assumption is violated so badly that f means nothing, and ``numerics.accept`` is
+        false; carries the whole result
+
+    Notes
+    -----
+    Film and surfaces are as hot as in steady motion at the speeds of the moment (``numerics.heat``).
+
+    A step is solved when max(residuals of `lubfric.time.film_active_set.measure`) <= 1e-7 and |gap - film|/(gap +
+    film) <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised
+    film, relative to the film, is <= transient.tolerance. The residuals of the report are:
+
+    - step: the largest accepted local error over that tolerance
+    - mass, volume: the largest at an output, relative to their tolerances
+    - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
+    """
+    scene, times = _with_plan(scene, times)
+    sharing, start, grid_error = begin(scene)
+    prepared = sharing.prepared
+    store = None if checkpoint is None else Checkpoint(checkpoint, [prepared, changes(prepared.scene), times])
+    plan = _plan(sharing, times)
+    now, outputs = _marched(sharing, start, plan, store, on_step)
+    result = collect(sharing, grid_error, plan, now, outputs)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+        refused(_severe(result), prepared.scene.numerics.accept, result)
+    if store is not None and result.report.converged:
+        store.clear()
+    return result
+
+
+def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
+    """The plan of the run, with outputs at ``times`` [s]."""
+    scene = sharing.prepared.scene
+    changing = changes(scene)
+    tolerance = changing.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    return plan_of(times, changing.histories, sharing.setting.first_step, tolerance)
+
+
+def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, list[Output]]:
+    with store or nullcontext():
+        now, outputs = (store and store.load()) or (started(start, plan.first_step), [])
+        if not outputs and plan.times[0] == 0.0:
+            _add(sharing, outputs, store, replace(now, solution=start))
+        for now in steps(sharing, plan, now):
+            if now.at_output:
+                _add(sharing, outputs, store, now)
+            if store:
+                store.save(_state(now))
+            if on_step:
+                on_step(now.time, plan.end, dict(zip(UNITS, outputs[-1][0])) if now.at_output else None)
+    return now, outputs
+
+
+def _add(sharing: Sharing, outputs: list[Output], store, now: Progress) -> None:
+    """Add the output at the time of ``now``: its row, and its pressures and films."""
+    terms = now.solution.terms
+    row = np.array(list(moment(sharing, now).values()), dtype=float)
+    outputs.append((row, np.concatenate([terms.P, terms.H])))
+    if store:
+        store.append(*outputs[-1])
+
+
+def _state(now: Progress) -> Progress:
+    """All that a resumed run needs: ``now``, without what the next step computes again."""
+    contact = now.payload
+    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
+    return replace(now, payload=bare, solution=None)
+
+
+def _severe(result: TransientResult) -> tuple[Validity, ...]:
+    """The violated assumptions that make f meaningless at some time, the worst of each kind."""
+    worst: dict[str, Validity] = {}
+    for entry in (e for at_once in result.entries for e in at_once if e.severe):
+        if entry.what not in worst or entry.value > worst[entry.what].value:
+            worst[entry.what] = entry
+    return tuple(worst.values())
+
+
+def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
+    """The scene with what changes until the last output, and the output times [s]."""
+    base = scene_of(scene)
+    plan = base.transient
+    if times is None:
+        if plan is None:
+            raise InputError("scene has no [transient] table; give one, or output times in s")
+        return scene, np.linspace(0.0, plan.duration, plan.outputs + 1)
+    times = checked_times(times)
+    last = float(times[-1])
+    base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last))
+    return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times
