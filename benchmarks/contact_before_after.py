@@ -84,7 +84,7 @@ def begin(tree: str) -> None:
 
 def _prepared(name: str):
     from lubfric import solve_contact
-    from lubfric.contact.operator import half_space
+    from lubfric.contact import half_space
 
     made, boundary, pressure, warm, hardness = cases()[name]
     if made not in KEPT:

@@ -24,8 +24,19 @@ import numpy as np
 from benchmarks import page
 from benchmarks.contact_before_after import E_PRIME, surface
 from lubfric import solve_contact
-from lubfric.contact import careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil
-from lubfric.contact.operator import half_space
+from lubfric.contact import (
+    careful,
+    cells,
+    descent,
+    fields,
+    half_space,
+    long_waves,
+    looked,
+    nested,
+    problem,
+    refine,
+    stencil,
+)
 
 SPACING = 2e-6
 MODULES = (careful, cells, descent, fields, long_waves, looked, nested, problem, refine, stencil)

@@ -18,7 +18,7 @@ import numpy as np
 from scipy import fft
 
 from lubfric import solve_contact
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space
 
 SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
 LOADS = (50e6, 200e6, 1000e6)

@@ -1,5 +1,5 @@
 """``python -m lubfric`` is the ``lubfric`` command."""
 
-from .output.command_line import main
+from .output import main
 
 raise SystemExit(main())

@@ -96,7 +96,7 @@ def aspher_solver(
 def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
     """The default of the library, its operator made once."""
     from lubfric import solve_contact
-    from lubfric.contact.operator import half_space
+    from lubfric.contact import half_space
 
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
@@ -116,7 +116,7 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
 
 def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
     """Plain Polonsky-Keer with the library's operator."""
-    from lubfric.contact.operator import half_space
+    from lubfric.contact import half_space
 
     from .polonsky_keer import polonsky_keer
 

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from lubfric.contact.half_space import HalfSpaceContact
-from lubfric.contact.result import ContactResult
-from lubfric.sampling.result import FrictionResult
-from lubfric.sharing.balance import Lubricated
-from lubfric.sharing.decision import Decision
-from lubfric.sharing.prepared import Prepared
+from lubfric.contact import ContactResult, HalfSpaceContact
+from lubfric.sampling import FrictionResult
+from lubfric.sharing import Decision, Lubricated, Prepared
 
 T = TypeVar("T")
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 HERE = Path(__file__).parent
 SPEEDS = np.geomspace(1e-4, 1.0, 17)

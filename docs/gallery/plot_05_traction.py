@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import lubfric
-from lubfric.oil.lubricant import viscosity
+from lubfric.oil import viscosity
 
 ratios = np.geomspace(1e-3, 2, 9)
 scene = lubfric.load_scene("paper").with_(

@@ -79,8 +79,8 @@ def plot_stribeck(
 ) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as in `lubfric._base.table.read_table`; speeds that failed are left out. ``entries``: for each
-    row, the assumptions that are violated (`lubfric.sharing.validity.Validity`). ``measured``: a `lubfric.Measured` over
+    ``columns``: arrays by name as in `lubfric._base.read_table`; speeds that failed are left out. ``entries``: for each
+    row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over
     speed, drawn beside the curve.
     """
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..report import CONVERGED, ITERATION_LIMIT
+from ..errors import CONVERGED, ITERATION_LIMIT
 
 NEARER = 0.3  # of the value before: the secant leads on
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ConvergenceError, InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
 from .hertz_strip import area_weight, centred_axis, check_strip, weighted_mean
 from .rough_contract import ContactState, Grid, RoughContact

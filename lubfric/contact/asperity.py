@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..errors import InputError
-from ..report import Report
+from ..errors import InputError, Report
 from .asperity_find import FINDERS
 
 DEFINITIONS = ("summits", "patches")

@@ -7,10 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate
-from .._base.roots import Root, increasing_root
-from ..errors import ConvergenceError, InputError
-from ..report import CONVERGED, STAGNATED, Report
+from .._base import Root, increasing_root, validate
+from ..errors import CONVERGED, STAGNATED, ConvergenceError, InputError, Report
 from .asperity import AsperityResult, find_asperities
 
 SCAN = 1.25  # ratio between neighbouring approaches of the scan for a load

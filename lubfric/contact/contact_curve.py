@@ -8,8 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import validate
-from .._base.frozen import FieldsOnly
+from .._base import FieldsOnly, validate
 from .left_out import left_out
 from .solve import solve_contact
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base.roots import increasing_root
-from ..report import CONVERGED
+from .._base import increasing_root
+from ..errors import CONVERGED
 from .nested import approach_controlled, load_controlled
 from .residual import volume
 

@@ -1,6 +1,6 @@
 """Does the contact reach the ends of its patch, and will it?
 
-Where it does, the ends cut it off, and its friction is no answer (`lubfric.sharing.validity_solution.of_ends`). It is foretold
+Where it does, the ends cut it off, and its friction is no answer (`lubfric.sharing.of_ends`). It is foretold
 where it can be. Where a closed form rules it out, nothing is solved. Elsewhere one dry contact of the whole load,
 loosely solved, shows how much lies on the edge columns. Under a film that is less, so a patch is refused only if more
 is seen, the thicker the film. On 983 random patches with their ends near the contact, elastic and with a hardness, 190

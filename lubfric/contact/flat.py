@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ConvergenceError, InputError
-from ..scene import budget
-from ..scene.scene import Scene
+from ..scene import Scene, budget
 from .asperity_curve import asperity_curve
 from .contact_curve import ContactCurve, contact_curve
 from .hertz_strip import centred_axis, weighted_mean

@@ -8,9 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from ..paper.single_loop import single_loop
-from ..scene.bodies import Bodies
-from ..scene.scene import Scene
+from ..scene import Bodies, Scene
 from . import edges
 from .half_space_grid import HalfSpaceGrid
 from .hertz_strip import area_half_width, area_weight, centred_axis, check_strip, weighted_mean
@@ -52,6 +50,8 @@ class HalfSpaceContact(HalfSpaceGrid):
     def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
         """Load under the imposed film, by the single loop (paper, Appendix 2)."""
         under = film if shape is None else shape + weighted_mean(film - shape, self.weight)
+        from ..paper import single_loop
+
         found = single_loop(
             self.heights,
             under,

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from .._base.frozen import FieldsOnly
+from .._base import FieldsOnly
 from .hertz_strip import strip_weight
 from .operator import HalfSpace
 from .problem import COARSEST

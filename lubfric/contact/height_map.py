@@ -10,14 +10,8 @@ from scipy.fft import next_fast_len
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.contact import ContactDomain
-from ..scene.roughness import Roughness, named
-from ..scene.scene import Scene
-from ..surface.generate import generate_surface
-from ..surface.height_map import Surface
-from ..surface.outliers import outliers
-from ..surface.read import read_surface
-from ..surface.statistics import rms_slope
+from ..scene import ContactDomain, Roughness, Scene, named
+from ..surface import Surface, generate_surface, outliers, read_surface, rms_slope
 from .hertz_strip import TOO_SHORT, check_strip
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 
 TOO_SHORT = (
     "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..scene import Scene
+from ..surface import Surface
 from .asperities import asperities_under_cylinder
 from .flat import flat_contact
 from .half_space import half_space_contact

@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy import fft
 
-from .._base import validate
-from .._base.frozen import FieldsOnly, FrozenArrays
+from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 from .strip_kernel import Strip, rounded, strip

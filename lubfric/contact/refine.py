@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED
 from .careful import CarefulDescent
 from .cells import Cells
 from .descent import FIRST_PACE, REACH, Descent

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base.shown import Shown
-from ..report import Report
+from .._base import Shown
+from ..errors import Report
 
 
 @dataclass(frozen=True, repr=False)

@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..scene.bodies import Bodies
-from ..scene.scene import Scene
+from ..scene import Bodies, Scene
 from .result import ContactResult
 
 

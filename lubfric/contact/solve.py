@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, Report
 from .control import gap_controlled
 from .nested import load_controlled
 from .problem import check_control, make_problem, starting_pressure

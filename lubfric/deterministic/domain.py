@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from ..contact.operator import half_space
+from ..contact import half_space
 from ..errors import InputError
-from ..film.line_contact import LineContact
-from ..surface.height_map import Surface
+from ..film import LineContact
+from ..surface import Surface
 from .problem import FLOOR, Problem
 
 ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends, in Sq

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..oil.lubricant import shear_stress, viscosity
+from ..oil import shear_stress, viscosity
 from .problem import Problem
 from .state import FLUID, TOUCHING, Look
 

@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 
-from ..film.rigid import true_pressure
+from ..film import true_pressure
 from .problem import Problem
 from .rheology import cell_fluid, mean_fluidity, thinning
 

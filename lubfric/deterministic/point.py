@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..scene.resolved_gap import check_resolved_gap
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..scene import Scene, check_resolved_gap
+from ..surface import Surface
 from .domain import lay_out
 from .problem import Problem
 from .refine import Refined, solve_refined

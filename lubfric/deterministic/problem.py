@@ -20,9 +20,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..contact.operator import HalfSpace
-from ..film.line_contact import LineContact, OfLineContact
-from ..oil.lubricant import Lubricant
+from ..contact import HalfSpace
+from ..film import LineContact, OfLineContact
+from ..oil import Lubricant
 
 FLOOR = 1e-9  # m
 

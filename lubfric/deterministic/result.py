@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..report import Report
+from ..errors import Report
 from .forces import Forces, LoadSplit, forces
 from .problem import Problem
 from .state import TOUCHING, Look, State

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant, density_ratio, log_viscosity_ratio
+from ..oil import Lubricant, density_ratio, log_viscosity_ratio
 
 THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not told from a solid's
 

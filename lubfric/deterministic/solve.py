@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
 from .march import march
 from .newton import Found, newton
 from .problem import Problem

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from ..contact.result import ContactResult
-from ..contact.solve import solve_contact
+from ..contact import ContactResult, solve_contact
 from .problem import Problem
 from .state import FLUID, RUPTURED, State
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, Report
 from .ehl_result import EHLResult, cubic, smallest
 from .kernel import hat_kernel
 from .newton import Solution

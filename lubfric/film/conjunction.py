@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from ..oil.lubricant import Lubricant, shear_stress
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, Report
+from ..oil import Lubricant, shear_stress
 from .flash import flash_matrix
 from .heated_stress import heated_stress
 

@@ -13,9 +13,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant
-from ..report import Report
-from ..sharing.heat import WarmFilm
+from ..errors import Report
+from ..oil import Lubricant
 from .imposed import LinePressure
 from .line_contact import LineContact
 from .rolling import Rolling
@@ -123,7 +122,7 @@ class FilmLevel:
         width: float,
         contact_fraction: Callable,
         cavitated: str,
-        warm: WarmFilm | None = None,
+        warm=None,
         rolling: Rolling | None = None,
     ) -> ShearForce:
         """Force of ``film`` on the upper surface (`lubfric.film.shear.shear_force`); ``warm``: with its heat;

@@ -7,11 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base.validate import instance, integer, number, positive
-from ..errors import InputError
-from ..oil.lubricant import Lubricant
-from ..report import CONVERGED
-from ..scene.renamed import density_before
+from .._base import instance, integer, number, positive
+from ..errors import CONVERGED, InputError
+from ..oil import Lubricant
 from .assemble import assemble, grid_error
 from .ehl_result import EHLResult
 from .grid import FAR_INLET, make_grid, node_positions
@@ -48,7 +46,6 @@ class Effort:
         return min(self.least_cells, FINEST)
 
 
-@density_before
 def solve_ehl(
     *,
     load_per_width: float,

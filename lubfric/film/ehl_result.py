@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .._base.shown import Shown
-from ..report import Report
+from .._base import Shown
+from ..errors import Report
 from .imposed import LinePressure, line_deflection
 from .line_contact import LineContact, OfLineContact
 from .rolling import Rolling

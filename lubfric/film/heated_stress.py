@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputError
-from ..oil.lubricant import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio
+from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio
 
 ROELANDS_ZERO = 138.0  # K
 LIMIT_ACTIVATION = 585.0  # K

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base.validate import array
+from .._base import array
 from ..errors import InputError
 
 FLATTEST = 1e8  # radius of a seat, in radii of the cylinder

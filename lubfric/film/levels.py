@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from ..oil.lubricant import Lubricant
-from ..scene.numerics import Numerics
+from ..oil import Lubricant
 from .contract import Film, FilmLevel, LeftOut
 from .ehl import Effort, solve_line_contact
 from .ehl_result import EHLResult
@@ -93,7 +92,7 @@ def higher(levels: Sequence[FilmLevel], level: FilmLevel, other: FilmLevel) -> F
     return max(level, other, key=levels.index)
 
 
-def given_level(levels: Sequence[FilmLevel], numerics: Numerics) -> FilmLevel | None:
+def given_level(levels: Sequence[FilmLevel], numerics) -> FilmLevel | None:
     """The level that the scene fixes; None if it is to be chosen.
 
     A level can be fixed by name. The last level is fixed if everything is to be modelled, and if the total pressure
@@ -121,9 +120,7 @@ def lowest_level(levels: Sequence[FilmLevel], line: LineContact, allowed: float)
     return levels[-1], found
 
 
-def level_for(
-    levels: Sequence[FilmLevel], numerics: Numerics, line: LineContact, allowed: float
-) -> tuple[FilmLevel, LeftOut]:
+def level_for(levels: Sequence[FilmLevel], numerics, line: LineContact, allowed: float) -> tuple[FilmLevel, LeftOut]:
     """The level given, or the lowest that leaves out no more than ``allowed`` of the film of ``line``; and what it
     leaves out."""
     given = given_level(levels, numerics)

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from .._base import validate
 from ..errors import InputError
-from ..oil.lubricant import Lubricant
+from ..oil import Lubricant
 from . import formulas as film
 from . import hertz
 from . import rigid_cylinder as rigid
@@ -23,7 +23,7 @@ class LineContact:
     radius : reduced radius R > 0 [m], 1/R = 1/R1 + 1/R2
     e_prime : reduced modulus E' > 0 [Pa], 2/E' = sum (1 - nu²)/E
     entrainment_speed : U = (u1 + u2)/2 [m/s], not 0; a negative one mirrors the film
-    lubricant : `lubfric.oil.lubricant.Lubricant`
+    lubricant : `lubfric.Lubricant`
 
     Moes' units of length, film and pressure are x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P with
     U1 = 2 eta0 |U|/(E' R) (H. Moes, Wear 159 (1992) 57-66).
@@ -43,9 +43,7 @@ class LineContact:
         if speed == 0.0:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
         if not isinstance(self.lubricant, Lubricant):
-            raise InputError(
-                f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.oil.lubricant.Lubricant"
-            )
+            raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.Lubricant")
         checked = {
             "load_per_width": validate.positive("load_per_width", self.load_per_width, "N/m"),
             "radius": validate.positive("radius", self.radius, "m"),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .limiter import step_length
 from .problem import Problem

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..oil.lubricant import density_ratio, log_viscosity_ratio
+from ..oil import density_ratio, log_viscosity_ratio
 from .formulas import moes_film
 from .imposed import LinePressure, Seat, line_deflection
 from .line_contact import LineContact

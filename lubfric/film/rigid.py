@@ -13,8 +13,8 @@ from functools import cache, lru_cache
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant, log_viscosity_ratio, viscosity
-from ..report import CONVERGED, Report
+from ..errors import CONVERGED, Report
+from ..oil import Lubricant, log_viscosity_ratio, viscosity
 from . import rigid_cylinder as rigid
 from .line_contact import LineContact, OfLineContact
 

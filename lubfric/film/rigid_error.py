@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant, density_ratio, log_viscosity_ratio
+from ..oil import Lubricant, density_ratio, log_viscosity_ratio
 from .contract import Film
 from .kernel import hat_kernel
 from .rigid import CELLS, unit_nodes

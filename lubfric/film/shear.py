@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant, carried_stress, shear_stress
+from ..oil import Lubricant, carried_stress, shear_stress
 from .rolling import Rolling
 
 

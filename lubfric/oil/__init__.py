@@ -1,26 +1,50 @@
 """Oils: viscosity index, viscosity over temperature, density, pressure-viscosity coefficient. SI units: m²/s, K, kg/m³,
 1/Pa."""
 
+from .describe import estimate_in_words, list_oils, show_oil
+from .lubricant import (
+    NO_LIQUID,
+    ROELANDS_LOG_VISCOSITY,
+    Lubricant,
+    carried_stress,
+    density_ratio,
+    log_viscosity_ratio,
+    shear_stress,
+    viscosity,
+)
 from .make import from_grade, from_index, from_table, from_viscosities, grade_viscosity, named_oil, oil_names
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
-from .temperature import ViscosityTable, Walther, walther
+from .temperature import CELSIUS, ViscosityTable, Walther, checked_temperature, walther
 from .viscosity_index import viscosity_at_100, viscosity_index
 
 __all__ = [
+    "CELSIUS",
     "Estimate",
+    "Lubricant",
+    "NO_LIQUID",
     "Oil",
+    "ROELANDS_LOG_VISCOSITY",
     "ViscosityTable",
     "Walther",
+    "carried_stress",
+    "checked_temperature",
+    "density_ratio",
+    "estimate_in_words",
     "from_grade",
     "from_index",
     "from_table",
     "from_viscosities",
     "gold",
     "grade_viscosity",
+    "list_oils",
+    "log_viscosity_ratio",
     "named_oil",
     "oil_names",
+    "shear_stress",
+    "show_oil",
     "so_klaus",
+    "viscosity",
     "viscosity_at_100",
     "viscosity_index",
     "walther",

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base.shown import Brief
-from .._base.validate import choice, nonnegative, number, positive, python_fields
+from .._base import Brief, choice, nonnegative, number, positive, python_fields
 from ..errors import InputError
 from .oil import Oil
 from .temperature import checked_temperature

@@ -8,8 +8,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from .._base import validate
-from .._base.shown import Brief
+from .._base import Brief, validate
 from ..errors import InputError
 from .pressure import BASES, Estimate, gold, so_klaus
 from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature

@@ -15,15 +15,9 @@ import numpy as np
 from scipy.sparse import csc_matrix, diags, identity, kron
 from scipy.sparse.linalg import SuperLU, splu
 
-from ..deterministic.faces import couette_flow
-from ..deterministic.inlet import Inlet, inlet
-from ..deterministic.linear import gmres
-from ..deterministic.problem import Problem
-from ..deterministic.reynolds import first_film
-from ..deterministic.start import RUPTURE
-from ..errors import ConvergenceError
-from ..oil.lubricant import Lubricant
-from ..report import STAGNATED, Report
+from ..deterministic import RUPTURE, Inlet, Problem, couette_flow, first_film, gmres, inlet
+from ..errors import STAGNATED, ConvergenceError, Report
+from ..oil import Lubricant
 
 SETS = 400  # of active cells tried
 SETTLED = 3e-4  # change of ∫ Q from set to set, relative

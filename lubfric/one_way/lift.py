@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import label
 
-from .._base.roots import increasing_root
-from ..deterministic.problem import Problem
-from ..film.rigid import reduced_pressure
+from .._base import increasing_root
+from ..deterministic import Problem
+from ..film import reduced_pressure
 from .film import GapFilm, Kept, gap_film
 from .limit import pressure_limit
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..oil.lubricant import Lubricant, viscosity
+from ..oil import Lubricant, viscosity
 
 PRESSURES = np.geomspace(1e6, 2e10, 800)  # Pa
 

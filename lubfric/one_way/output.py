@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base.plot import new_figure
+from .._base import new_figure
 
 FIELDS = ("x", "gap", "contact_pressure", "film_pressure", "closed", "ruptured")
 

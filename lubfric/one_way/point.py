@@ -13,10 +13,10 @@ from functools import partial
 
 import numpy as np
 
-from .._base.roots import Root, increasing_root
-from ..deterministic.problem import Problem
-from ..oil.lubricant import shear_stress
-from ..report import CONVERGED, Report
+from .._base import Root, increasing_root
+from ..deterministic import Problem
+from ..errors import CONVERGED, Report
+from ..oil import shear_stress
 from .film import Kept
 from .lift import GUESS
 from .lift import TOLERANCE as LIFT_TOLERANCE

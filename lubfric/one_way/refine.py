@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..deterministic.point import LEAST, grids, layer
-from ..deterministic.refine import estimate
-from ..scene.resolved_gap import check_resolved_gap
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..deterministic import LEAST, estimate, grids, layer
+from ..scene import Scene, check_resolved_gap
+from ..surface import Surface
 from .point import OneWay, on_cells, solve_one_way
 
 

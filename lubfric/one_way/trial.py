@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact.result import ContactResult
-from ..deterministic.problem import Problem
-from ..deterministic.start import dry_contact
-from ..film.rigid import true_pressure
+from ..contact import ContactResult
+from ..deterministic import Problem, dry_contact
+from ..film import true_pressure
 from .film import RIGHT, GapFilm, Kept, gap_film
 from .lift import GUESS, Lifted, lifted, spots_of, surplus
 from .limit import pressure_limit

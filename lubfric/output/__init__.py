@@ -1,1 +1,5 @@
 """Tables, pictures, reports and the command line."""
+
+from .command_line import main
+
+__all__ = ["main"]

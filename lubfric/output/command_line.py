@@ -7,7 +7,7 @@ import json
 import sys
 from pathlib import Path
 
-from .._base.version import __version__
+from .._base import __version__
 from ..errors import ConvergenceError, LubfricError
 from .console import INTERRUPTED, Interrupted, interruptible, put, say
 
@@ -129,7 +129,7 @@ def _add_plot(commands) -> None:
 
 
 def _init(arguments) -> int:
-    from ..scene.template import write_template
+    from ..scene import write_template
 
     write_template(arguments.file)
     say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
@@ -143,7 +143,7 @@ def _add_maps(command: argparse.ArgumentParser) -> None:
 
 def _oils(arguments) -> int:
     from ..errors import InputError
-    from ..oil.describe import list_oils, show_oil
+    from ..oil import list_oils, show_oil
 
     if arguments.show and not arguments.name:
         raise InputError("lubfric oils show needs a name; 'lubfric oils' lists them")
@@ -152,7 +152,7 @@ def _oils(arguments) -> int:
 
 
 def _run(arguments) -> int:
-    from ..scene.file import load_scene
+    from ..scene import load_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
     if arguments.sampling_tolerance is not None:
@@ -178,7 +178,7 @@ def _run(arguments) -> int:
 def _check_line(scene) -> None:
     """Raise `InputError` for ``--sampling-tolerance`` on a scene that is not solved on a line."""
     from ..errors import InputError
-    from ..sharing.lines_make import takes_line
+    from ..sharing import takes_line
 
     if not takes_line(scene):
         raise InputError(
@@ -210,7 +210,7 @@ def _fit(arguments) -> int:
 
 
 def _info(arguments) -> int:
-    from ..scene.file import load_scene
+    from ..scene import load_scene
     from .describe import describe_scene
 
     scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
@@ -219,11 +219,9 @@ def _info(arguments) -> int:
 
 
 def _plot(arguments) -> int:
-    from .._base.files import whole_file
-    from .._base.plot import plot_stribeck
-    from .._base.table import read_table
+    from .._base import plot_stribeck, read_table, whole_file
     from ..errors import InputError
-    from ..sharing.validity import Validity
+    from ..sharing import Validity
     from .run_history import plot_again
     from .run_traction import plot_again as plot_traction_again
 
@@ -258,7 +256,7 @@ def _plot(arguments) -> int:
 def _measured(arguments):
     """The measured curve of ``lubfric plot --measured``, or None."""
     from ..errors import InputError
-    from ..studies.measured import read_measured
+    from ..studies import read_measured
 
     if arguments.measured is None:
         return None

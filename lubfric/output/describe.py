@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 
-from ..contact.height_map import contact_map, measured
+from ..contact import contact_map, measured
 from ..errors import InputError
 from ..film import hertz
-from ..oil.describe import estimate_in_words
-from ..oil.temperature import CELSIUS
-from ..scene.plausible import told_doubts
-from ..scene.scene import Scene
+from ..oil import CELSIUS, estimate_in_words
+from ..scene import Scene, told_doubts
+from ..sharing import first_line, gathered, lines_of, outlook, takes_line
 from ..sharing import lines_outlook as of_lines
-from ..sharing.lines_make import first_line, lines_of, takes_line
-from ..sharing.outlook import outlook
-from ..sharing.validity import gathered
 from ..sharing.validity_outlook import foretold
-from ..surface.statistics import correlation_length, rms_slope
+from ..surface import correlation_length, rms_slope
 
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..deterministic.result import DeterministicResult
+from ..deterministic import DeterministicResult
 
 FIELDS = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")
 

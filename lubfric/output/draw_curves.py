@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base.plot import GREEN, GREY, RED, friction_lines, interval_band, new_figure, plain_ticks
+from .._base import GREEN, GREY, RED, friction_lines, interval_band, new_figure, plain_ticks
 from ..errors import InputError
 from ..quantities import KEYS
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base.axes import friction_over_time, time_scale
-from .._base.plot import BLUE, GREEN, GREY, RED, load_shares, new_figure
+from .._base import BLUE, GREEN, GREY, RED, friction_over_time, load_shares, new_figure, time_scale
 
 FRAMES = 150  # at most, spread over the run
 

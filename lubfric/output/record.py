@@ -8,15 +8,12 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .._base.plain import plain
-from .._base.version import __version__
-from ..sampling.result import FrictionResult
-from ..scene.scene import Scene, scene_as_dict
-from ..sharing.prepared import Prepared, on_cells_of
-from ..studies.sweep_points import QUANTITIES
-from ..studies.sweep_result import StribeckResult
-from ..surface.height_map import Surface
-from ..surface.statistics import rms_slope
+from .._base import __version__, plain
+from ..sampling import FrictionResult
+from ..scene import Scene, scene_as_dict
+from ..sharing import Prepared, on_cells_of
+from ..studies import QUANTITIES, StribeckResult
+from ..surface import Surface, rms_slope
 
 
 def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:

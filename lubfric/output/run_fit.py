@@ -7,18 +7,10 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from .._base.files import write_whole
-from .._base.lock import FolderLock
-from .._base.plain import plain
-from .._base.plot import new_figure
-from .._base.validate import shown
+from .._base import FolderLock, new_figure, plain, shown, write_whole
 from ..errors import InputError
-from ..scene.file import load_scene
-from ..studies.fit import fit
-from ..studies.fit_outlook import explain_fit
-from ..studies.fit_plot import plot_fit, plot_residuals
-from ..studies.fit_result import FitResult
-from ..studies.measured import read_measured
+from ..scene import load_scene
+from ..studies import FitResult, explain_fit, fit, plot_fit, plot_residuals, read_measured
 from .console import Pace, say, say_written
 from .run_folder import drawn
 

@@ -10,8 +10,7 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
 
-from .._base.files import clear_parts, saying, whole_file, write_whole
-from .._base.lock import FolderLock
+from .._base import FolderLock, clear_parts, saying, whole_file, write_whole
 from ..errors import InputError
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"

@@ -5,18 +5,12 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from .._base.files import whole_file
-from .._base.plain import plain
-from .._base.table import read_table, table_bytes
+from .._base import plain, read_table, table_bytes, whole_file
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..scene.scene import Scene
-from ..sharing.prepared import prepare
-from ..sharing.validity import in_a_cell
-from ..studies.fingerprint import fingerprint
-from ..time.checkpoint import STATE
-from ..time.moment import UNITS
-from ..time.result import TransientResult
-from ..time.run import transient
+from ..scene import Scene
+from ..sharing import in_a_cell, prepare
+from ..studies import fingerprint
+from ..time import STATE, UNITS, TransientResult, transient
 from .console import Pace, keeping, say, say_written
 from .plot_history import animate, plot_history
 from .record import made_of, npz_bytes

@@ -6,15 +6,20 @@ import time
 from pathlib import Path
 
 from .._base import validate
-from ..errors import ConvergenceError
-from ..report import ITERATION_LIMIT, Report
-from ..studies.cost import in_words
-from ..studies.file import load_study
-from ..studies.pool import MOST_WORKERS, pool
-from ..studies.result import StudyResult, open_study
-from ..studies.run import study
-from ..studies.table_row import CONVERGED, UNUSED
-from ..studies.tables import check_tools, to_netcdf
+from ..errors import ITERATION_LIMIT, ConvergenceError, Report
+from ..studies import (
+    CONVERGED,
+    MOST_WORKERS,
+    UNUSED,
+    StudyResult,
+    check_tools,
+    in_words,
+    load_study,
+    open_study,
+    pool,
+    study,
+    to_netcdf,
+)
 from .console import Pace, keeping, put, say, say_written
 
 

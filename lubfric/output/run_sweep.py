@@ -11,22 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import validate
-from .._base.plot import make_ready, plot_contact, plot_stribeck
-from .._base.table import read_table
+from .._base import make_ready, plot_contact, plot_stribeck, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
-from ..one_way.output import one_way_arrays, plot_one_way
-from ..sampling.result import FrictionResult
-from ..sampling.uncertainty import Uncertainty, percent
-from ..scene.motion import FASTEST
-from ..scene.scene import Scene
-from ..scene.short_motion import MOST_SPEEDS
-from ..sharing.lines_make import takes_line
-from ..sharing.prepared import on_cells_of, prepare
-from ..studies.fingerprint import fingerprint
-from ..studies.pool import MOST_WORKERS, pool, processors
-from ..studies.sweep import AUTO, stribeck
-from ..studies.sweep_table import csv_bytes
+from ..one_way import one_way_arrays, plot_one_way
+from ..sampling import FrictionResult, Uncertainty, percent
+from ..scene import FASTEST, MOST_SPEEDS, Scene
+from ..sharing import on_cells_of, prepare, takes_line
+from ..studies import AUTO, MOST_WORKERS, csv_bytes, fingerprint, pool, processors, stribeck
 from .console import keeping, say, say_written
 from .deterministic import deterministic_bytes, plot_deterministic
 from .record import curve_record, fields_bytes, npz_bytes

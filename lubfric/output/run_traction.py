@@ -8,17 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base.files import whole_file
-from .._base.plain import plain
-from .._base.table import read_table
+from .._base import plain, read_table, whole_file
 from ..errors import ConvergenceError, InputError
-from ..scene.motion import LARGEST_RATIO
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, prepare
-from ..studies.fingerprint import fingerprint
-from ..studies.sweep_points import QUANTITIES
-from ..studies.sweep_table import curve_table, uncertainty_columns
-from ..studies.traction import TractionResult, traction
+from ..scene import LARGEST_RATIO, Scene
+from ..sharing import Prepared, prepare
+from ..studies import QUANTITIES, TractionResult, curve_table, fingerprint, traction, uncertainty_columns
 from .console import say, say_written
 from .draw_curves import plot_traction
 from .record import made_of

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..sampling.result import FrictionResult
-from ..sharing.prepared import Prepared
+from ..sampling import FrictionResult
+from ..sharing import Prepared
 
 FIELDS = ("height", "contact_pressure", "gap", "film_thickness", "film_pressure")
 

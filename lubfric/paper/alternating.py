@@ -10,12 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate
-from .._base.roots import increasing_root
-from ..contact.problem import make_problem
-from ..contact.refine import refine
-from ..contact.result import ContactResult
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from .._base import increasing_root, validate
+from ..contact import ContactResult, make_problem, refine
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .imposed_film import ImposedFilm, Outcome, impose
 
 UPDATES = ("root", "repeat")

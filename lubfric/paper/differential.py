@@ -7,17 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base.validate import instance, integer, number
-from ..errors import InputError
-from ..film.ehl import Effort, make_problem
-from ..film.ehl_result import EHLResult, cubic
-from ..film.formulas import moes_film
-from ..film.line_contact import LineContact
-from ..film.problem import Problem
-from ..film.start import expected_rupture, rupture_guess
-from ..oil.lubricant import Lubricant
-from ..report import CONVERGED
-from ..scene.renamed import density_before
+from .._base import instance, integer, number
+from ..errors import CONVERGED, InputError
+from ..film import (
+    Effort,
+    EHLResult,
+    LineContact,
+    Problem,
+    cubic,
+    expected_rupture,
+    make_problem,
+    moes_film,
+    rupture_guess,
+)
+from ..oil import Lubricant
 from .differential_equations import load_row
 from .differential_mesh import Mesh, convolve, make_mesh
 from .differential_newton import Solution, newton
@@ -45,7 +48,6 @@ class UniformEffort:
         integer("bandwidth", self.bandwidth, minimum=0)
 
 
-@density_before
 def solve_differential_deflection(
     *,
     load_per_width: float,

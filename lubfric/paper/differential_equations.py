@@ -24,9 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film.formulas import moes_film
-from ..film.problem import Problem
-from ..film.reynolds import log_mean_fluidity
+from ..film import Problem, log_mean_fluidity, moes_film
 from .differential_mesh import Mesh, convolve
 
 

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film.limiter import step_length
-from ..film.problem import Problem
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..film import Problem, step_length
 from .differential_equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
 from .differential_mesh import Mesh, convolve
 

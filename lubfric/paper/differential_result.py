@@ -6,12 +6,8 @@ import math
 
 import numpy as np
 
-from ..film.ehl_result import EHLResult, cubic, smallest
-from ..film.formulas import moes_film
-from ..film.grid import node_positions
-from ..film.problem import Problem
-from ..film.start import State
-from ..report import CONVERGED, STAGNATED, Report
+from ..errors import CONVERGED, STAGNATED, Report
+from ..film import EHLResult, Problem, State, cubic, moes_film, node_positions, smallest
 from .differential_newton import Solution
 
 STATE_CELLS = 96

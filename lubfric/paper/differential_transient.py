@@ -12,19 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import validate
-from ..errors import ConvergenceError
-from ..film.ehl_result import cubic, smallest
-from ..film.line_contact import LineContact
-from ..film.problem import Problem
-from ..oil.lubricant import Lubricant
-from ..report import CONVERGED
-from ..scene.history import History
-from ..scene.history_read import checked_history
-from ..scene.renamed import density_before
-from ..time.bdf import Memory, started
-from ..time.course import Plan, checked_times, plan_of, report_of, steps
-from ..time.film import TransientFilm
-from ..time.film_setting import FIRST_STEP, WET
+from ..errors import CONVERGED, ConvergenceError
+from ..film import LineContact, Problem, cubic, smallest
+from ..oil import Lubricant
+from ..scene import History, checked_history
+from ..time import FIRST_STEP, WET, Memory, Plan, TransientFilm, checked_times, plan_of, report_of, started, steps
 from .differential import UniformEffort, domain_ends, solve_differential
 from .differential_equations import Squeeze
 from .differential_mesh import NEAR, make_mesh
@@ -83,7 +75,6 @@ class UniformSetting:
         return math.sqrt(float(np.mean((difference / solution.film)[P > WET * P.max()] ** 2)))
 
 
-@density_before
 def solve_differential_transient(
     *,
     load_per_width,

@@ -13,11 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import validate
-from ..contact.problem import Problem, starting_pressure
-from ..contact.residual import contact_residuals, length_scale
-from ..contact.result import ContactResult
-from ..errors import InputError
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ..contact import ContactResult, Problem, contact_residuals, length_scale, starting_pressure
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
 
 
 @dataclass(frozen=True)

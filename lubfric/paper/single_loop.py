@@ -21,10 +21,8 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..contact.problem import make_problem
-from ..contact.residual import contact_residuals
-from ..contact.result import ContactResult
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
+from ..contact import ContactResult, contact_residuals, make_problem
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, Outcome, impose
 
 FORMS = ("consistent", "printed")

@@ -6,12 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ..deterministic.point import deterministic_point
-from ..deterministic.refine import Refined
-from ..sharing.decision import Decision
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity
-from ..sharing.validity_solution import of_error, of_motion, of_pressure, of_thickness
+from ..deterministic import Refined, deterministic_point
+from ..sharing import Decision, Prepared, Validity, of_error, of_motion, of_pressure, of_thickness
 from .answer_resolved import resolved_result
 from .result import FrictionResult
 from .uncertainty import field_errors_of, not_sampled

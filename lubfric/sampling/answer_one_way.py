@@ -8,16 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..deterministic.refine import estimate
-from ..film.shear import ShearForce
-from ..oil.lubricant import density_ratio
-from ..one_way.point import OneWay
-from ..one_way.refine import one_way_point
-from ..scene.scene import Scene
-from ..sharing.decision import Decision
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity
-from ..sharing.validity_solution import of_error, of_motion, of_shear
+from ..deterministic import estimate
+from ..film import ShearForce
+from ..oil import density_ratio
+from ..one_way import OneWay, one_way_point
+from ..scene import Scene
+from ..sharing import Decision, Prepared, Validity, of_error, of_motion, of_shear
 from .answer_resolved import resolved_result
 from .model_form import one_way_error
 from .result import FrictionResult

@@ -8,12 +8,9 @@ import time
 from dataclasses import replace
 from typing import Any
 
-from ..report import Report
-from ..scene.scene import Scene
-from ..sharing.decision import Decision
-from ..sharing.heat import inlet_at
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity
+from ..errors import Report
+from ..scene import Scene
+from ..sharing import Decision, Prepared, Validity, inlet_at
 from .result import FrictionResult
 
 

@@ -6,13 +6,9 @@ import math
 import time
 from dataclasses import replace
 
-from ..oil.describe import estimate_in_words
-from ..scene.scene import Scene
-from ..sharing.adapt import Solved
-from ..sharing.deflection import solved_as_deflected
-from ..sharing.judge import judged_validity
-from ..sharing.prepared import Prepared
-from ..sharing.validity_solution import of_error
+from ..oil import estimate_in_words
+from ..scene import Scene
+from ..sharing import Prepared, Solved, judged_validity, of_error, solved_as_deflected
 from .estimate import of_line
 from .line_friction import line_friction
 from .model_form import load_sharing_error

@@ -6,12 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact.hertz_strip import weighted_mean
-from ..contact.rough_contract import ContactState, RoughContact
-from ..sharing.balance import Lubricated
-from ..sharing.forces import forces
-from ..sharing.operating_point import OperatingPoint, Settings, Start, Trial
-from ..sharing.prepared import Prepared
+from ..contact import ContactState, RoughContact, weighted_mean
+from ..sharing import Lubricated, OperatingPoint, Prepared, Settings, Start, Trial, forces
 
 ANY = 0.1  # tolerance of a film whose grid is given
 

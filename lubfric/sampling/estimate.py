@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..sharing.adapt import Solved
-from ..sharing.balance import Balance
-from ..sharing.forces import Forces
+from ..sharing import Balance, Forces, Solved
 from .grid_pair import gap_left, mean_of, second_order
 from .influence import BlockError
 from .line_record import Pooled

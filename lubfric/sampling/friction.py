@@ -9,11 +9,8 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.motion import FASTEST
-from ..scene.plausible import told_doubts
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, at_tolerance
-from ..sharing.validity import refused
+from ..scene import FASTEST, Scene, told_doubts
+from ..sharing import Prepared, at_tolerance, refused
 from .answer_deterministic import deterministic_answer
 from .answer_one_way import one_way_answer
 from .answer_sharing import load_sharing_answer

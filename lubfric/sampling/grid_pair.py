@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState
-from ..film.contract import Film
-from ..sharing.lines_pieces import thinned
-from ..sharing.operating_point import OperatingPoint
+from ..contact import ContactState
+from ..film import Film
+from ..sharing import OperatingPoint, thinned
 from .influence import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 from .other_cells import half_again
 

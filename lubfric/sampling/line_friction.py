@@ -5,15 +5,21 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..contact.half_space import HalfSpaceContact
-from ..contact.rough_contract import ContactState
-from ..sharing.adapt import Solved, solved
-from ..sharing.balance import Balance, Lubricated, balanced, separated
-from ..sharing.deflection import solved_as_deflected
-from ..sharing.lines_cells import Cells
-from ..sharing.lines_pieces import line_contact
-from ..sharing.prepared import Prepared, on_halved_cells
-from ..sharing.split import divided
+from ..contact import ContactState, HalfSpaceContact
+from ..sharing import (
+    Balance,
+    Cells,
+    Lubricated,
+    Prepared,
+    Solved,
+    balanced,
+    divided,
+    line_contact,
+    on_halved_cells,
+    separated,
+    solved,
+    solved_as_deflected,
+)
 from .at_split import at, grown, quantities, redivided
 from .grid_pair import GridStep, mean_of
 from .influence import BlockError

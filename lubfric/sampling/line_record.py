@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState
+from ..contact import ContactState
 from .influence import (
     BlockError,
     block_error,

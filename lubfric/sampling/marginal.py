@@ -11,11 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState, Grid
-from ..film.shear import ShearForce
-from ..sharing.adapt import Solved
-from ..sharing.forces import forces
-from ..sharing.prepared import Prepared
+from ..contact import ContactState, Grid
+from ..film import ShearForce
+from ..sharing import Prepared, Solved, forces
 
 SQUARE = 8 * math.asinh(1) / math.pi  # E' times the deflection amid a square under pressure, over pressure and side
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..sharing.prepared import Prepared
+from ..sharing import Prepared
 from .result import FrictionResult
 
 RIGID = ("isoviscous", "piezoviscous")

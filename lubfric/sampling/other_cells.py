@@ -5,9 +5,7 @@ from __future__ import annotations
 
 import math
 
-from ..sharing.adapt import Solved
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity
+from ..sharing import Prepared, Solved, Validity
 from .at_split import at
 
 EVERY = (2, 4)  # cells of which one is kept

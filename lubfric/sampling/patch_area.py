@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from ..contact.rough_contract import ContactState, Grid
-from ..sharing.adapt import Solved
-from ..sharing.prepared import Prepared
+from ..contact import ContactState, Grid
+from ..sharing import Prepared, Solved
 from .at_split import at
 
 SURE = 1.5  # times the estimate: seen to hold in 95 % of random scenes

@@ -7,11 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact.height_map import measured, rough_bodies
-from ..sharing.adapt import Solved
-from ..sharing.balance import Balance
-from ..sharing.lines_generated import lengths_of
-from ..sharing.lines_windows import length_or_half
+from ..contact import measured, rough_bodies
+from ..sharing import Balance, Solved, length_or_half, lengths_of
 from .estimate import (
     AREAS,
     ORDER,

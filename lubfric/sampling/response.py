@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..contact.rough_contract import ContactState
-from ..sharing.balance import Balance
-from ..sharing.split import growth
+from ..contact import ContactState
+from ..sharing import Balance, growth
 
 STEP = 0.05  # of s = ln(F_H/F_C), each way, for rates of the film
 LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap

@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from .._base.shown import Shown
-from ..deterministic.refine import Refined
-from ..errors import InputError
-from ..one_way.point import OneWay
-from ..report import Report
-from ..sharing.balance import Balance
-from ..sharing.decision import Decision
-from ..sharing.validity import Validity
+from .._base import Shown
+from ..deterministic import Refined
+from ..errors import InputError, Report
+from ..one_way import OneWay
+from ..sharing import Balance, Decision, Validity
 from .cite import cited
 from .line_friction import LineStart
 from .uncertainty import FieldErrors, Uncertainty
@@ -160,7 +157,7 @@ class FrictionResult(Shown):
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
-        from .._base.axes import pressure_axes
+        from .._base import pressure_axes
 
         return pressure_axes(self, ax)
 

@@ -7,14 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from ..contact.half_space import HalfSpaceContact
+from ..contact import HalfSpaceContact
 from ..scene import budget
-from ..sharing.adapt import Solved
-from ..sharing.balance import Balance
-from ..sharing.lines_contract import Lines
-from ..sharing.lines_length import LONGEST, MOST, MOST_CELLS, PAIR, next_length
-from ..sharing.prepared import Prepared
-from ..sharing.split import divided
+from ..sharing import LONGEST, MOST, MOST_CELLS, PAIR, Balance, Lines, Prepared, Solved, divided, next_length
 from .at_split import at, grown, quantities, redivided
 from .grid_pair import FEWEST, GridStep, gap_left, grid_step, lost_summits, mean_error, mean_of, second_order
 from .influence import BlockError, add_errors

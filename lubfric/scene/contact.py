@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .._base import validate
-from .._base.shown import Brief
+from .._base import Brief, validate
 from ..errors import InputError
 
 GEOMETRIES = ("cylinder", "flat")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from .._base import validate
 from ..errors import InputError
-from ..oil.lubricant import Lubricant
+from ..oil import Lubricant
 from .bodies import Bodies
 from .contact import ContactDomain
 from .history_read import history

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from pathlib import Path
 
-from .._base import validate
-from .._base.columns import read_columns
+from .._base import read_columns, validate
 from ..errors import InputError
 from .history import Constant, Harmonic, History, Ramp, Table
 

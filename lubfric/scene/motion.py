@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .._base import validate
-from .._base.shown import Brief
+from .._base import Brief, validate
 
 FASTEST = 1e6  # m/s
 LARGEST_RATIO = 1e6  # slide-roll ratio

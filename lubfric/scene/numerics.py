@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .._base import validate
-from .._base.shown import Brief
+from .._base import Brief, validate
 from ..errors import InputError
 from . import budget
 

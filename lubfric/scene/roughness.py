@@ -9,13 +9,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from .._base import validate
-from .._base.shown import Brief
+from .._base import Brief, validate
 from ..errors import InputError
-from ..surface.generate import ACFS
-from ..surface.prepare import FORMS
-from ..surface.table import DECIMALS
-from ..surface.units import UNITS
+from ..surface import ACFS, DECIMALS, FORMS, UNITS
 
 NEEDED = "either 'file', or 'sq' and 'correlation_length' in m"
 OUTLIERS = ("refuse", "keep", "mask")

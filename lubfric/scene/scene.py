@@ -7,8 +7,8 @@ from typing import Any
 
 from .._base import validate
 from ..errors import InputError
-from ..film.line_contact import LineContact
-from ..oil.lubricant import Lubricant
+from ..film import LineContact
+from ..oil import Lubricant
 from .bodies import Bodies
 from .change import changed_section
 from .contact import ContactDomain

@@ -6,7 +6,7 @@ import math
 
 from .._base import validate
 from ..errors import InputError
-from ..film.hertz import composite_modulus
+from ..film import composite_modulus
 from .short_materials import material
 from .short_pairs import only_one, pair, together
 

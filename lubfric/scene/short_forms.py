@@ -6,7 +6,7 @@ for a file). It returns the plain fields of the section.
 
 from __future__ import annotations
 
-from .._base.validate import python_value
+from .._base import python_value
 from . import short_bodies as bodies
 from . import short_lubricant as lubricant
 from . import short_motion as motion

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from .._base import validate
 from ..errors import InputError
-from ..oil.lubricant import Lubricant
-from ..oil.make import from_grade, from_index, from_table, from_viscosities, named_oil
-from ..oil.oil import Oil
-from ..oil.temperature import CELSIUS, checked_temperature
+from ..oil import (
+    CELSIUS,
+    Lubricant,
+    Oil,
+    checked_temperature,
+    from_grade,
+    from_index,
+    from_table,
+    from_viscosities,
+    named_oil,
+)
 from .short_pairs import only_one, pair, together
 
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from .._base.shown import Shown, changed
+from .._base import Shown, changed
 from ..quantities import key_unit
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "numerics", "transient")

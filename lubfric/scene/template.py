@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .._base.files import write_whole
+from .._base import write_whole
 from ..errors import InputError
 
 TEMPLATE = """\

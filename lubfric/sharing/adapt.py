@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ..contact.rough_contract import RoughContact
-from ..errors import ConvergenceError
-from ..film.contract import Film
-from ..film.levels import given_level, level_for
-from ..report import CONVERGED, Report
+from ..contact import RoughContact
+from ..errors import CONVERGED, ConvergenceError, Report
+from ..film import Film, given_level, level_for
 from .balance import Balance, drift, separated
 from .decision import Decision, alone, dry, in_contact
 from .forces import dry_forces

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Self
 
-from .._base.roots import Root, increasing_root
-from ..contact.rough_contract import ContactState
-from ..film.contract import Film, FilmLevel
-from ..report import CONVERGED, ITERATION_LIMIT, Report
+from .._base import Root, increasing_root
+from ..contact import ContactState
+from ..errors import CONVERGED, ITERATION_LIMIT, Report
+from ..film import Film, FilmLevel
 from . import total_pressure
 from .forces import Forces, forces
 from .operating_point import OperatingPoint, Start, Trial

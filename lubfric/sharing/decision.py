@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..film.contract import LeftOut
-from ..scene import budget
-from ..scene.numerics import Numerics
+from ..film import LeftOut
+from ..scene import Numerics, budget
 from .one_grid import Stage
 from .prepared import Prepared
 from .split import steepness

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..film.contract import FilmLevel
-from ..film.shear import ShearForce
-from ..oil.lubricant import log_viscosity_ratio
-from ..scene.scene import Scene
+from ..film import FilmLevel, ShearForce
+from ..oil import log_viscosity_ratio
+from ..scene import Scene
 from .heat import Heat, WarmFilm, point_heat
 from .operating_point import Trial
 

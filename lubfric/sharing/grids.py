@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState, RoughContact
+from ..contact import ContactState, RoughContact
 from ..scene import budget
 from .balance import Balance
 from .one_grid import Stage, on_grid

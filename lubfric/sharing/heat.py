@@ -10,11 +10,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from ..film.conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
-from ..film.flash import FAST
-from ..film.heated_stress import heated_stress
-from ..film.inlet_heat import LARGEST, InletHeat, inlet_heat
-from ..oil.lubricant import NO_LIQUID, Lubricant, shear_stress
+from ..film import (
+    FAST,
+    LARGEST,
+    FilmHeat,
+    InletHeat,
+    Surroundings,
+    heated_film,
+    heated_stress,
+    inlet_heat,
+    isothermal_heat,
+)
+from ..oil import NO_LIQUID, Lubricant, shear_stress
 from ..scene import budget
 
 NOTHING = 1e-9  # of the film: less heat than that is none

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..scene import Scene
+from ..surface import Surface
 from .lines_cells import Cells
 
 

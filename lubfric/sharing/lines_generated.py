@@ -7,13 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base.validate import spacing as checked_spacing
-from ..contact.height_map import rough_bodies
+from .._base import spacing as checked_spacing
+from ..contact import rough_bodies
 from ..errors import InputError
-from ..scene.roughness import Roughness
-from ..scene.scene import Scene
-from ..surface.generate import generate_surface
-from ..surface.height_map import Surface
+from ..scene import Roughness, Scene
+from ..surface import Surface, generate_surface
 from .lines_cells import Cells, cells_of_a_box, choose_cells, reach_of
 
 LINE, PAIR = 0, 1  # streams of seeds

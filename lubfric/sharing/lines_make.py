@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from ..contact.half_space import HalfSpaceContact
-from ..contact.height_map import measured, rough_bodies, whole_map
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..contact import HalfSpaceContact, measured, rough_bodies, whole_map
+from ..scene import Scene
+from ..surface import Surface
 from .lines_contract import Lines
 from .lines_generated import generated_lines
 from .lines_length import MOST_CELLS, PILOT

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..scene.scene import Scene
+from ..scene import Scene
 from .lines_contract import Lines
 from .lines_length import MOST, PAIR, PILOT, SAFETY
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact.half_space import HalfSpaceContact, half_space_contact
-from ..surface.height_map import Surface
+from ..contact import HalfSpaceContact, half_space_contact
+from ..surface import Surface
 from .lines_cells import Cells
 
 

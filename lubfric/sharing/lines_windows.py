@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact.height_map import extended
+from ..contact import extended
 from ..errors import InputError
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
-from ..surface.statistics import correlation_length
+from ..scene import Scene
+from ..surface import Surface, correlation_length
 from .lines_cells import EVEN, Cells, choose_cells, reach_of
 
 APART = 4.0  # correlation lengths along the motion between windows that are independent

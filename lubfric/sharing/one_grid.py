@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..contact.rough_contract import RoughContact
-from ..film.contract import LeftOut
-from ..film.levels import given_level, higher, lowest_level
+from ..contact import RoughContact
+from ..film import LeftOut, given_level, higher, lowest_level
 from ..scene import budget
 from .balance import Balance, Lubricated, balanced
 from .operating_point import OperatingPoint, Settings

@@ -8,12 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState, RoughContact
+from ..contact import ContactState, RoughContact
 from ..errors import InputError
-from ..film.contract import Film, FilmLevel
-from ..film.line_contact import LineContact
-from ..oil.lubricant import Lubricant
-from ..scene.scene import Scene
+from ..film import Film, FilmLevel, LineContact
+from ..oil import Lubricant
+from ..scene import Scene
 from .heat import film_lubricant
 from .prepared import Prepared
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from ..film.contract import LeftOut
-from ..film.levels import LEVELS, given_level, lowest_level
-from ..scene import budget
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..film import LEVELS, LeftOut, given_level, lowest_level
+from ..scene import Scene, budget
+from ..surface import Surface
 from .decision import Decision
 
 SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain

@@ -6,18 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from .._base.shown import Shown
-from .._base.validate import instance
-from ..contact.height_map import check_grid, contact_map
-from ..contact.make import rough_contact
-from ..contact.rough_contract import RoughContact
+from .._base import Shown, instance
+from ..contact import RoughContact, check_grid, contact_map, rough_contact
 from ..errors import InputError
-from ..film.contract import FilmLevel
-from ..film.levels import LEVELS
-from ..scene.plausible import told_doubts
-from ..scene.resolved_gap import check_resolved_gap, resolves_gap
-from ..scene.scene import Scene
-from ..surface.height_map import Surface
+from ..film import LEVELS, FilmLevel
+from ..scene import Scene, check_resolved_gap, resolves_gap, told_doubts
+from ..surface import Surface
 from .lines_cells import Cells
 from .lines_contract import Lines
 from .lines_make import lines_of, pilot, takes_line

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ..film.formulas import moes_film
-from ..film.line_contact import LineContact
+from ..film import LineContact, moes_film
 from .operating_point import OperatingPoint
 
 BOUNDS = (-40.0, 30.0)  # film shares down to 4e-18, contact shares to 1e-13

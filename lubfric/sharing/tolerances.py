@@ -1,12 +1,11 @@
-"""Tolerances of film, volume balance and contact, from how strongly f depends on their errors (`lubfric.scene.budget`)."""
+"""Tolerances of film, volume balance and contact, from how strongly f depends on their errors (`scene.budget`)."""
 
 from __future__ import annotations
 
 import math
 
-from ..contact.rough_contract import ContactState
-from ..scene import budget
-from ..scene.numerics import Numerics
+from ..contact import ContactState
+from ..scene import Numerics, budget
 from .balance import Balance, Lubricated
 from .operating_point import OperatingPoint, Settings
 from .validity_solution import meaningless

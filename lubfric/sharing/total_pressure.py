@@ -18,10 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ConvergenceError
-from ..film.kernel import hat_kernel
-from ..report import ITERATION_LIMIT, Report
-from ..scene.scene import Scene
+from ..errors import ITERATION_LIMIT, ConvergenceError, Report
+from ..film import hat_kernel
+from ..scene import Scene
 from .operating_point import OperatingPoint, Start, Trial
 
 NODES, STRIP = 49, 65  # of a semi-ellipse; points across the Hertz strip at which deflections are compared

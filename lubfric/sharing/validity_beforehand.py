@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from ..errors import InputError
 from ..film import hertz
-from ..scene.plausible import doubts
-from ..surface.statistics import correlation_length, rms_slope
+from ..scene import doubts
+from ..surface import correlation_length, rms_slope
 from .validity import Validity
 
 WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..film import hertz
-from ..film.shear import ShearForce
-from ..oil.lubricant import carried_stress, shear_stress
+from ..film import ShearForce, hertz
+from ..oil import carried_stress, shear_stress
 from .validity import Validity
 from .validity_beforehand import beforehand
 from .validity_solution import of_motion, of_pressure, of_shear

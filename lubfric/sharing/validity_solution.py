@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..contact import edges
-from ..contact.asperity_find import ridges
-from ..film.flash import FAST
-from ..film.inlet_heat import LARGEST, SLIDING
-from ..oil.lubricant import NO_LIQUID
+from ..contact import edges, ridges
+from ..film import FAST, LARGEST, SLIDING
+from ..oil import NO_LIQUID
 from .validity import Validity
 
 LAMINAR, TURBULENT = 1000.0, 2000.0  # rho U h/eta

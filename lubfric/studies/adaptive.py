@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from ..sampling.result import FrictionResult
-from ..sharing.prepared import Prepared
+from ..sampling import FrictionResult
+from ..sharing import Prepared
 from .choose import next_speed
 from .interpolate import Samples
 from .span import first_speeds

@@ -15,13 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from ..contact.height_map import contact_map
-from ..film.ehl import solve_line_contact
-from ..scene.scene import Scene
-from ..sharing.lines_contract import Lines
-from ..sharing.lines_length import PILOT
-from ..sharing.lines_make import lines_of, takes_line
-from ..sharing.lines_outlook import foretold, piece_cells, pilot_length
+from ..contact import contact_map
+from ..film import solve_line_contact
+from ..scene import Scene
+from ..sharing import PILOT, Lines, lines_of, piece_cells, pilot_length, takes_line
+from ..sharing.lines_outlook import foretold
 from .span import film_ratio
 
 LIFTED, LIFTED_LINE = 3.5, 5.0  # Moes' film over Sq beyond which a patch, and a line, mostly do not touch

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._base.axes import axes_or_new
+from .._base import axes_or_new
 from ..quantities import KEYS
 from .table_row import SPEED
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 from .adaptive import CHOSEN
 from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
 from .journal import Journal

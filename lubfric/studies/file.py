@@ -7,8 +7,7 @@ from typing import Any
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.file import load_scene, read_toml
-from ..scene.short_motion import speeds_of_range
+from ..scene import load_scene, read_toml, speeds_of_range
 from .plan import StudyPlan, plan_study
 from .vary import Between, sample
 

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base.files import saying
-from .._base.version import __version__
+from .._base import __version__, saying
 
 LABELS = {"Scene": ("name",), "Surface": ("source", "notes"), "Motion": ("speeds",)}  # no number depends on these
 

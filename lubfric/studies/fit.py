@@ -6,11 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .._base.validate import instance, number
-from ..errors import InputError
-from ..report import CONVERGED, ITERATION_LIMIT, Report
-from ..scene.scene import Scene
-from ..sharing.prepared import scene_of
+from .._base import instance, number
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..scene import Scene
+from ..sharing import scene_of
 from .fit_parameters import Parameters, parameters_of
 from .fit_predict import Curve, Predictor, jacobian, predictor
 from .fit_result import FitResult

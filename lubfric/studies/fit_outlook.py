@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..scene.scene import Scene
-from ..sharing.prepared import scene_of
+from ..scene import Scene
+from ..sharing import scene_of
 from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
 from .fit_parameters import Parameters, parameters_of
 from .fit_predict import shares_contact, tolerance_of

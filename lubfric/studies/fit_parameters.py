@@ -8,7 +8,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 from .vary import check_temperature
 
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._base.axes import axes_or_new
-from .._base.plot import BLUE, GREY, RED, plain_ticks, speed_label
+from .._base import BLUE, GREY, RED, axes_or_new, plain_ticks, speed_label
 from .measured import SPEED, Measured
 
 

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..errors import ConvergenceError
-from ..sampling.friction import friction
-from ..sampling.result import FrictionResult
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, prepare
+from ..sampling import FrictionResult, friction
+from ..scene import Scene
+from ..sharing import Prepared, prepare
 from .fit_parameters import Parameters
 from .measured import SPEED, Measured
 from .spread import spread

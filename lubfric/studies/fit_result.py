@@ -7,11 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base.shown import table
-from ..report import Report
-from ..sampling.uncertainty import percent
-from ..scene.scene import Scene
-from ..sharing.validity import Validity, gathered
+from .._base import table
+from ..errors import Report
+from ..sampling import percent
+from ..scene import Scene
+from ..sharing import Validity, gathered
 from .fit_parameters import Parameters
 from .measured import SPEED, Measured
 

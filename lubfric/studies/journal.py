@@ -8,12 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from .._base import validate
-from .._base.files import read_checked, write_checked, write_whole
-from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
-from ..report import Report
-from ..sampling.result import FrictionResult
-from ..sharing.validity import Validity
+from .._base import read_checked, validate, write_checked, write_whole
+from ..errors import ConvergenceError, InputError, LubfricError, Report, ValidityError
+from ..sampling import FrictionResult
+from ..sharing import Validity
 from .codec import decode, encode, from_plain, to_plain
 from .records import Records
 

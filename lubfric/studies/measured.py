@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import validate
-from .._base.columns import read_columns
+from .._base import read_columns, validate
 from ..errors import InputError
 
 SPEED, SLIP = "speed", "slide_roll_ratio"

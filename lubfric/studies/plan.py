@@ -10,9 +10,8 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.motion import FASTEST
-from ..scene.scene import Scene
-from ..sharing.prepared import scene_of
+from ..scene import FASTEST, Scene
+from ..sharing import scene_of
 from .adaptive import AUTO, CHOSEN
 from .cost import by_curve
 from .fingerprint import fingerprint

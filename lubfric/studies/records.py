@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from .._base.files import saying, sync_folder
+from .._base import saying, sync_folder
 
 CHECK = 16  # hexadecimal digits of the SHA-256 in front of a line
 SYNC = 1.0  # s between two forcings to the disk

@@ -7,13 +7,10 @@ from dataclasses import dataclass, is_dataclass
 
 import numpy as np
 
-from .._base import validate
-from .._base.plain import plain
-from .._base.shown import Shown
-from .._base.version import __version__
+from .._base import Shown, __version__, plain, validate
 from ..errors import InputError
 from ..quantities import QUANTITIES
-from ..scene.scene import scene_as_dict
+from ..scene import scene_as_dict
 from .adaptive import AUTO, FEWEST, samples_at
 from .interpolate import Interpolant, knee_of
 from .journal import SPEED, Journal

@@ -8,11 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 
-from .._base import validate
-from .._base.files import clear_parts, write_whole
-from .._base.lock import FolderLock
+from .._base import FolderLock, clear_parts, validate, write_whole
 from ..errors import InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 from .journal import POINTS, Journal
 from .plan import StudyPlan, plan_study
 from .records import growth

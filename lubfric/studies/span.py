@@ -7,7 +7,7 @@ import math
 from scipy.optimize import brentq
 
 from ..errors import InputError
-from ..scene.scene import Scene
+from ..scene import Scene
 
 THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends
 MIXED = (0.5, 1.5, 4.5)  # the same where the contact carries about 0.9, 0.5 and nothing of the load

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Future
 from queue import Empty, SimpleQueue
 
-from .._base.validate import shown
+from .._base import shown
 from ..errors import InputError
 
 LOOK = 0.1  # s between two looks at what is under way, at least

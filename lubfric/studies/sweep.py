@@ -6,10 +6,9 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..sampling.result import FrictionResult
-from ..scene.motion import FASTEST
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, at_tolerance, scene_of
+from ..sampling import FrictionResult
+from ..scene import FASTEST, Scene
+from ..sharing import Prepared, at_tolerance, scene_of
 from .adaptive import AUTO
 from .fingerprint import fingerprint
 from .span import film_ratio

@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import validate
-from ..errors import InputError
-from ..report import ITERATION_LIMIT, Report
-from ..scene.motion import FASTEST
-from ..sharing.prepared import Prepared
+from ..errors import ITERATION_LIMIT, InputError, Report
+from ..scene import FASTEST
+from ..sharing import Prepared
 from .adaptive import FEWEST, samples_of, tolerance_between
 from .choose import next_speed
 from .fingerprint import fingerprint

@@ -6,12 +6,10 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from .._base.shown import Shown
-from ..errors import ConvergenceError, ValidityError
-from ..report import CONVERGED, ITERATION_LIMIT, Report
-from ..sampling.cite import together
-from ..sampling.result import FrictionResult
-from ..sharing.validity import Validity, entries_of, gathered, in_a_cell
+from .._base import Shown
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
+from ..sampling import FrictionResult, together
+from ..sharing import Validity, entries_of, gathered, in_a_cell
 
 NOT_NUMBERS = (
     "report",

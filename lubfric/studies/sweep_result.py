@@ -8,10 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from .._base import validate
-from ..errors import InputError
-from ..report import Report
-from ..sampling.result import FrictionResult
-from ..sampling.uncertainty import FIELDS, UncertaintyCurve, curve_of
+from ..errors import InputError, Report
+from ..sampling import FIELDS, FrictionResult, UncertaintyCurve, curve_of
 from .adaptive import FEWEST, samples_of
 from .interpolate import Interpolant, knee_of
 from .sweep_points import CurveResult, Swept, columns_of, report_of
@@ -109,13 +107,13 @@ class StribeckResult(CurveResult):
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
-        from .._base.axes import curve_axes
+        from .._base import curve_axes
 
         return curve_axes(self, ax, **style)
 
     def to_csv(self, path) -> None:
         """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
-        from .._base.files import write_whole
+        from .._base import write_whole
         from .sweep_table import csv_bytes
 
         write_whole(path, csv_bytes(self))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import validate
-from ..sharing.prepared import Prepared
+from ..sharing import Prepared
 from .journal import Journal, Point
 from .spread import spread
 from .trail import first_point, points_of

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._base.table import table_bytes
+from .._base import table_bytes
 from ..quantities import heading
-from ..sampling.uncertainty import UncertaintyCurve
+from ..sampling import UncertaintyCurve
 from .sweep_points import QUANTITIES
 
 

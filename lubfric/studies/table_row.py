@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..sharing.validity import in_a_cell
+from ..sharing import in_a_cell
 from .adaptive import DECIDED
 from .codec import from_plain
 from .journal import SPEED

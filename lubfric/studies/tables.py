@@ -7,8 +7,7 @@ from importlib import import_module
 
 import numpy as np
 
-from .._base.files import whole_file, write_whole
-from .._base.table import table_bytes
+from .._base import table_bytes, whole_file, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, QUANTITIES, described, heading
 from .table_row import SPEED, UNUSED

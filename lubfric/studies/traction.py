@@ -7,14 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._base import validate
-from ..errors import LubfricError
-from ..report import Report
-from ..sampling.friction import FrictionResult, friction
-from ..sampling.uncertainty import UncertaintyCurve, curve_of
-from ..scene.motion import FASTEST, LARGEST_RATIO
-from ..scene.resolved_gap import check_resolved_gap, resolves_gap
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, at_tolerance, prepare, scene_of
+from ..errors import LubfricError, Report
+from ..sampling import FrictionResult, UncertaintyCurve, curve_of, friction
+from ..scene import FASTEST, LARGEST_RATIO, Scene, check_resolved_gap, resolves_gap
+from ..sharing import Prepared, at_tolerance, prepare, scene_of
 from .sweep_points import CurveResult, Swept, columns_of, judged, report_of
 
 

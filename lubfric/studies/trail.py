@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from multiprocessing import parent_process
 
 from ..errors import LubfricError, ValidityError
-from ..sampling.friction import friction
-from ..sampling.result import FrictionResult
-from ..sharing.prepared import Prepared, prepare
+from ..sampling import FrictionResult, friction
+from ..sharing import Prepared, prepare
 from .adaptive import begin_with, choose
 from .journal import NOWHERE, Journal, Point
 from .walk import Batch, Walk

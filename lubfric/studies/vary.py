@@ -11,10 +11,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene.roughness import Roughness
-from ..scene.scene import Scene
-from ..scene.short_forms import short_keys
-from ..scene.short_lubricant import SOURCES
+from ..scene import SOURCES, Roughness, Scene, short_keys
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared
+from ..scene import Scene
+from ..sharing import Prepared
 from .fingerprint import digest
 
 MOST = 25  # points of a walk at most

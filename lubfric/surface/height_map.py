@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base import validate
-from .._base.frozen import FrozenArrays
-from .._base.shown import Shown
+from .._base import FrozenArrays, Shown, validate
 from ..errors import InputError
 from . import checks, filters, pair, prepare, regrid, statistics
 from .outliers import LIMIT, WINDOW, outliers
@@ -93,7 +91,7 @@ class Surface(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned."""
-        from .._base.axes import surface_axes
+        from .._base import surface_axes
 
         return surface_axes(self, ax)
 

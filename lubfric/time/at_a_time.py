@@ -9,10 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..scene.history import Constant, History
-from ..scene.scene import Scene
-from ..scene.transient import Transient
-from ..sharing.heat import film_lubricant, inlet_at
+from ..scene import Constant, History, Scene, Transient
+from ..sharing import film_lubricant, inlet_at
 
 FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding alone
 LOOKS = 257  # times at which a run is looked through

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..report import CONVERGED
+from ..errors import CONVERGED
 
 SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41
 FAILED = 0.25  # step after a solve that failed

@@ -14,12 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from .._base import validate
-from .._base.files import PART, read_checked, write_checked
+from .._base import PART, read_checked, validate, write_checked
 from ..errors import InputError
-from ..studies.codec import decode, encode
-from ..studies.fingerprint import fingerprint
-from ..studies.records import Records
+from ..studies import Records, decode, encode, fingerprint
 
 STATE, OUTPUTS = "state.bin", "outputs"
 Output = tuple[np.ndarray, np.ndarray]  # at an output time: a row of numbers, and one of fields

@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import validate
-from ..errors import InputError
-from ..report import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from ..scene.history import History
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
+from ..scene import History
 from .bdf import Progress, Solver, advance
 
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good

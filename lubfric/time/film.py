@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._base import validate
-from ..errors import ConvergenceError, InputError
-from ..film.ehl_result import smallest
-from ..oil.lubricant import Lubricant
-from ..report import CONVERGED, Report
-from ..scene.history_read import checked_history
-from ..scene.renamed import density_before
+from ..errors import CONVERGED, ConvergenceError, InputError, Report
+from ..film import smallest
+from ..oil import Lubricant
+from ..scene import checked_history
 from .bdf import started
 from .course import Plan, checked_times, plan_of, report_of, steps
 from .film_active_set import StepSolution
@@ -44,7 +42,6 @@ class TransientFilm:
     report: Report
 
 
-@density_before
 def solve_transient_ehl(
     *,
     load_per_width,
@@ -68,7 +65,7 @@ def solve_transient_ehl(
     ----------
     load_per_width, radius, viscosity : [N/m], [m], [Pa s], all > 0; numbers or histories (`lubfric.scene`)
     entrainment_speed : [m/s], any sign, also 0; a number or a history
-    e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.oil.lubricant.Lubricant`
+    e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
     initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
         None: from the steady state of the values before t = 0

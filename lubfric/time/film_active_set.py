@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..film.limiter import step_length
-from ..film.problem import Problem
-from ..report import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..film import Problem, step_length
 from .bdf import Memory
 from .film_grid import FixedGrid
 from .film_squeeze import Conditions, Spring, StepTerms, evaluate, jacobian

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film.grid import trapezoidal
-from ..film.kernel import hat_kernel
+from ..film import hat_kernel, trapezoidal
 
 EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
 CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through

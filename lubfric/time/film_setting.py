@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..film.ehl import Effort, solve_line_contact
-from ..film.line_contact import LineContact
-from ..film.problem import Problem
-from ..oil.lubricant import Lubricant
-from ..report import CONVERGED
-from ..scene.history import History
+from ..errors import CONVERGED
+from ..film import Effort, LineContact, Problem, solve_line_contact
+from ..oil import Lubricant
+from ..scene import History
 from .bdf import Memory
 from .film_active_set import StepSolution, solve_step
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState
-from ..film.shear import ShearForce, rolling_error, spike_error
-from ..oil.lubricant import carried_stress, shear_stress
-from ..scene.scene import Scene
-from ..sharing.heat import Heat, point_heat
+from ..contact import ContactState
+from ..film import ShearForce, rolling_error, spike_error
+from ..oil import carried_stress, shear_stress
+from ..scene import Scene
+from ..sharing import Heat, point_heat
 from .film_active_set import StepSolution
 from .film_tail import outside_shear
 from .sharing import Sharing

@@ -22,8 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film.problem import Problem
-from ..film.reynolds import log_mean_fluidity
+from ..film import Problem, log_mean_fluidity
 from .bdf import Memory
 from .film_grid import FixedGrid
 from .film_tail import Tail, outside

@@ -5,12 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..film.shear import ShearForce
-from ..scene.scene import Scene
-from ..sharing.heat import Heat, inlet_at
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity
-from ..sharing.validity_solution import of_deflection, of_ends, of_film, of_motion
+from ..film import ShearForce
+from ..scene import Scene
+from ..sharing import Heat, Prepared, Validity, inlet_at, of_deflection, of_ends, of_film, of_motion
 from .at_a_time import scene_at
 
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"

@@ -8,14 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import LubfricError
-from ..sampling.estimate import of_line
-from ..sampling.grid_pair import mean_of
-from ..sampling.line_friction import LineFound, line_friction
-from ..sampling.sample import lines_of_model
-from ..scene.history import Constant
-from ..sharing.lines_length import MOST_CELLS
-from ..sharing.lines_pieces import line_contact
-from ..sharing.prepared import Prepared, on_halved_cells
+from ..sampling import LineFound, line_friction, lines_of_model, mean_of, of_line
+from ..scene import Constant
+from ..sharing import MOST_CELLS, Prepared, line_contact, on_halved_cells
 from .at_a_time import changes
 from .sharing import OnOwnCells
 

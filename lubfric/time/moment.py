@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..film.ehl_result import smallest
-from ..sampling.moment_error import moment_error
-from ..scene.scene import Scene
-from ..sharing.heat import inlet_at
+from ..film import smallest
+from ..sampling import moment_error
+from ..scene import Scene
+from ..sharing import inlet_at
 from .at_a_time import scene_at, sliding_at
 from .bdf import Progress
 from .film_active_set import StepSolution

@@ -7,13 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import validate
-from .._base.axes import history_axes, loop_axes
-from .._base.shown import Shown
-from ..report import Report
-from ..sampling.uncertainty import UncertaintyCurve, percent, student
-from ..sharing.prepared import Prepared
-from ..sharing.validity import Validity, gathered
+from .._base import Shown, history_axes, loop_axes, validate
+from ..errors import Report
+from ..sampling import UncertaintyCurve, percent, student
+from ..sharing import Prepared, Validity, gathered
 from .bdf import Progress
 from .checkpoint import Output
 from .course import Plan, report_of

@@ -8,10 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import InputError
-from ..scene.scene import Scene
-from ..scene.transient import Transient
-from ..sharing.prepared import Prepared, scene_of
-from ..sharing.validity import Validity, refused
+from ..scene import Scene, Transient
+from ..sharing import Prepared, Validity, refused, scene_of
 from .at_a_time import changes
 from .bdf import Progress, started
 from .checkpoint import Checkpoint, Output

@@ -7,9 +7,8 @@ import math
 import numpy as np
 
 from ..errors import InputError
-from ..scene.history import Constant, History
-from ..scene.scene import Scene
-from ..sharing.prepared import Prepared, prepare, scene_of
+from ..scene import Constant, History, Scene
+from ..sharing import Prepared, prepare, scene_of
 from .at_a_time import changes, inlet_viscosity
 from .film_active_set import StepSolution
 from .film_setting import FINER, ContactHistory, Setting, make_setting

@@ -8,12 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..contact.rough_contract import ContactState
-from ..errors import ConvergenceError
-from ..film.ehl_result import cubic
-from ..report import CONVERGED, ITERATION_LIMIT
-from ..sampling.patch_error import correlation_along_y
-from ..sharing.prepared import Prepared
+from ..contact import ContactState
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
+from ..film import cubic
+from ..sampling import correlation_along_y
+from ..sharing import Prepared
 from .bdf import Memory
 from .film_active_set import StepSolution
 from .film_setting import Setting

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import ConvergenceError, InputError
-from ..report import CONVERGED
-from ..sampling.friction import friction
+from ..errors import CONVERGED, ConvergenceError, InputError
+from ..sampling import friction
 from .at_a_time import changes
 from .film_active_set import StepSolution
 from .film_setting import discretisation, parabola, steady, steady_start

@@ -9,8 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, solve_contact
-from lubfric.contact.operator import half_space
-from lubfric.contact.residual import contact_residuals, length_scale
+from lubfric.contact import contact_residuals, half_space, length_scale
 
 E_PRIME = 231e9
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]

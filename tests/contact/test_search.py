@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from lubfric import solve_contact
-from lubfric.contact import descent, refine
-from lubfric.contact.operator import half_space
+from lubfric.contact import descent, half_space, refine
 from lubfric.contact.projection import shifted
 from lubfric.contact.stencil import Stencil, nearest_coefficients
 

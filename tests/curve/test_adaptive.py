@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.film.ehl import solve_line_contact
-from lubfric.film.line_contact import LineContact
+from lubfric.film import LineContact, solve_line_contact
 from lubfric.studies.choose import next_speed
 from lubfric.studies.interpolate import Interpolant, Samples, knee_of
 from lubfric.studies.span import first_speeds, span

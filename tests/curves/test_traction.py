@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 from lubfric.output.draw_curves import plot_map
 
 SCENE = lubfric.load_scene("paper").with_(

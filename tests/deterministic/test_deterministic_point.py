@@ -8,18 +8,17 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic import Start, dry_contact, estimate, lay_out, solve_point, solve_refined, state_on
 from lubfric.deterministic.forces import forces
 from lubfric.deterministic.march import march
 from lubfric.deterministic.newton import newton
-from lubfric.deterministic.refine import estimate, solve_refined
-from lubfric.deterministic.solve import Start, Work, solve_point
-from lubfric.deterministic.start import dry_contact, dry_start
+from lubfric.deterministic.solve import Work
+from lubfric.deterministic.start import dry_start
 from lubfric.deterministic.state import FLUID, RUPTURED, look, residuals
-from lubfric.deterministic.transfer import refined_start, state_on
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
-from lubfric.surface.height_map import Surface
+from lubfric.deterministic.transfer import refined_start
+from lubfric.film import LineContact
+from lubfric.oil import Lubricant
+from lubfric.surface import Surface
 
 E_PRIME, WIDTH, RADIUS = 231e9, 6e-3, 2e-3
 NEWTONIAN = Lubricant(0.36, 25e-9)
@@ -54,7 +53,7 @@ FOUND = solve_point(LIGHT)
 def test_smooth_limit_is_the_film_of_solve_ehl(load, radius, speed, oil):
     line = contact(load, speed, oil, radius)
     smooth = Surface(np.zeros((64, 1)), (1e-6, 1e-6), periodic_axes=(True, True))
-    from lubfric.deterministic.domain import reach
+    from lubfric.deterministic import reach
 
     step = sum(reach(line, 0.0)) / 512
     found = solve_point(lay_out(replace(smooth, spacing=(step, step)), line, sliding=2 * speed, boundary_friction=0.09))

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic.point import grids
-from lubfric.studies.codec import decode, encode
+from lubfric.deterministic import grids
+from lubfric.studies import decode, encode
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"model": "deterministic", "grid": "given"}
@@ -119,7 +119,7 @@ def test_a_newtonian_film_beyond_its_range_is_told():
 
 
 def test_the_command_writes_its_fields(tmp_path):
-    from lubfric.output.command_line import main
+    from lubfric.output import main
 
     scene = tmp_path / "scene.toml"
     text = (Path(lubfric.__file__).parent / "scenes" / "paper.toml").read_text()

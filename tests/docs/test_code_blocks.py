@@ -13,8 +13,8 @@ import pytest
 from pages import PAGES, ROOT, blocks
 
 import lubfric
+from lubfric.output import main
 from lubfric.output.command_line import _parser as parser
-from lubfric.output.command_line import main
 from verification.__main__ import main as verification
 
 PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]
@@ -105,7 +105,7 @@ def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
 )
 def test_files_of_the_pages_are_read(page, tmp_path):
     """A TOML block is a whole scene or a whole study."""
-    from lubfric.studies.file import load_study
+    from lubfric.studies import load_study
 
     for block in blocks(page):
         if block.language == "toml":

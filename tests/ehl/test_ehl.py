@@ -9,12 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.film import assemble, grid, grubin, kernel, newton, problem, reynolds, start
+from lubfric.film import LineContact, assemble, grid, grubin, kernel, newton, problem, reynolds, start
 from lubfric.film import ehl as solve
 from lubfric.film import formulas as film
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
 
 ALPHA, Z = 2.2e-8, 0.68
 ROELANDS_VISCOSITY = math.exp(ALPHA * 1.96e8 / Z - 9.67)

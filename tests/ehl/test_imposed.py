@@ -10,12 +10,10 @@ from scipy.integrate import quad
 
 import lubfric
 from lubfric import ConvergenceError, InputError, solve_ehl
+from lubfric.film import LineContact, grid, hat_kernel, hertz, kernel, problem, reynolds, start
 from lubfric.film import ehl as solve
-from lubfric.film import grid, hertz, kernel, problem, reynolds, start
 from lubfric.film.imposed import LinePressure, find_seats, line_deflection
-from lubfric.film.kernel import hat_kernel
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
 from lubfric.sharing import total_pressure
 from lubfric.sharing.total_pressure import mismatch, spread_of
 

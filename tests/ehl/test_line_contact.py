@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
+from lubfric.film import LineContact, hertz
 from lubfric.film import formulas as film
-from lubfric.film import hertz
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
 
 OIL = Lubricant(0.04, 2.2e-8)
 STEEL = LineContact(1e5, 0.01, 2.2e11, 1.5, OIL)

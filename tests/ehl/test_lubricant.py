@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lubfric import InputError
-from lubfric.oil.lubricant import Lubricant, density_ratio, log_viscosity_ratio, shear_stress, viscosity
+from lubfric.oil import Lubricant, density_ratio, log_viscosity_ratio, shear_stress, viscosity
 
 OIL = Lubricant(0.04, 2.2e-8)
 

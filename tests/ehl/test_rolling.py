@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.film.levels import Elastohydrodynamic
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
 
 RADIUS, MODULUS, VISCOSITY, SPEED = 0.01, 2.2e11, 0.03, 1.0
 UNIT = np.sqrt(2 * VISCOSITY * SPEED / (MODULUS * RADIUS))

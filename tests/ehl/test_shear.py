@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.rough_contract import ContactState
+from lubfric.contact import ContactState
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.shear import _upstream, shear_force
-from lubfric.oil.lubricant import Lubricant
+from lubfric.film import shear_force
+from lubfric.film.shear import _upstream
+from lubfric.oil import Lubricant
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
 OIL = Lubricant(ETA, 1e-13, "barus")

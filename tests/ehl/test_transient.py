@@ -9,17 +9,24 @@ import pytest
 
 import lubfric
 from lubfric import time as module
-from lubfric.film.ehl import solve_ehl
-from lubfric.film.line_contact import LineContact
-from lubfric.film.problem import Problem
-from lubfric.oil.lubricant import Lubricant
-from lubfric.paper.differential_transient import solve_differential_transient
-from lubfric.scene.history import Constant, Harmonic, Ramp, Table
-from lubfric.time.bdf import Level, Memory, Progress, advance
-from lubfric.time.film import solve_transient_ehl
+from lubfric.film import LineContact, Problem, solve_ehl
+from lubfric.oil import Lubricant
+from lubfric.paper import solve_differential_transient
+from lubfric.scene import Constant, Harmonic, Ramp, Table
+from lubfric.time import (
+    ContactHistory,
+    Level,
+    Memory,
+    Progress,
+    advance,
+    make_fixed_grid,
+    make_setting,
+    parabola,
+    solve_transient_ehl,
+    symmetric_nodes,
+)
 from lubfric.time.film_active_set import solve_step
-from lubfric.time.film_grid import make_fixed_grid, symmetric_nodes
-from lubfric.time.film_setting import ContactHistory, make_setting, parabola, steady_start
+from lubfric.time.film_setting import steady_start
 from lubfric.time.film_squeeze import Conditions, Spring, evaluate, jacobian
 from lubfric.time.film_tail import outside, outside_shear
 

@@ -156,7 +156,7 @@ def test_shear_laws_of_the_finite_elements():
 def test_cell_means_of_lubfric_are_those_of_a_finer_grid():
     """A pressure that is uniform on cells: the mean of the deflection over them, by the same kernel on parts of the
     cells."""
-    from lubfric.contact.operator import half_space
+    from lubfric.contact import half_space
     from verification.studies.load_sharing import PARTS, cell_mean
 
     p = np.random.default_rng(0).random((6, 4))

@@ -10,7 +10,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 from lubfric.studies.fit import _numerical_variance
 from lubfric.studies.fit_parameters import parameters_of
 from lubfric.studies.fit_predict import jacobian, predictor, shares_contact

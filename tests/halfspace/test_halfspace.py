@@ -8,8 +8,8 @@ from scipy.integrate import dblquad, quad
 from scipy.special import k0
 
 from lubfric import InputError
-from lubfric.contact.kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space, semiperiodic_coefficients
+from lubfric.contact.kernels import line_coefficients, love_coefficients
 from lubfric.contact.reciprocity import reciprocity_error
 
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]

@@ -9,12 +9,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
 import lubfric
-from lubfric.film import hertz, nahme
-from lubfric.film.conjunction import Surroundings, heated_film, isothermal_heat
+from lubfric.film import Surroundings, heated_film, heated_stress, hertz, inlet_heat, isothermal_heat, nahme
 from lubfric.film.flash import flash_matrix
-from lubfric.film.heated_stress import heated_stress, limiting_stress_at, viscosity_at
-from lubfric.film.inlet_heat import inlet_heat
-from lubfric.oil.lubricant import Lubricant, shear_stress, viscosity
+from lubfric.film.heated_stress import limiting_stress_at, viscosity_at
+from lubfric.oil import Lubricant, shear_stress, viscosity
 
 T0 = 343.15
 STEEL = math.sqrt(46 * 7850 * 460)

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.scene.history import Constant, Harmonic, Ramp, Table
-from lubfric.scene.history_read import history, read_history
-from lubfric.scene.transient import Transient
+from lubfric.scene import Constant, Harmonic, Ramp, Table, Transient, read_history
+from lubfric.scene.history_read import history
 
 STEP = Table(times=(0.0, 1.0, 1.0, 3.0), values=(2.0, 2.0, 5.0, 6.0))
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.scene.history import Harmonic, Ramp, Table
-from lubfric.scene.history_read import history, read_history
-from lubfric.scene.transient import Transient
+from lubfric.scene import Harmonic, Ramp, Table, Transient, read_history
+from lubfric.scene.history_read import history
 
 LINES = "time [ms],speed [mm/s]\n0,1000\n500,2000\n1000,0\n"
 EXPECTED = Table(times=(0.0, 0.5, 1.0), values=(1.0, 2.0, 0.0))

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
-from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP, step_length
-from lubfric.scene.history import Table
-from lubfric.scene.history_read import checked_history
-from lubfric.time.bdf import Level, Progress
-from lubfric.time.course import checked_times, plan_of, report_of, steps
+from lubfric.film import step_length
+from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP
+from lubfric.scene import Table, checked_history
+from lubfric.time import Level, Progress, checked_times, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)

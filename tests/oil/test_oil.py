@@ -207,7 +207,7 @@ def test_reached_from_the_package():
 
 
 def test_command_lists_and_shows(capsys):
-    from lubfric.output.command_line import main
+    from lubfric.output import main
 
     assert main(["oils"]) == 0
     listed = capsys.readouterr().out

@@ -5,21 +5,19 @@ import pytest
 from scipy.optimize import brentq
 
 import lubfric
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.point import layer
-from lubfric.deterministic.start import dry_contact
+from lubfric.deterministic import dry_contact, lay_out, layer
+from lubfric.film import LineContact
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant, viscosity
+from lubfric.oil import Lubricant, viscosity
 from lubfric.one_way.film import Kept, _order, _system, gap_film
 from lubfric.one_way.lift import lifted, spots_of
 from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
 from lubfric.one_way.together import together
-from lubfric.output.command_line import main
+from lubfric.output import main
 from lubfric.output.vtk import vtk_bytes
-from lubfric.sampling.uncertainty import Uncertainty
-from lubfric.surface.height_map import Surface
+from lubfric.sampling import Uncertainty
+from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"closure": "one-way", "grid": "given"}

@@ -8,15 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
+from lubfric.film import LineContact, Problem, cubic, hat_kernel, smallest
 from lubfric.film import formulas as film
-from lubfric.film.ehl_result import cubic, smallest
-from lubfric.film.kernel import hat_kernel
-from lubfric.film.line_contact import LineContact
-from lubfric.film.problem import Problem
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
 from lubfric.paper import differential as differential_solve
-from lubfric.paper import differential_newton
-from lubfric.paper.differential import solve_differential_deflection
+from lubfric.paper import differential_newton, solve_differential_deflection
 from lubfric.paper.differential_equations import evaluate, measure
 from lubfric.paper.differential_mesh import convolve, make_mesh
 from lubfric.paper.differential_newton import Squeeze, newton

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.operator import half_space
-from lubfric.contact.solve import solve_contact
-from lubfric.paper.alternating import alternating
-from lubfric.paper.single_loop import single_loop
+from lubfric.contact import half_space, solve_contact
+from lubfric.paper import alternating, single_loop
 
 E, D, N, RADIUS = 231e9, 1e-6, 96, 2e-3
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}

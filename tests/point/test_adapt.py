@@ -9,15 +9,13 @@ import pytest
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.contact.rough_contract import Grid
-from lubfric.film.contract import LeftOut
-from lubfric.report import ITERATION_LIMIT
+from lubfric.contact import Grid
+from lubfric.errors import ITERATION_LIMIT
+from lubfric.film import LeftOut
 from lubfric.scene import budget
-from lubfric.sharing.balance import balanced
-from lubfric.sharing.forces import forces
+from lubfric.sharing import OperatingPoint, Settings, balanced, forces
 from lubfric.sharing.grids import WORST_GRID, coarser_grids, grid_error, on_enough_cells
 from lubfric.sharing.one_grid import Stage, needed_settings, on_grid
-from lubfric.sharing.operating_point import OperatingPoint, Settings
 from lubfric.sharing.tolerances import (
     allowed_left_out,
     balance_tolerance,

@@ -11,10 +11,8 @@ from toys import EvenFilmLevel, Spring
 
 import lubfric
 from lubfric.contact.hertz_strip import strip_weight
-from lubfric.report import ITERATION_LIMIT
-from lubfric.sharing.balance import balanced, separated
-from lubfric.sharing.operating_point import OperatingPoint, Settings, Start
-from lubfric.sharing.split import divided
+from lubfric.errors import ITERATION_LIMIT
+from lubfric.sharing import OperatingPoint, Settings, Start, balanced, divided, separated
 
 SCENE = (
     lubfric.load_scene("paper")

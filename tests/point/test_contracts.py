@@ -10,10 +10,8 @@ from scipy.optimize import brentq
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.film.contract import FilmLevel, LeftOut
-from lubfric.film.levels import LEVELS, higher, lowest_level
-from lubfric.film.line_contact import LineContact
-from lubfric.report import ITERATION_LIMIT, Report
+from lubfric.errors import ITERATION_LIMIT, Report
+from lubfric.film import LEVELS, FilmLevel, LeftOut, LineContact, higher, lowest_level
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 B = PAPER.bodies

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.film.conjunction import Surroundings, heated_film
-from lubfric.oil.make import from_grade
-from lubfric.sharing.heat import film_lubricant
+from lubfric.film import Surroundings, heated_film
+from lubfric.oil import from_grade
+from lubfric.sharing import film_lubricant
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}

@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 import lubfric
-from lubfric.film.shear import ShearForce
-from lubfric.sharing.forces import Forces, forces
-from lubfric.sharing.judge import judged_validity
+from lubfric.film import ShearForce
+from lubfric.sharing import Forces, forces, judged_validity
 
 PAPER = (
     lubfric.load_scene("paper")
@@ -138,7 +137,7 @@ def test_steep_maps_and_narrow_ones_are_told():
 
 
 def test_the_reynolds_number_is_that_of_the_film():
-    from lubfric.sharing.validity_solution import of_motion
+    from lubfric.sharing import of_motion
 
     scene = PAPER.with_(lubricant={"viscosity": 1e-4, "viscosity_law": "constant"})
     number = 870 * 100 * 30e-6 / 1e-4

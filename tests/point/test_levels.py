@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space
+from lubfric.film import LEVELS, LineContact, lowest_level, shear_force
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.levels import LEVELS, Isoviscous, lowest_level
-from lubfric.film.line_contact import LineContact
+from lubfric.film.levels import Isoviscous
 from lubfric.film.rigid import isoviscous_film, piezoviscous_film
 from lubfric.film.rigid_error import elastic_error
-from lubfric.film.shear import shear_force
-from lubfric.oil.lubricant import Lubricant
+from lubfric.oil import Lubricant
+from lubfric.sharing import prepare
 from lubfric.sharing.grids import coarser_grids
-from lubfric.sharing.prepared import prepare
 
 E, R, ALPHA, ETA = 231e9, 10e-3, 15e-9, 0.05
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -150,7 +150,7 @@ def flat():
 
 
 def test_flat_contact_follows_its_curve(flat):
-    from lubfric.contact.solve import solve_contact
+    from lubfric.contact import solve_contact
 
     point = lubfric.friction(flat, 0.05)
     pressure = point.contact_load / flat.contact.area

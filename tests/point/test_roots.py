@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lubfric._base.roots import increasing_root
-from lubfric.report import CONVERGED, ITERATION_LIMIT
+from lubfric._base import increasing_root
+from lubfric.errors import CONVERGED, ITERATION_LIMIT
 
 BOUNDS = (-40.0, 40.0)
 

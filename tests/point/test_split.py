@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sharing.adapt import solved
+from lubfric.sharing import OperatingPoint, Settings, divided, solved
 from lubfric.sharing.balance import _begin, drift
-from lubfric.sharing.operating_point import OperatingPoint, Settings
-from lubfric.sharing.split import divided, foretold_split
+from lubfric.sharing.split import foretold_split
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 

@@ -7,7 +7,7 @@ import pytest
 import lubfric
 from lubfric.contact import half_space
 from lubfric.film import ehl as ehl_solve
-from lubfric.sharing.adapt import solved
+from lubfric.sharing import solved
 
 
 @pytest.fixture(scope="module")

@@ -4,10 +4,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lubfric.contact.rough_contract import ContactState, RoughContact
-from lubfric.film.contract import FilmLevel, LeftOut
-from lubfric.film.shear import ShearForce
-from lubfric.report import CONVERGED, Report
+from lubfric.contact import ContactState, RoughContact
+from lubfric.errors import CONVERGED, Report
+from lubfric.film import FilmLevel, LeftOut, ShearForce
 
 EXACT = Report("exact", CONVERGED, 0, 0.0, 1e-6)
 

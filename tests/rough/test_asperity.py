@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, generate_surface
-from lubfric.contact.asperity import DEFINITIONS, asperity_contact
-from lubfric.contact.asperity_separation import separation_for_load
+from lubfric.contact import asperity_contact, separation_for_load
+from lubfric.contact.asperity import DEFINITIONS
 from lubfric.film import hertz
 
 E_PRIME, RADIUS, STEP = 231e9, 30e-6, 50e-9

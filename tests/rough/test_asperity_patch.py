@@ -7,11 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 import lubfric
+from lubfric.contact import asperity_contact, asperity_curve, contact_curve, find_asperities
 from lubfric.contact.asperities import AsperityContact
-from lubfric.contact.asperity import asperity_contact, find_asperities
-from lubfric.contact.asperity_curve import asperity_curve
-from lubfric.contact.contact_curve import contact_curve
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 CYLINDER = (
     lubfric.load_scene("paper")

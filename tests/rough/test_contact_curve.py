@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import nested
-from lubfric.contact.contact_curve import contact_curve
+from lubfric.contact import contact_curve, nested
 from lubfric.contact.left_out import left_out
 from lubfric.contact.projection import rescaled, shifted
 

@@ -5,7 +5,7 @@ import pytest
 from scipy import ndimage
 
 import lubfric
-from lubfric.contact.asperity_find import ridges
+from lubfric.contact import ridges
 from lubfric.sharing.validity_solution import of_patches
 
 FLAT = lubfric.load_scene("flat").with_(

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from lubfric.sampling import student
 from lubfric.sampling.influence import (
     BlockError,
     add_errors,
@@ -15,7 +16,7 @@ from lubfric.sampling.influence import (
     spot_loads,
     weighted_errors,
 )
-from lubfric.sampling.uncertainty import interval, student
+from lubfric.sampling.uncertainty import interval
 
 
 def correlated(rng, count, length):

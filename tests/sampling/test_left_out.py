@@ -5,11 +5,9 @@ from dataclasses import replace
 import pytest
 
 import lubfric
-from lubfric.sampling.estimate import of_line
-from lubfric.sampling.line_friction import line_friction
+from lubfric.sampling import line_friction, of_line
 from lubfric.sampling.patch_error import of_patch
-from lubfric.sharing.deflection import solved_as_deflected
-from lubfric.sharing.heat import Heat
+from lubfric.sharing import Heat, solved_as_deflected
 
 PATCH = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 0.8e-6},

@@ -9,20 +9,19 @@ import pytest
 
 import lubfric
 from lubfric import Transient
-from lubfric._base.table import read_table
-from lubfric.contact.height_map import contact_map
-from lubfric.output.command_line import main
+from lubfric._base import read_table
+from lubfric.contact import contact_map
+from lubfric.output import main
 from lubfric.output.describe import describe_scene
+from lubfric.sampling import line_friction, mean_of
 from lubfric.sampling import line_friction as lines_solved
-from lubfric.sampling.grid_pair import GridStep, gap_left, mean_error, mean_of
+from lubfric.sampling.grid_pair import GridStep, gap_left, mean_error
 from lubfric.sampling.influence import BlockError
-from lubfric.sampling.line_friction import line_friction
 from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.response import Response, Slopes, touched_length
 from lubfric.sampling.sample import response_of
-from lubfric.sharing.adapt import solved
+from lubfric.sharing import on_halved_cells, solved
 from lubfric.sharing.lines_outlook import foretold
-from lubfric.sharing.prepared import on_halved_cells
 from verification.hostile.soak_force import friction_force
 
 PAPER = lubfric.load_scene("paper")

@@ -7,8 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.sampling.line_record import LineRecord, pooled
-from lubfric.sharing.adapt import solved
-from lubfric.sharing.lines_pieces import line_contact
+from lubfric.sharing import line_contact, solved
 
 
 def test_loads_are_averaged_by_length():

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric.sharing import next_length, thinned
 from lubfric.sharing.lines_cells import cells_of_a_box, choose_cells
 from lubfric.sharing.lines_generated import generated_lines, seed_of
-from lubfric.sharing.lines_length import next_length
-from lubfric.sharing.lines_pieces import thinned
 from lubfric.sharing.lines_windows import measured_lines, spread, stack
 
 PAPER = lubfric.load_scene("paper")

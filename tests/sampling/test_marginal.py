@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.operator import half_space
-from lubfric.contact.rough_contract import Grid
+from lubfric.contact import Grid, half_space
 from lubfric.sampling.marginal import Marginal, marginal, marginal_cells
-from lubfric.sharing.deflection import solved_as_deflected
+from lubfric.sharing import solved_as_deflected
 from verification.hostile.soak_scenes import random_scene
 
 E_PRIME = 231e9

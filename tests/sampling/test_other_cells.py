@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.half_space import half_space_contact
-from lubfric.output.command_line import main
+from lubfric.contact import half_space_contact
+from lubfric.output import main
 from lubfric.sampling.other_cells import half_again, too_coarse
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "film_deflection": "scaled"})

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sampling.line_friction import line_friction
-from lubfric.scene.transient import Transient
+from lubfric.sampling import line_friction
+from lubfric.scene import Transient
 from lubfric.time.line import long_enough
 from lubfric.time.moment import _thinning
 

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.height_map import contact_map
+from lubfric.contact import contact_map
 
 NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_map`)
 MOVES = 0.02  # least relative change of f by an undone key: twice the tolerance of a scene

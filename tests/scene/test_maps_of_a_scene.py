@@ -8,10 +8,9 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.contact.height_map import contact_map, whole_map
-from lubfric.output.command_line import main
-from lubfric.scene.contact import ContactDomain
-from lubfric.scene.roughness import Roughness
+from lubfric.contact import contact_map, whole_map
+from lubfric.output import main
+from lubfric.scene import ContactDomain, Roughness
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))

@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.scene.file import scene_from_table
-from lubfric.studies.fingerprint import fingerprint
+from lubfric.studies import fingerprint
 
 SCENE = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact.height_map import contact_map
+from lubfric.contact import contact_map
+from lubfric.scene import scene_as_dict
 from lubfric.scene.file import builtin_scenes
-from lubfric.scene.scene import scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 
@@ -179,7 +179,7 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
     ],
 )
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
-    from lubfric.contact.height_map import check_grid
+    from lubfric.contact import check_grid
 
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)

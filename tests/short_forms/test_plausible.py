@@ -6,7 +6,8 @@ import pickle
 import pytest
 
 import lubfric
-from lubfric.scene.plausible import USUAL, doubts, slip
+from lubfric.scene import doubts
+from lubfric.scene.plausible import USUAL, slip
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
 

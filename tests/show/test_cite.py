@@ -7,7 +7,7 @@ import numpy
 import pytest
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 
 
 def test_the_papers_are_those_of_what_was_used():

@@ -7,7 +7,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 from lubfric.output.vtk import grid_bytes, vtk_bytes
 
 SCENE = (

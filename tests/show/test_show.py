@@ -8,10 +8,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import lubfric
-from lubfric._base.axes import friction_over_time
-from lubfric._base.plot import new_figure
+from lubfric._base import friction_over_time, new_figure
+from lubfric.scene import Harmonic, Ramp, Table
 from lubfric.scene.file import builtin_scenes
-from lubfric.scene.history import Harmonic, Ramp, Table
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
@@ -156,7 +155,7 @@ def test_without_axes_new_ones_are_made(curve):
 
 
 def test_a_scene_prints_in_a_line_and_as_a_table_of_keys_values_and_units():
-    from lubfric.scene.bodies import Bodies
+    from lubfric.scene import Bodies
 
     oil = {"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}
     scene = SCENE.with_(lubricant=oil, motion={"speeds": np.geomspace(1e-3, 1, 40)})

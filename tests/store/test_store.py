@@ -16,14 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric._base.files import read_checked, write_checked, write_whole
-from lubfric._base.lock import FolderLock
+from lubfric._base import FolderLock, read_checked, write_checked, write_whole
 from lubfric.output import command_line as cli
-from lubfric.sharing.prepared import prepare
-from lubfric.studies.codec import decode, encode, from_plain, to_plain
-from lubfric.studies.fingerprint import digest, fingerprint
+from lubfric.sharing import prepare
+from lubfric.studies import Records, decode, encode, fingerprint
+from lubfric.studies.codec import from_plain, to_plain
+from lubfric.studies.fingerprint import digest
 from lubfric.studies.journal import Journal
-from lubfric.studies.records import Records
 
 ROOT = Path(__file__).parents[2]
 SCENE = lubfric.load_scene("paper").with_(
@@ -246,7 +245,7 @@ def test_a_neighbour_started_from_a_stored_balance_is_the_same_to_the_last_bit(s
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
 
 
-@pytest.mark.parametrize("name", ["lubfric.report.Report", "lubfric.report.Gone", "lubfric.gone.Report"])
+@pytest.mark.parametrize("name", ["lubfric.errors.Report", "lubfric.errors.Gone", "lubfric.gone.Report"])
 def test_what_another_version_stored_is_told_and_solved_again(tmp_path, name):
     tree = json.dumps({"class": name, "solver": "x"}).encode()
     content = len(tree).to_bytes(8, "little") + tree

@@ -12,8 +12,8 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.output.command_line import main
-from lubfric.studies.file import load_study
+from lubfric.output import main
+from lubfric.studies import load_study
 
 ROOT = Path(__file__).parents[2]
 SCENE = (

@@ -5,9 +5,9 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.report import Report
-from lubfric.sharing.validity import Validity
-from lubfric.studies.file import load_study
+from lubfric.errors import Report
+from lubfric.sharing import Validity
+from lubfric.studies import load_study
 from lubfric.studies.journal import outcome_of, record_of
 
 SCENE = (

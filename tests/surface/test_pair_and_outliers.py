@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space
 from lubfric.surface.prepare import fitted_form
 
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric._base.table import read_table
-from lubfric.output.command_line import main
+from lubfric._base import read_table
+from lubfric.output import main
 
 SCENE = """
 [bodies]

@@ -13,9 +13,8 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric._base import table
-from lubfric._base.lock import FolderLock
-from lubfric.output.command_line import main
+from lubfric._base import FolderLock, table
+from lubfric.output import main
 
 ROOT = Path(__file__).parents[2]
 SCENE = (
@@ -261,7 +260,7 @@ def test_broken_streams_never_stop_a_computation(tmp_path, text):
     process = start(
         written(tmp_path, text),
         tmp_path / "out",
-        code="import sys; from lubfric.output.command_line import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
+        code="import sys\nfrom lubfric.output import main\nsys.exit(main(['run', sys.argv[1], '--out', sys.argv[2]]))",
     )
     process.stderr.close(), process.stdout.close()
     assert process.wait() == 0

@@ -3,7 +3,7 @@
 import numpy as np
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 
 SCENE = """
 [bodies]

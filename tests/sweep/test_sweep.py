@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sharing.prepared import prepare
-from lubfric.studies import trail
+from lubfric.sharing import prepare
+from lubfric.studies import QUANTITIES, trail
 from lubfric.studies.fingerprint import digest
-from lubfric.studies.sweep_points import QUANTITIES
 
 SCENE = (
     lubfric.load_scene("paper")

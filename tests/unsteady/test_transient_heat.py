@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.output import command_line as cli
-from lubfric.scene.history import Harmonic, Ramp
+from lubfric.scene import Harmonic, Ramp
 
 BASE = lubfric.load_scene("flat").with_(
     bodies={"load": 3000.0, "radius": 1e-2, "width": 1e-2},

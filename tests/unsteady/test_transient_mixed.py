@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric._base.files import write_checked
-from lubfric.output.command_line import main
-from lubfric.scene.history import Harmonic, Ramp, Table
-from lubfric.scene.transient import Transient
-from lubfric.sharing.prepared import prepare
-from lubfric.time.checkpoint import OUTPUTS, STATE, Checkpoint
+from lubfric._base import write_checked
+from lubfric.output import main
+from lubfric.scene import Harmonic, Ramp, Table, Transient
+from lubfric.sharing import prepare
+from lubfric.time import STATE
+from lubfric.time.checkpoint import OUTPUTS, Checkpoint
 from lubfric.time.sharing import Sharing
 
 SCENE = (

@@ -3,7 +3,7 @@
 import pytest
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 from lubfric.output.describe import describe_scene
 from lubfric.sharing.validity_outlook import foretold
 

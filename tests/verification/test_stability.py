@@ -9,9 +9,9 @@ import pytest
 
 import lubfric
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space
 from lubfric.contact.residual import deflection_scale
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map, whole_map
@@ -157,7 +157,7 @@ def test_a_load_below_rounding_rests_on_one_cell():
 
 
 def test_contact_curve_holds_its_accuracy_near_full_contact():
-    from lubfric.contact.contact_curve import contact_curve
+    from lubfric.contact import contact_curve
 
     z = contact_map.surface("exponential", 48, 48, 1e-9)
     heaviest = 0.7 * contact_map.full_contact(z, 1e-6)

@@ -9,9 +9,8 @@ from functools import lru_cache, partial
 import numpy as np
 
 from lubfric import ConvergenceError, solve_contact
-from lubfric.contact.operator import half_space
-from lubfric.paper.alternating import alternating
-from lubfric.paper.single_loop import single_loop
+from lubfric.contact import half_space
+from lubfric.paper import alternating, single_loop
 
 from ..check import Check
 from ..opponents import CONTACT

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from lubfric._base.version import __version__
+from lubfric._base import __version__
 
 from ..check import TOLD, Check
 from ..opponents import version

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from lubfric import EHLResult, solve_differential_deflection, solve_ehl
-from lubfric.film.formulas import moes_film
+from lubfric.film import moes_film
 
 from ..cases import case_of
 from ..check import Check

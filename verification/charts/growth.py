@@ -120,9 +120,8 @@ def rough(n: int) -> np.ndarray:
 def newton_problem():
     """A contact (M = 20, L = 5) and a solution to start every grid from."""
     from lubfric import solve_ehl
-    from lubfric.film.line_contact import LineContact
-    from lubfric.film.problem import Problem
-    from lubfric.oil.lubricant import Lubricant
+    from lubfric.film import LineContact, Problem
+    from lubfric.oil import Lubricant
 
     from ..cases import case_of
 

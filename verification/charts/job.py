@@ -57,7 +57,7 @@ def scene(n: int, **numerics):
 def coefficients(pair, speeds) -> np.ndarray:
     """Friction coefficients of one scene on its height map."""
     from lubfric import Surface
-    from lubfric.sharing.prepared import prepare
+    from lubfric.sharing import prepare
 
     made, heights = pair
     model = prepare(made, Surface(heights, made.contact.spacing))

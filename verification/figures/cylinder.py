@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 from .. import parts
 from ..check import AT_LEAST, AT_MOST, Check

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.contact.asperity_curve import asperity_curve
-from lubfric.contact.contact_curve import contact_curve
+from lubfric.contact import asperity_curve, contact_curve
 
 from ..check import AT_LEAST, Check
 from .draw import axes, png

@@ -13,10 +13,9 @@ from functools import cached_property
 
 import numpy as np
 
-from lubfric.contact.contact_curve import ContactCurve
-from lubfric.film.ehl import solve_ehl
-from lubfric.film.shear import shear_force
-from lubfric.scene.scene import Scene
+from lubfric.contact import ContactCurve
+from lubfric.film import shear_force, solve_ehl
+from lubfric.scene import Scene
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128
@@ -93,7 +92,7 @@ def at_mean_pressure(scene: Scene, mean_pressure: float) -> Scene:
 
 
 def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmTable]:
-    """A `FilmTable` for each shear law (a dict of `lubfric.oil.lubricant.Lubricant` fields), all from the same films.
+    """A `FilmTable` for each shear law (a dict of `lubfric.Lubricant` fields), all from the same films.
 
     ``scaled`` takes Johnson's modulus E' F_H/F_T.
     """

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.scene.history import Constant, Harmonic, Ramp, Table
+from lubfric.scene import Constant, Harmonic, Ramp, Table
 
 from .case import Case
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.output.command_line import main
+from lubfric.output import main
 
 from .case import Case
 from .scenes import GOOD, mutations, text_of

@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 
 import lubfric
-from lubfric.scene.history_read import read_history
+from lubfric.scene import read_history
 
 from .case import Case
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.sharing.prepared import Prepared, on_cells_of
+from lubfric.sharing import Prepared, on_cells_of
 
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity

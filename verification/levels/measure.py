@@ -11,7 +11,7 @@ import numpy as np
 
 import lubfric
 from lubfric.errors import LubfricError
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 from .. import kept, parts
 from ..check import Check

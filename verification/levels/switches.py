@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.sharing.prepared import prepare
+from lubfric.sharing import prepare
 
 from .. import parts
 from ..check import Check

@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic.point import layer
-from lubfric.deterministic.refine import solve_refined
+from lubfric.deterministic import layer, solve_refined
 
 from .. import kept
 from ..check import AT_MOST, Check, Item, Table

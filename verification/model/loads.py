@@ -15,11 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic.point import layer
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.result import DeterministicResult
-from lubfric.deterministic.solve import Start, solve_point
-from lubfric.deterministic.transfer import state_on
+from lubfric.deterministic import DeterministicResult, Problem, Start, layer, solve_point, state_on
 
 from .. import kept
 from ..check import AT_MOST, Check, Item, Table

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import lubfric
-from lubfric.scene.scene import Scene
-from lubfric.sharing.prepared import Prepared
+from lubfric.scene import Scene
+from lubfric.sharing import Prepared
 
 from .. import kept
 from ..parts import the

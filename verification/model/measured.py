@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.scene.scene import Scene
-from lubfric.sharing.prepared import Prepared
+from lubfric.scene import Scene
+from lubfric.sharing import Prepared
 
 from .. import kept
 from ..check import AT_LEAST, AT_MOST, Check, Item, Table

@@ -10,7 +10,7 @@ import numpy as np
 
 import lubfric
 from lubfric.errors import LubfricError
-from lubfric.sampling.uncertainty import FIELDS
+from lubfric.sampling import FIELDS
 
 from .. import kept
 from ..levels.scenes import points, scene

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.sharing.lines_make import lines_of
+from lubfric.sharing import lines_of
 
 LINES, FEWEST = 160, 16  # patches, at most and at least: few tell no error of their mean
 LENGTHS = 1900  # of a patch, in correlation lengths along y

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from lubfric import EHLResult, LubfricError, solve_differential_deflection, solve_ehl
-from lubfric.film.formulas import moes_film
+from lubfric.film import moes_film
 
 from ..cases import E_PRIME, RADIUS, VISCOSITY, case_of
 from ..check import Check

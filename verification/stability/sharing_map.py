@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lubfric import LubfricError, friction, load_scene, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.contact.flat import FlatContact
-from lubfric.sharing.prepared import Prepared, prepare
+from lubfric.contact import FlatContact
+from lubfric.sharing import Prepared, prepare
 
 from ..check import Check
 from .cell import Condition, judged

@@ -15,12 +15,10 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.contact.operator import half_space
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.solve import solve_point
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
+from lubfric.contact import half_space
+from lubfric.deterministic import Problem, lay_out, solve_point
+from lubfric.film import LineContact
+from lubfric.oil import Lubricant
 
 from .. import kept
 from ..check import Check

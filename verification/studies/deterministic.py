@@ -7,13 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic.domain import lay_out, reach
-from lubfric.deterministic.refine import solve_refined
-from lubfric.deterministic.solve import solve_point
-from lubfric.deterministic.start import dry_contact
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant
-from lubfric.surface.height_map import Surface
+from lubfric.deterministic import dry_contact, lay_out, reach, solve_point, solve_refined
+from lubfric.film import LineContact
+from lubfric.oil import Lubricant
+from lubfric.surface import Surface
 
 from ..check import ABSOLUTE, AT_MOST, Check, Table
 from ..fem.fluid import Fluid

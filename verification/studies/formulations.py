@@ -8,10 +8,8 @@ import time
 import numpy as np
 
 import lubfric
-from lubfric.contact.operator import half_space
-from lubfric.contact.solve import solve_contact
-from lubfric.paper.alternating import alternating
-from lubfric.paper.single_loop import single_loop
+from lubfric.contact import half_space, solve_contact
+from lubfric.paper import alternating, single_loop
 
 from ..check import AT_MOST, Check, Table
 

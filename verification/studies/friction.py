@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.sharing.prepared import Prepared, prepare
+from lubfric.sharing import Prepared, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table

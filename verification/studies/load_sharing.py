@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.contact.kernels import semiperiodic_coefficients
-from lubfric.contact.operator import HalfSpace, _even_transform
-from lubfric.sharing.prepared import Prepared, prepare
+from lubfric.contact import HalfSpace, _even_transform, semiperiodic_coefficients
+from lubfric.sharing import Prepared, prepare
 
 from .. import parts, plotting
 from ..check import AT_LEAST, Check, Field, Table

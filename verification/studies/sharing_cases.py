@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.scene.roughness import Roughness
-from lubfric.sharing.prepared import Prepared, prepare
+from lubfric.scene import Roughness
+from lubfric.sharing import Prepared, prepare
 
 from ..check import AT_LEAST, Check
 from ..fem.contact import solve_contact

@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.scene.history import Harmonic, Ramp
-from lubfric.scene.history import Table as History
-from lubfric.scene.transient import Transient
-from lubfric.sharing.prepared import prepare
+from lubfric.scene import Harmonic, Ramp, Transient
+from lubfric.scene import Table as History
+from lubfric.sharing import prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check

@@ -14,11 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import Start, solve_point
-from lubfric.film.line_contact import LineContact
-from lubfric.oil.lubricant import Lubricant, viscosity
-from lubfric.surface.height_map import Surface
+from lubfric.deterministic import Start, lay_out, solve_point
+from lubfric.film import LineContact
+from lubfric.oil import Lubricant, viscosity
+from lubfric.surface import Surface
 
 from ..check import ABSOLUTE, Check, Item, Table
 from ..fem import ehl

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import fft
 
 import lubfric
-from lubfric.contact.operator import half_space
+from lubfric.contact import half_space
 from lubfric.film import hertz
 
 Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 import time
 
-from lubfric._base.version import __version__
+from lubfric._base import __version__
 
 
 def source(command: str) -> str:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.contact.rough_contract import ContactState
-from lubfric.sharing.prepared import prepare
+from lubfric.contact import ContactState
+from lubfric.sharing import prepare
 
 from .. import parts
 from ..check import AT_LEAST, Check

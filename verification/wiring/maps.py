@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.contact.half_space import HalfSpaceContact
-from lubfric.scene.roughness import Roughness
-from lubfric.sharing.prepared import prepare
+from lubfric.contact import HalfSpaceContact
+from lubfric.scene import Roughness
+from lubfric.sharing import prepare
 
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
 from ..parts import half_space

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
-from lubfric.scene.history import Ramp
-from lubfric.scene.scene import Scene
+from lubfric.scene import Ramp, Scene
 
 from ..check import Check
 from .film import FIXED, mixed
