@@ -5,17 +5,18 @@ from .asperity_curve import asperity_curve
 from .asperity_find import ridges
 from .asperity_separation import separation_for_load
 from .contact_curve import ContactCurve, contact_curve
-from .flat import FlatContact
-from .half_space import HalfSpaceContact, half_space_contact
+from .asperities import AsperityContact, asperities_under_cylinder
+from .flat import FlatContact, flat_contact
+from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, extended, measured, rough_bodies, whole_map
 from .hertz_strip import weighted_mean
 from .kernels import semiperiodic_coefficients
-from .make import rough_contact
 from .operator import HalfSpace, _even_transform, half_space
 from .problem import Problem, make_problem, starting_pressure
 from .refine import refine
 from .residual import contact_residuals, length_scale
 from .result import ContactResult
+from .strips import Strips, correlation_lengths, length_or_half, one_patch, strips_of
 from .rough_contract import ContactState, Grid, RoughContact
 from .solve import solve_contact
 
@@ -47,7 +48,7 @@ __all__ = [
     "refine",
     "ridges",
     "rough_bodies",
-    "rough_contact",
+    "AsperityContact", "asperities_under_cylinder", "flat_contact", "BOUNDARY", "Strips", "correlation_lengths", "length_or_half", "one_patch", "strips_of",
     "semiperiodic_coefficients",
     "separation_for_load",
     "solve_contact",

@@ -14,6 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact import ContactState, Strips
+from ..sharing import Slopes
+
+FEWEST_WINDOWS = 3
 MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
 WIDE, BLOCK = 9.0, 5.0  # correlation lengths of the surface along y in a block: wanted, and at least
 ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
@@ -36,7 +40,7 @@ def strip_gap(contact, state) -> np.ndarray:
 
 def line_load(contact, state) -> np.ndarray:
     """P(y) [N/m] (ny,): load per length at every place along the line."""
-    return state.pressure.sum(axis=0) * contact.spacing[0]
+    return state.fields.pressure.sum(axis=0) * contact.spacing[0]
 
 
 def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
@@ -80,16 +84,66 @@ def _means(values, count: int) -> np.ndarray:
     return values[: size * count].reshape(count, size).mean(axis=1)
 
 
-def spot_loads(line_load, step: float, correlation_length: float) -> np.ndarray:
-    """Loads [N/m x cells] of short blocks, about one contact spot each."""
+def participation(line_load, step: float, correlation_length: float) -> float:
+    """(sum P)²/sum P² over short blocks, about one contact spot each: the number of equally loaded spots that would
+    carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
-    return line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
-
-
-def participation(loads) -> float:
-    """(sum P)²/sum P²: the number of equally loaded blocks that would carry the load as unevenly as these."""
+    loads = line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
     square = float(np.sum(np.square(loads)))
     return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Standard errors, at given load, of what a sample of ``length`` [m] stands for: of its mean gap [m], its contact
+    area fraction of A [-] and its contact area per length [m]. ``spots``: `participation`; ``known``: whether the
+    sample is long enough for them."""
+
+    length: float
+    gap: BlockError = BlockError(math.inf, 0)
+    area: BlockError = BlockError(math.inf, 0)
+    touched: BlockError = BlockError(math.inf, 0)
+    spots: float = 0.0
+
+    @property
+    def known(self) -> bool:
+        """Whether the sample is long enough for a standard error."""
+        return math.isfinite(self.gap.error)
+
+
+def scatter_of(contact, state: ContactState, slopes: Slopes, strips: Strips, count: int) -> Scatter:
+    """The `Scatter` of ``contact``, a stack of ``count`` ``strips`` in ``state``. Of a mirrored map only half counts.
+
+    The standard errors come from blocks along y. If there are three windows of a measured map or more, they are the
+    larger of that and the ones from windows, which show whether a surface differs from place to place.
+    """
+    rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
+    by_place, step = line_load(contact, state)[rows], contact.spacing[1]
+    assert state.fields is not None
+    touching = state.fields.pressure[:, rows] > 0
+    squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
+
+    def error(values, slope: float) -> BlockError:
+        influence, length = gap_influence(values, by_place, slope), strips.lengths[1]
+        blocks = block_error(influence, step, length, squares)
+        if not strips.windows or count < FEWEST_WINDOWS:
+            return blocks
+        means = _means(influence, count)
+        windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+        return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
+
+    return Scatter(
+        by_place.size * step,
+        error(strip_gap(contact, state)[rows], slopes.gap),
+        error(contact.weight @ touching / contact.weight.sum(), slopes.area),
+        error(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
+        participation(by_place, step, strips.lengths[1]),
+    )
+
+
+def mirrored(heights: np.ndarray) -> bool:
+    """Whether the second half along y is the mirror image of the first."""
+    return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))
 
 
 def add_errors(*parts: BlockError) -> BlockError:
