@@ -53,17 +53,17 @@ def shear_force(
     contact_fraction,
     cavitated: str = "none",
     warm=None,
-    rolling: Rolling | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
+    ``film``: an `EHLResult`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
     the width in contact, which carries no fluid shear, averaged over each of the n - 1 cells between them. The Couette
     term reaches from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own
     heat as the first node: at any h that is the same factor) to the rupture. cavitated="striated" adds the streamers
     behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
     on the Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that
-    it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: summed.
+    it was solved with; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what the spots take; it is summed over the
+    nodes if the film does not know it (None).
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -72,7 +72,7 @@ def shear_force(
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
 
-    resistance, parts, off = _rolling(p, h, wet, rolling)
+    resistance, parts, off = _rolling(p, h, wet, film.rolling)
 
     heated = None if warm is None else warm.stress
 

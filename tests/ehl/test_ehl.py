@@ -105,6 +105,25 @@ def test_rigid_piezoviscous(excess):
     assert moes_film(load, L, viscosity_law="barus", tolerance=3e-4)[0] == pytest.approx(h_min, rel=1e-3)
 
 
+@pytest.mark.parametrize("M, L", [(1e-12, 0.0), (1e-9, 1.0), (1e-6, 100.0), (1e-3, 1.0), (1e-3, 20.0), (0.01, 0.0)])
+def test_a_light_film_is_rigid_and_isoviscous_and_takes_few_steps(M, L):
+    h_min, _, h_flow, r = moes_film(M, L, tolerance=1e-2)
+    assert h_min * M == pytest.approx(2.447484, rel=5e-3) and h_flow * M == pytest.approx(3.0, rel=5e-3)
+    assert r.cells == 96 and r.report.iterations <= 16
+
+
+@pytest.mark.parametrize("M, L", [(0.05, 100.0), (0.03, 1000.0), (0.01, 1e4)])
+def test_a_rigid_film_between_both_limits_is_that_of_the_reduced_pressure(M, L):
+    """Roelands, by the quadrature of `true_pressure`: what the bodies give at L so large and M so small is little."""
+    r = moes_film(M, L, tolerance=1e-2)[3]
+    x = math.sqrt(2 * r.radius * r.min_film) * np.tan(np.linspace(-math.pi / 2, math.atan(0.4751299), 100001)[1:])
+    reduced = rigid.pressure(
+        x, r.min_film, radius=r.radius, entrainment_speed=r.entrainment_speed, viscosity=ROELANDS_VISCOSITY
+    )
+    assert np.trapezoid(rigid.true_pressure(r.contact.lubricant)(reduced), x) == pytest.approx(r.load, rel=5e-3)
+    assert r.cells == 96 and r.report.iterations <= 50
+
+
 def test_isoviscous_elastic():
     assert moes_film(10, 0.0, tolerance=3e-4)[2] == pytest.approx(2.655 * 10**-0.2, rel=1e-3)
     assert moes_film(50, 0.0, tolerance=3e-4)[2] == pytest.approx(2.534 * 50**-0.2, rel=1e-3)
