@@ -3,23 +3,29 @@
 There is one film, an `EHLResult`, and one solver: ``solve_line_contact(contact, effort, imposed=, start=)`` for a
 `LineContact`, or `solve_ehl` for plain numbers. It covers all regimes, from rigid bodies and constant viscosity to
 heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force on the upper surface, with the rolling
-force that the film knows. The closed forms (`rigid_cylinder`, `grubin`, `formulas`, `hertz`, `nahme`) are checks and
-starts.
+force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hertz`) are checks and starts.
 """
 
-from .conjunction import FilmHeat, Surroundings, heated_film, isothermal_heat
+from .deflection import LinePressure, hat_kernel
 from .ehl import Effort, make_problem, solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, cubic, smallest
-from .flash import FAST
 from .formulas import moes_film
 from .grid import node_positions, trapezoidal
+from .heat import (
+    FAST,
+    LARGEST,
+    SLIDING,
+    FilmHeat,
+    InletHeat,
+    Surroundings,
+    heated_film,
+    inlet_heat,
+    isothermal_heat,
+)
 from .heated_stress import heated_stress
 from .hertz import composite_modulus
-from .imposed import LinePressure
-from .inlet_heat import LARGEST, SLIDING, InletHeat, inlet_heat
-from .kernel import hat_kernel
-from .limiter import step_length
 from .line_contact import LineContact, OfLineContact
+from .newton import step_length
 from .problem import Problem
 from .reynolds import log_mean_fluidity
 from .rigid_cylinder import reduced_pressure, true_pressure

@@ -15,13 +15,13 @@ from .._base import instance, integer, number, positive
 from ..errors import CONVERGED, InputError
 from ..oil import Lubricant
 from .assemble import assemble, grid_error
+from .deflection import LinePressure, line_pressure
 from .ehl_result import EHLResult
 from .grid import FAR_INLET, make_grid, node_positions
-from .imposed import LinePressure, Seat, find_seats, line_pressure
 from .line_contact import LineContact
 from .newton import Solution, newton
-from .problem import Problem
-from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
+from .problem import Problem, Seat
+from .start import State, cold_start, find_seats, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, LAST_START, FINEST = 48, 768, 3072
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet

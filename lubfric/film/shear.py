@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..oil import Lubricant, carried_stress, shear_stress
-from .rolling import Rolling
+from .ehl_result import EHLResult, Rolling
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,8 @@ class ShearForce:
       sum, F_sh of Eq. (10).
     - ``quadrature``: estimated error of these sums, from two rules. It is large if the nodes do not resolve a pressure
       spike, whatever the error of the film.
-    - ``rolling_parts``: at high pressure the rolling force is the small difference of two parts, and this is the larger
-      one. The parts are those of rising and of falling pressure. For a film that knows the force in another way, they
-      are that of the whole film and what the spots take from it. An error of the film is that much larger in the force.
+    - ``rolling_parts``: the sum of the two parts, without sign, of which the rolling force is the difference: that of
+      the whole film, and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
@@ -45,7 +44,7 @@ class ShearForce:
 
 
 def shear_force(
-    film,
+    film: EHLResult,
     lubricant: Lubricant,
     *,
     slide_roll_ratio: float,
@@ -129,9 +128,7 @@ def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
     """∫ (h/2) dp [N/m] where the film is ``wet``, the parts by which an error of the film is felt, and the error of the
     sum."""
     if known is None:
-        rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
-        parts = max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
-        return float(np.sum(rolls)), float(parts), rolling_error(p, h, 1.0)
+        known = Rolling(float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p))), rolling_error(p, h, 1.0))
     touched = 1.0 - wet
     taken = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * touched))
     return known.force - taken, abs(known.force) + abs(taken), known.error + rolling_error(p, h, touched)

@@ -8,9 +8,10 @@ import pytest
 from scipy.integrate import quad
 
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.film import LineContact, grid, hertz, kernel, problem, reynolds, start
+from lubfric.film import LineContact, deflection, grid, hertz, problem, reynolds, start
 from lubfric.film import ehl as solve
-from lubfric.film.imposed import LinePressure, find_seats, line_deflection
+from lubfric.film.deflection import LinePressure, line_deflection
+from lubfric.film.start import find_seats
 from lubfric.oil import Lubricant
 
 E, R = 231e9, 10e-3
@@ -43,7 +44,7 @@ def test_deflection_and_its_slope_are_exact():
         breaks = [b for b in (*nodes[1:-1], x) if -1 < b < 0.9]
         integral, _ = quad(lambda s, x=x: np.interp(s, nodes, values) * math.log(abs(x - s)), -1.0, 0.9, points=breaks)
         assert u == pytest.approx(-4 / math.pi * integral, abs=1e-7)
-    np.testing.assert_allclose(found, kernel.hat_kernel(points, nodes) @ values, rtol=1e-12)
+    np.testing.assert_allclose(found, deflection.hat_kernel(points, nodes) @ values, rtol=1e-12)
     both = [line_deflection(points + d, nodes, values)[0] for d in (1e-5, -1e-5)]
     np.testing.assert_allclose(slope, (both[0] - both[1]) / 2e-5, rtol=1e-4, atol=1e-4)
 
@@ -171,7 +172,7 @@ def test_film_at_any_position():
     b = r.half_width
     middles = r.x[:-1] + 0.37 * np.diff(r.x)
     x = np.concatenate([np.linspace(-25, 25, 101) * b, middles])
-    own = kernel.hat_kernel(x / b, r.x / b) @ r.pressure * b / E
+    own = deflection.hat_kernel(x / b, r.x / b) @ r.pressure * b / E
     exact = r.approach + x**2 / (2 * R) + own + r.imposed_deflection(x)
     np.testing.assert_allclose(r.film_at(x), exact, rtol=4e-3)
     np.testing.assert_allclose(r.film_at(r.x), r.film_thickness, rtol=1e-9)
