@@ -17,11 +17,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..oil import density_ratio, log_viscosity_ratio
+from .deflection import LinePressure, line_deflection
 from .formulas import moes_film
-from .imposed import LinePressure, Seat, line_deflection
 from .line_contact import LineContact
 
 STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
+
+
+@dataclass(frozen=True)
+class Seat:
+    """A cylinder that approximates the gap which an imposed pressure leaves: ``radius`` R and ``modulus`` E' (ratios to
+    the real ones) about ``centre`` [m].
+
+    The film in that gap, and the dry contact of the film's own load, are roughly those of this cylinder. It only serves
+    to make grids and starts.
+    """
+
+    centre: float = 0.0
+    radius: float = 1.0
+    modulus: float = 1.0
 
 
 @dataclass(frozen=True)

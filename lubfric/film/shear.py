@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..oil import Lubricant, carried_stress, shear_stress
-from .rolling import Rolling
+from .ehl_result import EHLResult, Rolling
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,8 @@ class ShearForce:
       sum, F_sh of Eq. (10).
     - ``quadrature``: estimated error of these sums, from two rules. It is large if the nodes do not resolve a pressure
       spike, whatever the error of the film.
-    - ``rolling_parts``: at high pressure the rolling force is the small difference of two parts, and this is the larger
-      one. The parts are those of rising and of falling pressure. For a film that knows the force in another way, they
-      are that of the whole film and what the spots take from it. An error of the film is that much larger in the force.
+    - ``rolling_parts``: the sum of the two parts, without sign, of which the rolling force is the difference: that of
+      the whole film, and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
@@ -45,7 +44,7 @@ class ShearForce:
 
 
 def shear_force(
-    film,
+    film: EHLResult,
     lubricant: Lubricant,
     *,
     slide_roll_ratio: float,
@@ -53,17 +52,17 @@ def shear_force(
     contact_fraction,
     cavitated: str = "none",
     warm=None,
-    rolling: Rolling | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
+    ``film``: an `EHLResult`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
     the width in contact, which carries no fluid shear, averaged over each of the n - 1 cells between them. The Couette
     term reaches from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own
     heat as the first node: at any h that is the same factor) to the rupture. cavitated="striated" adds the streamers
     behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
     on the Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that
-    it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: summed.
+    it was solved with; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what the spots take; it is summed over the
+    nodes if the film does not know it (None).
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -72,7 +71,7 @@ def shear_force(
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
 
-    resistance, parts, off = _rolling(p, h, wet, rolling)
+    resistance, parts, off = _rolling(p, h, wet, film.rolling)
 
     heated = None if warm is None else warm.stress
 
@@ -129,9 +128,7 @@ def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
     """∫ (h/2) dp [N/m] where the film is ``wet``, the parts by which an error of the film is felt, and the error of the
     sum."""
     if known is None:
-        rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
-        parts = max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
-        return float(np.sum(rolls)), float(parts), rolling_error(p, h, 1.0)
+        known = Rolling(float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p))), rolling_error(p, h, 1.0))
     touched = 1.0 - wet
     taken = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * touched))
     return known.force - taken, abs(known.force) + abs(taken), known.error + rolling_error(p, h, touched)

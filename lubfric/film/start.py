@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .deflection import line_deflection
 from .grid import Grid
-from .imposed import Seat
 from .newton import Solution
-from .problem import Problem, seated_film
+from .problem import Problem, Seat, seated_film
 from .reynolds import elastic_film
+
+FLATTEST = 1e8  # radius of a seat, in radii of the cylinder
+FLAT_WINDOW = 0.8  # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
 
 
 @dataclass(frozen=True)
@@ -125,3 +129,53 @@ def refine(values: np.ndarray) -> np.ndarray:
     fine[::2] = values
     fine[1::2] = np.where(middle > 0.0, middle, mean)
     return fine
+
+
+def find_seats(problem: Problem) -> tuple[Seat, ...]:
+    """The seats of a `Problem`, the likelier one first; a single one if no pressure is imposed.
+
+    One seat is flat: it has Johnson's modulus, E' times the film's share of the load. The other is curved. Over a
+    window
+    x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is zero.
+    Its curvature is k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt. A dry contact of the half-width s then carries what a
+    cylinder of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of contact
+    and film, s² = b² + 2 h/k.
+    """
+    if problem.imposed is None:
+        return (Seat(),)
+    from scipy.optimize import brentq
+
+    imposed, radius = problem.imposed, problem.contact.radius
+    wide = problem.flat_half_width * problem.length_unit
+    reach = max(2.0 * wide + math.hypot(*_window(problem, 1.0)), float(np.abs(imposed.x).max()))
+    x = reach * np.sinh(np.linspace(-6.0, 6.0, 1201)) / 50.0
+    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.contact.e_prime
+    sine = np.sin((np.arange(64) + 0.5) * (math.pi / 64) - math.pi / 2)
+
+    def slopes(centre, window):
+        return np.interp(centre + window * sine, x, slope)
+
+    def centre_of(window):
+        return brentq(lambda centre: slopes(centre, window).sum(), -reach, reach, xtol=1e-6 * wide)
+
+    def ratio_of(window):
+        curvature = float(slopes(centre_of(window), window) @ sine) / 32.0 / window
+        return min(1.0 / (radius * curvature), FLATTEST) if curvature > 0 else FLATTEST
+
+    def surplus(log_window):
+        return log_window - math.log(math.hypot(*_window(problem, ratio_of(math.exp(log_window)))))
+
+    load = problem.contact.load_per_width
+    window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
+    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, load / (load + imposed.load))
+    curved = Seat(centre_of(window), ratio_of(window))
+    return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
+
+
+def _window(problem, ratio: float) -> tuple[float, float]:
+    """Half-width [m] of the dry contact and length [m] of the film on a cylinder of ``ratio`` radii."""
+    seated = replace(problem, seat=Seat(0.0, ratio))
+    return (
+        seated.seat_half_width * problem.length_unit,
+        math.sqrt(2.0 * seated.film_guess * ratio) * problem.length_unit,
+    )

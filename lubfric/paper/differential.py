@@ -191,7 +191,7 @@ def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
 def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, np.ndarray]:
     """Pressure and film of ``start``, stretched to the expected rupture and film and to the load."""
-    M, L = start.load_number, start.material_number
+    M, L = start.contact.M, start.contact.L
     film_unit = start.load / (start.e_prime * M)
     X = start.x * math.copysign(1.0, start.entrainment_speed) / math.sqrt(start.radius * film_unit)
     order = np.argsort(X)
