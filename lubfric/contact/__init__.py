@@ -1,11 +1,11 @@
 """The dry rough contact: the elastic half-space, its kernels and solver, and independent asperities."""
 
+from .asperities import AsperityContact, asperities_under_cylinder
 from .asperity import AsperityResult, asperity_contact, find_asperities
 from .asperity_curve import asperity_curve
 from .asperity_find import ridges
 from .asperity_separation import separation_for_load
 from .contact_curve import ContactCurve, contact_curve
-from .asperities import AsperityContact, asperities_under_cylinder
 from .flat import FlatContact, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, extended, measured, rough_bodies, whole_map
@@ -16,9 +16,9 @@ from .problem import Problem, make_problem, starting_pressure
 from .refine import refine
 from .residual import contact_residuals, length_scale
 from .result import ContactResult
-from .strips import Strips, correlation_lengths, length_or_half, one_patch, strips_of
 from .rough_contract import ContactState, Grid, RoughContact
 from .solve import solve_contact
+from .strips import Strips, correlation_lengths, length_or_half, one_patch, strips_of
 
 __all__ = [
     "AsperityResult",
@@ -48,7 +48,15 @@ __all__ = [
     "refine",
     "ridges",
     "rough_bodies",
-    "AsperityContact", "asperities_under_cylinder", "flat_contact", "BOUNDARY", "Strips", "correlation_lengths", "length_or_half", "one_patch", "strips_of",
+    "AsperityContact",
+    "asperities_under_cylinder",
+    "flat_contact",
+    "BOUNDARY",
+    "Strips",
+    "correlation_lengths",
+    "length_or_half",
+    "one_patch",
+    "strips_of",
     "semiperiodic_coefficients",
     "separation_for_load",
     "solve_contact",

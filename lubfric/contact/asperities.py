@@ -17,10 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ConvergenceError, InputError
+from ..errors import ConvergenceError
 from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
-from .hertz_strip import area_weight, centred_axis, check_strip, weighted_mean
+from .hertz_strip import area_weight, centred_axis, weighted_mean
 from .rough_contract import ContactState, Grid, RoughContact
 
 

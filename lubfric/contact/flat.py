@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ConvergenceError, InputError
+from ..errors import ConvergenceError
 from ..scene import Scene, budget
 from .asperity_curve import asperity_curve
 from .contact_curve import ContactCurve, contact_curve

@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..scene import Bodies, Scene
 from .result import ContactResult
 
 

@@ -64,11 +64,6 @@ class Strips:
         """Whether a piece is all that there is."""
         return False
 
-    @property
-    def whole(self) -> bool:
-        """Whether a piece is all that there is."""
-        return False
-
     def halved(self) -> Strips:
         """The same strips on cells half as long."""
         return replace(self, cells=self.cells.halved())
@@ -149,9 +144,7 @@ class MeasuredStrips(Strips):
 
     def _made(self, heights, spacing, note) -> Surface:
         notes = (*self._map.notes, note)
-        return replace(
-            self._map, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes
-        )
+        return replace(self._map, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes)
 
 
 @dataclass(frozen=True)
@@ -164,10 +157,6 @@ class OnePatch(Strips):
         assert self.surface is not None
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
-
-    @property
-    def whole(self) -> bool:
-        return True
 
     @property
     def whole(self) -> bool:

@@ -12,8 +12,3 @@ from .result import FrictionResult
 from .sample import Found, sampled
 from .scatter import block_error, gap_influence, line_load, strip_gap
 from .uncertainty import FIELDS, Uncertainty, UncertaintyCurve, curve_of, percent, student
-
-__all__ = [
-    *("FIELDS", "Found", "FrictionResult", "Uncertainty", "UncertaintyCurve", "block_error", "curve_of", "friction"),
-    *("gap_influence", "line_load", "missed_share", "percent", "sampled", "strip_gap", "student", "together"),
-]

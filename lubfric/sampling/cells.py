@@ -99,9 +99,7 @@ def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
 
 
-def _step(
-    prepared: Prepared, point: Point, balance: Balance, strips: Strips, index: int, enough: float
-) -> CellStep:
+def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, index: int, enough: float) -> CellStep:
     """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_CELLS` cells, it ends when the
     rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
     gap."""

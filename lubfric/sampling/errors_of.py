@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..scene import Scene
-from ..sharing import Balance, Forces, Response
+from ..scene import Scene, budget
+from ..sharing import Balance, Forces
 from .sample import Found
 from .scatter import BlockError, Scatter
 from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, load_sharing_error, percent, too_few
@@ -16,7 +16,6 @@ SHEAR = ("shear_force", "couette_force", "rolling_force")
 HEAT = ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
 AREAS = ("real_contact_area_fraction", "real_contact_area")
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
-SLOPE = 0.1  # error of the slope by which a balance is corrected
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
 TOO_SHORT = (
@@ -53,7 +52,7 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
         relative += forces.felt * numerical.film
         errors, why = _film_errors(numerical.film, forces), "no contact was met: it has no relative error"
     else:
-        error, mean_film = found.gap_error, balance.contact.mean_film
+        error, mean_film = found.friction_error, balance.contact.mean_film
         relative += response.per_film(forces, mean_film) * numerical.film
         relative += response.relative("coefficient", numerical.gap)
         errors = _contact_errors(scene, found, numerical)
@@ -85,7 +84,12 @@ def _numerical(found: Found) -> Numerical:
         film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
     forces, gap = balance.forces, 0.0
     if found.response is not None and balance.film is not None:
-        gap = effect.rest + found.second_order + SLOPE * abs(found.corrected - effect.gap) + solved.contact.gap_error
+        gap = (
+            effect.rest
+            + found.second_order
+            + budget.SLOPE * abs(found.corrected - effect.gap)
+            + solved.contact.gap_error
+        )
     read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
     by_area = 0.0
     if solved.contact.area_error and forces.total:

@@ -11,8 +11,8 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import FASTEST, Scene, told_doubts
 from ..sharing import Prepared, at_tolerance, refused
-from .answer_deterministic import deterministic_answer
 from .answer import load_sharing_answer
+from .answer_deterministic import deterministic_answer
 from .methods import with_methods
 from .result import FrictionResult
 
@@ -56,7 +56,9 @@ def friction(
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     if start is not None:
-        raise InputError("start is not taken any more: every point is solved from its scene and speed alone; leave it out")
+        raise InputError(
+            "start is not taken any more: every point is solved from its scene and speed alone; leave it out"
+        )
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):

@@ -26,10 +26,10 @@ from ..sharing import (
 from .cells import CellEffect, effect_of_cells, lost_summits
 from .missed import hidden_share, missed_share
 from .scatter import BlockError, Scatter, add_errors, scatter_of
-from .uncertainty import too_few
+from .uncertainty import FEW, MATTERS, too_few
 
-SAFETY = 1.15  # of the length that a standard error asks for
-GROWTH = 4.0  # times the length so far: a standard error from few blocks is no guide further
+SAFETY = 1.3  # of the length that a standard error asks for
+LEAST, GROWTH = 1.5, 4.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
 REFERENCES = (0.05, 0.4, 1.6)  # Moes' film of the whole load over Sq, at the speeds of reference points
@@ -71,7 +71,16 @@ class Found:
             return 0.0
         if self.response is None:
             return self.missed
-        return self.response.relative("coefficient", self.gap_error.error)
+        whole = self.response.relative("coefficient", self.gap_error.error)
+        to_first_order = self.response.per_gap("coefficient") * self.gap_error.error
+        return self.friction_error.error * (whole / to_first_order if to_first_order else 1.0)
+
+    @property
+    def friction_error(self) -> BlockError:
+        """Relative standard error of f, to first order: from place to place, and of the effect of the cells."""
+        cells, response = self.effect.error, self.response
+        per_gap = response.per_gap("coefficient") if response is not None else 0.0
+        return add_errors(self.scatter.friction, BlockError(per_gap * cells.error, cells.freedom))
 
     @property
     def corrected(self) -> float:
@@ -124,14 +133,17 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
         if solved.response is None:
             found = replace(found, missed=_missed(prepared, found, strips))
         else:
-            scatter = scatter_of(contact, solved.contact, solved.response.slopes, strips, count)
-            if effect is None:
+            scatter = scatter_of(scene, contact, solved, strips, count)
+            if effect is None and solved.film is not None:
                 effect = effect_of_cells(prepared, _point(prepared, speed, found), solved, strips)
-            found = replace(found, scatter=scatter, effect=effect.at_load(solved.contact_load))
+            found = replace(found, scatter=scatter, effect=(effect or CellEffect()).at_load(solved.contact_load))
         more = _wanted(prepared, found, strips)
         if more <= count or _too_coarse(prepared, speed, found):
             return found
-        count, start = more, None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None))
+        count, start = (
+            more,
+            None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None)),
+        )
 
 
 def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | None:
@@ -171,7 +183,7 @@ def _speed_of(scene, film: float) -> float:
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are.
 
-    It is (reached/asked)² x 1.15 times the present number, at most four times that. A standard error from few blocks is
+    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error from few blocks is
     itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough whenever its blocks
     happen to scatter little, the stated error would be too small. So the first one counts as long enough only if even 1
     + 1/sqrt(nu) times its error is within what is asked.
@@ -179,12 +191,13 @@ def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     asked, count = prepared.scene.numerics.sampling_tolerance, found.count
     reached, spots = found.sampling, found.scatter.spots
     if found.solved.response is not None and count == strips.first:
-        reached *= 1 + 1 / math.sqrt(max(found.gap_error.freedom, 1))
+        reached *= 1 + 1 / math.sqrt(max(found.friction_error.freedom, 1))
     few = found.solved.response is not None and too_few(spots, found.sampling, asked)
     if reached <= asked and not few:
         return count
-    times = SAFETY * (max(reached, asked) / asked) ** 2 if math.isfinite(reached) else GROWTH
-    return min(strips.available, max(count + 1, math.ceil(min(times, GROWTH) * count - 1e-9)))
+    enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
+    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else GROWTH
+    return min(strips.available, math.ceil(min(max(times, LEAST), GROWTH) * count - 1e-9))
 
 
 def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:

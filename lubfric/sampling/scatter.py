@@ -14,8 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact import ContactState, Strips
-from ..sharing import Slopes
+from ..contact import ContactState, HalfSpaceContact, Strips
+from ..film import EHLResult
+from ..oil import shear_stress
+from ..scene import Scene
+from ..sharing import Balance
 
 FEWEST_WINDOWS = 3
 MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
@@ -95,33 +98,36 @@ def participation(line_load, step: float, correlation_length: float) -> float:
 
 @dataclass(frozen=True)
 class Scatter:
-    """Standard errors, at given load, of what a sample of ``length`` [m] stands for: of its mean gap [m], its contact
-    area fraction of A [-] and its contact area per length [m]. ``spots``: `participation`; ``known``: whether the
-    sample is long enough for them."""
+    """Standard errors of what a sample of ``length`` [m] stands for: at given load of its mean gap [m], its contact
+    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``: `participation`.
+    """
 
     length: float
     gap: BlockError = BlockError(math.inf, 0)
     area: BlockError = BlockError(math.inf, 0)
     touched: BlockError = BlockError(math.inf, 0)
+    friction: BlockError = BlockError(math.inf, 0)
     spots: float = 0.0
 
-    @property
-    def known(self) -> bool:
-        """Whether the sample is long enough for a standard error."""
-        return math.isfinite(self.gap.error)
 
+def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
+    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half counts.
 
-def scatter_of(contact, state: ContactState, slopes: Slopes, strips: Strips, count: int) -> Scatter:
-    """The `Scatter` of ``contact``, a stack of ``count`` ``strips`` in ``state``. Of a mirrored map only half counts.
+    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no shear
+    there. Both together are one influence on f.
 
     The standard errors come from blocks along y. If there are three windows of a measured map or more, they are the
     larger of that and the ones from windows, which show whether a surface differs from place to place.
     """
+    state, response = balance.contact, balance.response
+    assert state.fields is not None and response is not None
+    slopes = response.slopes
     rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
     by_place, step = line_load(contact, state)[rows], contact.spacing[1]
-    assert state.fields is not None
     touching = state.fields.pressure[:, rows] > 0
+    touched = touching.sum(axis=0) * contact.spacing[0]
     squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
+    gap = strip_gap(contact, state)[rows]
 
     def error(values, slope: float) -> BlockError:
         influence, length = gap_influence(values, by_place, slope), strips.lengths[1]
@@ -132,13 +138,28 @@ def scatter_of(contact, state: ContactState, slopes: Slopes, strips: Strips, cou
         windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
         return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
+    of_friction = BlockError(0.0, 1)
+    if balance.film is not None and response.rates and balance.forces.total:
+        lost = _film_stress(scene, contact, balance.film) @ touching * contact.spacing[0]
+        slope = slopes.touched * float(lost.mean()) / max(float(touched.mean()), 1e-300)
+        by_load, force = response.rates["coefficient"] * response.split, balance.forces.total / scene.bodies.width
+        of_friction = error(by_load * gap - lost / force, by_load * slopes.gap - slope / force)
     return Scatter(
         by_place.size * step,
-        error(strip_gap(contact, state)[rows], slopes.gap),
+        error(gap, slopes.gap),
         error(contact.weight @ touching / contact.weight.sum(), slopes.area),
-        error(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
+        error(touched, slopes.touched),
+        of_friction,
         participation(by_place, step, strips.lengths[1]),
     )
+
+
+def _film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
+    """Shear stress [Pa] (nx,) of ``film`` at the columns of ``contact``, signed as the friction."""
+    sliding = scene.motion.slide_roll_ratio * film.entrainment_speed
+    pressure = np.interp(contact.x, film.x, film.pressure)
+    stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(contact.x))
+    return np.where(pressure > 0, np.abs(stress), 0.0)
 
 
 def mirrored(heights: np.ndarray) -> bool:

@@ -14,11 +14,3 @@ from .point import Point, Settings, Trial, exponents
 from .prepared import Prepared, at_tolerance, on_piece, on_stack, prepare, scene_of, takes_strips
 from .response import Response, Slopes, divided, grown, quantities, respond
 from .validity import Validity, entries_of, gathered, in_a_cell, refused
-
-__all__ = [
-    *("Balance", "Forces", "Heat", "Point", "Prepared", "Response", "Settings", "Slopes", "Trial", "Validity"),
-    *("at_tolerance", "divided", "entries_of", "expected", "exponents", "film_lubricant", "forces", "gathered", "grown"),
-    *("in_a_cell", "inlet_at", "judged", "of_deflection", "of_ends", "of_error", "of_film", "of_motion", "of_pressure"),
-    *("of_thickness", "on_piece", "on_stack", "point_heat", "prepare", "quantities", "refused", "respond", "scene_of"),
-    *("solve_balance", "takes_strips"),
-]

@@ -20,7 +20,7 @@ BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact sha
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a balance at another speed
 STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
 ROUNDS = 6  # each with tighter tolerances
-SETTLED = 0.1  # of ln(F_H/F_C): a response found as near as that to the balance is its own
+SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance is its own
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,10 @@ def solve_balance(
             if found.contact.volume_residual <= 0:
                 return found
             alone = found.film
-    return replace(_in_contact(Point(scene, speed, contact, _first_settings(scene)), sq, start, alone), notes=notes)
+    settings = _first_settings(scene)
+    if start is not None and start.film is not None and start.film.entrainment_speed == speed:
+        settings = start.settings or settings
+    return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
 
 
 def _dry(scene: Scene, contact: RoughContact) -> Balance:
@@ -120,7 +123,10 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)
     value: float | None = None
     closed: Balance | None = None
-    response: tuple[float, Response] | None = None
+    response = None
+    if start is not None and start.response is not None and start.film is not None:
+        if start.film.entrainment_speed == point.speed:
+            response = start.split, start.response
     for _ in range(ROUNDS):
         root = _root(point, split, slope, step, (value, last))
         trial = root.payload
@@ -167,7 +173,9 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     """
     assert start.film is not None
     load, slope = point.scene.bodies.load, start.slope
-    before, exponent, _ = exponents(replace(point.line(start.film_load), entrainment_speed=start.film.entrainment_speed))
+    before, exponent, _ = exponents(
+        replace(point.line(start.film_load), entrainment_speed=start.film.entrainment_speed)
+    )
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
     split = start.split
     for _ in range(STEPS):
@@ -221,7 +229,9 @@ def _needed(point: Point, balance: Balance, sq: float) -> Settings:
         share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
     if numerics.balance_tolerance is None:
-        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance)
+        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance) / budget.SLOPE
+        if response.split:
+            allowed = min(allowed, budget.MOST_MOVED / abs(response.split))
         volume = _tightened(volume, max(min(0.5 * allowed / mean_film, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME))
     own = point.contact.adjustable_tolerance
     if own is not None and sq > 0 and numerics.contact_tolerance is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..contact import edges, ridges
+from ..contact import ridges
 from ..film import FAST, LARGEST, SLIDING
 from ..oil import NO_LIQUID
 from .validity import Validity

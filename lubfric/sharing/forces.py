@@ -63,5 +63,4 @@ def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None) -> S
             cavitated=scene.numerics.cavitated_shear,
             contact_fraction=contact.touching,
             warm=warm,
-            rolling=film.rolling,
         )

@@ -32,7 +32,7 @@ from ..contact import check_grid as check_map
 from ..errors import InputError
 from ..scene import Scene, check_resolved_gap, resolves_gap, told_doubts
 from ..surface import Surface
-from .checks import beforehand
+from .checks_before import beforehand
 from .validity import Validity
 
 OWN = HalfSpaceContact, FlatContact, AsperityContact
