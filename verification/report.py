@@ -95,12 +95,7 @@ def outcome_dict(outcome: Outcome) -> dict:
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
         "tables": [
-            {
-                "name": t.name,
-                "caption": t.caption,
-                "columns": list(t.columns),
-                "rows": [list(r) for r in t.rows],
-            }
+            {"name": t.name, "caption": t.caption, "columns": list(t.columns), "rows": [list(r) for r in t.rows]}
             for t in outcome.tables
         ],
         "figures": [

@@ -200,10 +200,7 @@ def test_multigrid_can_be_the_compliance_itself():
     gap0 = -0.02 * (np.cos(2 * np.pi * grid.x[0]) + np.cos(2 * np.pi * grid.x[1])).ravel()
     by_waves = solve_contact(fourier_compliance(grid).displacement, grid.weights.ravel(), gap0, 0.02)
     assembled = solve_contact(
-        lambda f: solve(hierarchy, f.reshape(8, 8), tolerance=1e-11).surface.ravel(),
-        grid.weights.ravel(),
-        gap0,
-        0.02,
+        lambda f: solve(hierarchy, f.reshape(8, 8), tolerance=1e-11).surface.ravel(), grid.weights.ravel(), gap0, 0.02
     )
     assert assembled.pressure == pytest.approx(by_waves.pressure, abs=1e-6 * by_waves.pressure.max())
 

@@ -217,10 +217,7 @@ def test_solution_obeys_its_equations():
 def test_scaling_only_the_two_numbers_matter():
     one = contact(2, 5)
     other = replace(
-        one,
-        radius=3 * one.radius,
-        load_per_width=3 * one.load_per_width,
-        entrainment_speed=3 * one.entrainment_speed,
+        one, radius=3 * one.radius, load_per_width=3 * one.load_per_width, entrainment_speed=3 * one.entrainment_speed
     )
     a, b = (films(solve_ehl(c, refinements=0)[0]) for c in (one, other))
     assert a == pytest.approx(b, rel=1e-7)

@@ -11,13 +11,7 @@ from hypothesis import strategies as st
 from verification import exact
 from verification.fem.fluid import STEP, Fluid, slope
 from verification.fem.report import InputError, SolveError
-from verification.fem.reynolds import (
-    ELEMENTS,
-    Problem,
-    prolonged,
-    solve_refined,
-    solve_reynolds,
-)
+from verification.fem.reynolds import ELEMENTS, Problem, prolonged, solve_refined, solve_reynolds
 from verification.rates import fitted_order
 from verification.studies.reynolds import parabola_mesh
 from verification.studies.reynolds_surface import LENGTH, SPEED, WIDTH, Manufactured, box
@@ -152,10 +146,7 @@ def test_piezoviscous_oil_follows_from_the_reduced_pressure(law):
 
 def test_galerkin_rings_and_the_stabilised_form_does_not():
     gas = exact.Slider(1.8e-5, 200.0, 0.01, 4e-6, 2e-6)
-    fluid, mesh = (
-        Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5),
-        skfem.MeshLine(np.linspace(0, 0.01, 21)),
-    )
+    fluid, mesh = (Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5), skfem.MeshLine(np.linspace(0, 0.01, 21)))
     true = exact.gas_slider(gas, 1e5, mesh.p[0])
     peak = exact.gas_slider(gas, 1e5, np.linspace(0, 0.01, 2001)).max()
     plain = solve_reynolds(Problem(mesh, gas.film, fluid, 200.0)).at_vertices

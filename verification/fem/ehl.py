@@ -44,12 +44,7 @@ class LineContact:
     fluid: Fluid
 
     def __post_init__(self):
-        for name, unit in (
-            ("load_per_width", "N/m"),
-            ("radius", "m"),
-            ("e_prime", "Pa"),
-            ("entrainment_speed", "m/s"),
-        ):
+        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
 

@@ -67,9 +67,7 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
         mesh = mesh.refined(large)
     x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < NEAR * layout.side])
     return mesh, replace(
-        layout,
-        inlet=float(x[np.searchsorted(x, layout.inlet) - 1]),
-        outlet=float(x[np.searchsorted(x, layout.outlet)]),
+        layout, inlet=float(x[np.searchsorted(x, layout.inlet) - 1]), outlet=float(x[np.searchsorted(x, layout.outlet)])
     )
 
 

@@ -82,14 +82,7 @@ def newton(
         it,
         at.flow.inflow,
         SolveReport(
-            "full-system finite-element EHL",
-            status,
-            steps,
-            history[-1],
-            tolerance,
-            residuals,
-            tuple(history),
-            steps,
+            "full-system finite-element EHL", status, steps, history[-1], tolerance, residuals, tuple(history), steps
         ),
     )
 
@@ -98,10 +91,7 @@ def imbalance(body: Body, film: Film, it: Iterate, weights: np.ndarray) -> Imbal
     """Residuals of all equations."""
     H = film_thickness(body, it)
     return Imbalance(
-        H,
-        body.stiffness @ it.u + body.traction @ it.P,
-        assemble(film, it.P, H),
-        float(weights @ it.P / HERTZ_LOAD - 1),
+        H, body.stiffness @ it.u + body.traction @ it.P, assemble(film, it.P, H), float(weights @ it.P / HERTZ_LOAD - 1)
     )
 
 
@@ -171,7 +161,5 @@ def step_length(film: Film, P, dP, H, dH) -> float:
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
     return min(
-        1.0,
-        LARGEST_GROWTH / max(growth, LARGEST_GROWTH),
-        (1 - SMALLEST_SHARE) / max(shrinking, 1 - SMALLEST_SHARE),
+        1.0, LARGEST_GROWTH / max(growth, LARGEST_GROWTH), (1 - SMALLEST_SHARE) / max(shrinking, 1 - SMALLEST_SHARE)
     )

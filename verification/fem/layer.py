@@ -146,14 +146,7 @@ def make_layer(
     chosen = vertical[inside][np.argsort(x[inside])]
     unknowns = spread[chosen].tocsr().indices
     return Layer(
-        body,
-        right - left,
-        -bottom,
-        basis,
-        spread,
-        basis.doflocs[0, chosen],
-        (spread.T @ weights)[unknowns],
-        unknowns,
+        body, right - left, -bottom, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns
     )
 
 

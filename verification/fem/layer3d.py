@@ -21,10 +21,7 @@ from .compliance import Elastic
 from .report import CONVERGED, ITERATION_LIMIT, InputError, SolveReport
 
 ELEMENTS = {1: ElementHex1, 2: ElementHex2}
-RULES = {
-    1: np.array([1.0]),
-    2: np.array([1 / 3, 2 / 3]),
-}  # share of a cell's width by node, trapezoid and Simpson
+RULES = {1: np.array([1.0]), 2: np.array([1 / 3, 2 / 3])}  # share of a cell's width by node, trapezoid and Simpson
 
 
 @dataclass(frozen=True)
@@ -170,14 +167,7 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
     )
     x, y, z = (c - c.mean() for c in np.broadcast_arrays(x[None], y[None], z[:, None, None]))
     one, none = np.ones_like(x), np.zeros_like(x)
-    modes = [
-        (one, none, none),
-        (none, one, none),
-        (none, none, one),
-        (none, -z, y),
-        (z, none, -x),
-        (-y, x, none),
-    ]
+    modes = [(one, none, none), (none, one, none), (none, none, one), (none, -z, y), (z, none, -x), (-y, x, none)]
     B = np.array([np.stack(m, axis=-1).ravel() for m in modes]).T
     return B / np.linalg.norm(B, axis=0)
 
@@ -213,22 +203,13 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     matrix = stiffness(layer)
     B = rigid_body_modes(layer) if modes is None else modes
     hierarchy = pyamg.smoothed_aggregation_solver(
-        matrix,
-        B=B,
-        strength=("symmetric", {"theta": 0.0}),
-        smooth=("jacobi", {"omega": 4 / 3}),
-        max_coarse=50,
+        matrix, B=B, strength=("symmetric", {"theta": 0.0}), smooth=("jacobi", {"omega": 4 / 3}), max_coarse=50
     )
     return Multigrid(layer, matrix, hierarchy)
 
 
 def solve(
-    grid: Multigrid,
-    force,
-    *,
-    tolerance: float = 1e-8,
-    max_iterations: int = 100,
-    raise_on_failure: bool = True,
+    grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100, raise_on_failure: bool = True
 ) -> Solved:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 

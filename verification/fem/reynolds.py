@@ -332,11 +332,7 @@ def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
 def given_fields(problem: Problem, basis: Basis) -> dict:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
-    fields = {
-        "film": problem.film(np.asarray(x)),
-        "f": 0.0 * x[0],
-        "size": np.asarray(basis.mesh_parameters()),
-    }
+    fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
     if problem.source is not None:
         fields["f"] = problem.source(np.asarray(x))
     if problem.stabilisation != "none":

@@ -91,15 +91,7 @@ def hertz(level: str):
             errors.append(edge_mean_error(found, fine))
             off.append(norm(found, p.pressure - other) / norm(found, other))
             rows.append(
-                (
-                    f"P{degree}",
-                    found.x.size,
-                    fine,
-                    errors[-1],
-                    off[-1],
-                    p.pressure.max() / PEAK,
-                    p.report.iterations,
-                )
+                (f"P{degree}", found.x.size, fine, errors[-1], off[-1], p.pressure.max() / PEAK, p.report.iterations)
             )
         series[f"P{degree}"] = (fines, errors, 1)
         yield Check(
@@ -146,12 +138,7 @@ def hertz_checks(found: Layer, p: Contact, x, smooth, off, level: str):
     yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
     yield Check("Hertz line P2: half-width", half_width(found.x, p.pressure), B, 5e-3, HERTZ, unit="m")
     yield Check(
-        "Hertz line P2: peak pressure beside lubfric",
-        p.pressure.max(),
-        smooth.pressure.max(),
-        5e-3,
-        DRY,
-        unit="Pa",
+        "Hertz line P2: peak pressure beside lubfric", p.pressure.max(), smooth.pressure.max(), 5e-3, DRY, unit="Pa"
     )
     yield Check(
         "Hertz line P2: half-width beside lubfric",

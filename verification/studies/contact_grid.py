@@ -38,12 +38,7 @@ def contact_grid(level: str):
         CELLS[level],
         "cells in a half-width",
         32,
-        {
-            "peak pressure": (2e-4, 2),
-            "contact size": (4e-4, 2),
-            "contact area": (2e-2, 1),
-            "mean gap": (4e-4, 2),
-        },
+        {"peak pressure": (2e-4, 2), "contact size": (4e-4, 2), "contact area": (2e-2, 1), "mean gap": (4e-4, 2)},
     )
     yield from family(
         "sphere",
@@ -65,12 +60,7 @@ def contact_grid(level: str):
         CELLS[level],
         "cells in a quarter of the wave",
         32,
-        {
-            "peak pressure": (5e-4, 2),
-            "contact area": (2e-2, 1),
-            "mean gap": (3e-4, 2),
-            "pressure, L2": (1.2e-2, 1),
-        },
+        {"peak pressure": (5e-4, 2), "contact area": (2e-2, 1), "mean gap": (3e-4, 2), "pressure, L2": (1.2e-2, 1)},
     )
     yield from row_of_spheres(16)
 
@@ -210,10 +200,5 @@ def row_of_spheres(cells: int):
     )
     for name, measured, expected, unit in found:
         yield Check(
-            f"row of spheres: {name}",
-            measured,
-            expected,
-            5e-3,
-            f"{HERTZ}; neighbours 24 radii away",
-            unit=unit,
+            f"row of spheres: {name}", measured, expected, 5e-3, f"{HERTZ}; neighbours 24 radii away", unit=unit
         )

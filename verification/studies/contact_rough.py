@@ -109,10 +109,7 @@ def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
         limit=limit,
     )
     return Patch(
-        found.pressure.reshape(grid.shape),
-        found.gap.reshape(grid.shape),
-        weights,
-        np.inf if limit is None else limit,
+        found.pressure.reshape(grid.shape), found.gap.reshape(grid.shape), weights, np.inf if limit is None else limit
     )
 
 
@@ -189,11 +186,7 @@ def patch_figure(p: Patch, best: Patch):
     other, top = best.pressure[::every, ::every] / 1e9, best.pressure.max() / 1e9
     canvas, axes = plotting.axes(1, 3, width=9.0, height=3.1, sharey=True)
     ends = (0, BOX * 1e6, 0, BOX * 1e6)
-    maps = (
-        (p.pressure / 1e9, "finite elements"),
-        (other, "lubfric"),
-        (p.pressure / 1e9 - other, "difference"),
-    )
+    maps = ((p.pressure / 1e9, "finite elements"), (other, "lubfric"), (p.pressure / 1e9 - other, "difference"))
     for ax, (values, title) in zip(axes, maps, strict=True):
         reach = (0, top) if title != "difference" else np.array([-1, 1]) * np.abs(values).max()
         image = ax.imshow(
@@ -295,13 +288,7 @@ def certified(level: str):
     scale, note = np.ptp(solved.surface), f"{grid.unknowns} unknowns, {solved.report.iterations} iterations"
     source = "conjugate gradients with smoothed aggregation on the assembled layer"
     yield Check(
-        f"rough patch, {nodes}², multigrid: penetration",
-        -gap.min() / scale,
-        0,
-        1e-7,
-        source,
-        AT_MOST,
-        note=note,
+        f"rough patch, {nodes}², multigrid: penetration", -gap.min() / scale, 0, 1e-7, source, AT_MOST, note=note
     )
     opening = np.sum(p.pressure * p.weights * np.abs(gap)) / (scale * np.sum(p.pressure * p.weights))
     yield Check(f"rough patch, {nodes}², multigrid: complementarity", opening, 0, 1e-7, source, AT_MOST)

@@ -89,10 +89,7 @@ def rigid(level: str):
         f = film(RIGID_LOAD, 5.0, 0.1, "constant", least_cells=n)
         films.append(f.min_film)
         errors.append(
-            max(
-                abs(f.min_film / unit(f) * RIGID_LOAD / 2.447484 - 1),
-                abs(f.flow_film / unit(f) * RIGID_LOAD / 3 - 1),
-            )
+            max(abs(f.min_film / unit(f) * RIGID_LOAD / 2.447484 - 1), abs(f.flow_film / unit(f) * RIGID_LOAD / 3 - 1))
         )
         estimates.append(f.report.residuals["discretisation"] + f.report.residuals["domain"])
     yield Check(

@@ -82,19 +82,10 @@ def profiles(pairs: list[Pair]):
         x = np.linspace(-2.2 * edge, 1.4 * edge, 1500)
         p, h = s.at(x)
         ax.plot(
-            x / b,
-            p / s.contact.hertz_pressure,
-            color="C0",
-            label="p/p_h, finite elements",
-            linewidth=2.5,
-            alpha=0.5,
+            x / b, p / s.contact.hertz_pressure, color="C0", label="p/p_h, finite elements", linewidth=2.5, alpha=0.5
         )
         ax.plot(
-            pair.line.x / b,
-            pair.line.pressure / s.contact.hertz_pressure,
-            "k-",
-            linewidth=0.8,
-            label="p/p_h, lubfric",
+            pair.line.x / b, pair.line.pressure / s.contact.hertz_pressure, "k-", linewidth=0.8, label="p/p_h, lubfric"
         )
         ax.plot(x / b, h / k / 2, color="C1", label="h/(2 flow film), finite elements", linewidth=2.5, alpha=0.5)
         ax.plot(x / b, pair.line.film_at(x) / k / 2, "k--", linewidth=0.8, label="h/(2 flow film), lubfric")

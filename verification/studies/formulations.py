@@ -109,16 +109,7 @@ def formulations(level: str):
     yield Table(
         "formulations",
         f"Contact formulations, {COUNTS[level]} x {COUNTS[level]} cells, cold start, tolerance 1e-6. {PAPER}",
-        (
-            "case",
-            "method",
-            "status",
-            "iterations",
-            "convolutions",
-            "residual",
-            "relative L2 of pressure",
-            "seconds",
-        ),
+        ("case", "method", "status", "iterations", "convolutions", "residual", "relative L2 of pressure", "seconds"),
         tuple(rows),
     )
     yield from closures(level)

@@ -81,14 +81,7 @@ def full_film():
     exact = Parabola(made.scene.lubricant.viscosity, 20.0, b.radius, point.min_film, -1e6)
     source = "closed form, Martin 1916"
     yield Check("full film: F_H", point.film_load, exact.load * b.width, 2e-3, source, unit="N")
-    yield Check(
-        "full film: Couette force",
-        point.couette_force,
-        exact.couette * 40.0 * b.width,
-        2e-3,
-        source,
-        unit="N",
-    )
+    yield Check("full film: Couette force", point.couette_force, exact.couette * 40.0 * b.width, 2e-3, source, unit="N")
     yield Check("full film: rolling force", point.rolling_force, exact.rolling * b.width, 2e-3, source, unit="N")
 
 
@@ -123,12 +116,7 @@ def sweep():
             unit="N",
         )
         yield Check(
-            f"sweep at {speed:g} m/s: coefficient",
-            f,
-            alone.coefficient,
-            1e-3,
-            "the same speed alone",
-            unit="1",
+            f"sweep at {speed:g} m/s: coefficient", f, alone.coefficient, 1e-3, "the same speed alone", unit="1"
         )
 
 
@@ -234,20 +222,10 @@ def area_of_the_balance():
     strip, box = (np.array(loads[k]) for k in ("hertz", "box"))
     source = "the mean of a deflection that grows like ln|x| depends on the box, not over a fixed strip"
     yield Check(
-        "area A = strip: change of F_H from 45 to 180 µm",
-        float(np.ptp(strip) / strip[-1]),
-        0.0,
-        1e-6,
-        source,
-        AT_MOST,
+        "area A = strip: change of F_H from 45 to 180 µm", float(np.ptp(strip) / strip[-1]), 0.0, 1e-6, source, AT_MOST
     )
     yield Check(
-        "area A = box: change of F_H from 45 to 180 µm",
-        float(np.ptp(box) / box[-1]),
-        0.02,
-        0.0,
-        source,
-        AT_LEAST,
+        "area A = box: change of F_H from 45 to 180 µm", float(np.ptp(box) / box[-1]), 0.02, 0.0, source, AT_LEAST
     )
     yield Table(
         "area",

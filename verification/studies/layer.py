@@ -145,10 +145,7 @@ def brick_orders(level: str):
     """Three dimensions: orders of trilinear and triquadratic bricks on a wave askew to the grid."""
     exact, series = layer_compliance(K * np.sqrt(5), WAVE, BODY), {}
     for degree in (1, 2):
-        nodes, errors = (
-            2 * np.array(CELLS[level][: len(CELLS[level]) - (level != "full" and degree == 2)]),
-            [],
-        )
+        nodes, errors = (2 * np.array(CELLS[level][: len(CELLS[level]) - (level != "full" and degree == 2)]), [])
         for n in nodes:
             grid = brick(n, degree)
             x, y = grid.x
@@ -166,12 +163,7 @@ def brick_orders(level: str):
             ABSOLUTE,
         )
     yield Check(
-        f"layer of bricks Q2: compliance of a wave askew, {nodes[-1]}² nodes",
-        errors[-1],
-        0,
-        1e-3,
-        SOURCE,
-        AT_MOST,
+        f"layer of bricks Q2: compliance of a wave askew, {nodes[-1]}² nodes", errors[-1], 0, 1e-3, SOURCE, AT_MOST
     )
     yield plotting.convergence(
         "layer_bricks",
@@ -215,14 +207,7 @@ def assembled(level: str):
     yield Table(
         "layer_multigrid",
         "Conjugate gradients with smoothed aggregation on the assembled layer under random forces",
-        (
-            "element",
-            "unknowns",
-            "near-null space",
-            "iterations",
-            "residual",
-            "largest difference, wave by wave",
-        ),
+        ("element", "unknowns", "near-null space", "iterations", "residual", "largest difference, wave by wave"),
         rows,
     )
 

@@ -122,12 +122,7 @@ def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
     asked, block = scene().surface, finest // cells
     surface = lubfric.generate_surface(
-        (finest, finest),
-        LENGTH / finest,
-        sq=asked.sq,
-        acf=asked.acf,
-        correlation_length=CORRELATION,
-        seed=asked.seed,
+        (finest, finest), LENGTH / finest, sq=asked.sq, acf=asked.acf, correlation_length=CORRELATION, seed=asked.seed
     )
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
@@ -237,18 +232,7 @@ def side_by_side(points: list[Point]) -> Table:
     return Table(
         "load_sharing",
         "Load sharing side by side; the area is the share of the Hertz strip in contact.",
-        (
-            "U (m/s)",
-            "cells",
-            "by",
-            "f",
-            "F_C (N)",
-            "F_H (N)",
-            "mean gap (nm)",
-            "area",
-            "Couette (N)",
-            "rolling (N)",
-        ),
+        ("U (m/s)", "cells", "by", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "area", "Couette (N)", "rolling (N)"),
         tuple(rows),
     )
 
@@ -306,17 +290,9 @@ def pressure_figure(p: Point):
     half, contact = LENGTH / 2 * 1e6, parts.contact_fields(p.main)
     own = parts.the(p.fem.pressed, "dry contact").pressure
     largest = own.max() / 1e9
-    for ax, pressure, title in (
-        (left, own, "finite elements"),
-        (middle, contact.pressure, "lubfric"),
-    ):
+    for ax, pressure, title in ((left, own, "finite elements"), (middle, contact.pressure, "lubfric")):
         image = ax.imshow(
-            pressure.T / 1e9,
-            origin="lower",
-            extent=(-half, half, -half, half),
-            cmap="magma_r",
-            vmin=0,
-            vmax=largest,
+            pressure.T / 1e9, origin="lower", extent=(-half, half, -half, half), cmap="magma_r", vmin=0, vmax=largest
         )
         ax.set(title=title, xlabel="x (µm)", xlim=(-half / 2, half / 2))
         ax.grid(False)

@@ -95,14 +95,7 @@ def parabola(refinements: int):
     for degree in (1, 2):
         runs = [
             solve_refined(
-                Problem(
-                    parabola_mesh(50, shift=shift),
-                    e.film,
-                    Fluid(e.viscosity),
-                    e.speed,
-                    degree,
-                    cavitation=True,
-                ),
+                Problem(parabola_mesh(50, shift=shift), e.film, Fluid(e.viscosity), e.speed, degree, cavitation=True),
                 refinements,
             )
             for shift in np.arange(8) / 8
@@ -162,20 +155,12 @@ def constants(s: Solution) -> tuple[float, float, float, float]:
 def exact_constants() -> tuple[float, float, float, float]:
     """What `constants` should be."""
     e = PARABOLA
-    return (
-        e.load / load_scale(),
-        e.exit,
-        e.couette / couette_scale(),
-        e.rolling / (2 * e.speed * couette_scale()),
-    )
+    return (e.load / load_scale(), e.exit, e.couette / couette_scale(), e.rolling / (2 * e.speed * couette_scale()))
 
 
 def parabola_checks(finest: Solution, sizes, errors, degree: int):
     """Checks of one element on its finest mesh."""
-    label, source = (
-        f"parabola P{degree}",
-        "closed form with Reynolds' outlet, inlet at X = -100 (Martin 1916)",
-    )
+    label, source = (f"parabola P{degree}", "closed form with Reynolds' outlet, inlet at X = -100 (Martin 1916)")
     names = ("load", "rupture point", "Couette friction", "rolling friction")
     # the Couette integral runs over whole cells under pressure; the last one is cut by the rupture point
     cell = np.sqrt(2) * np.diff(np.sort(finest.problem.mesh.p[0]))[-1] / PARABOLA.scale

@@ -226,11 +226,7 @@ def width_figure(ratios, loads):
     ax.loglog(fine, [p.narrow_load / p.width / unit for p in pads], ":", label="infinitely narrow")
     ax.axhline(1.0, color="C1", linestyle=":", label="infinitely wide")
     ax.loglog(
-        ratios,
-        np.array(loads) / (np.array(ratios) * LENGTH) / unit,
-        "o",
-        color="C2",
-        label="finite elements, Q2",
+        ratios, np.array(loads) / (np.array(ratios) * LENGTH) / unit, "o", color="C2", label="finite elements, Q2"
     )
     ax.set(xlabel="width / length", ylabel="load per width / that of the infinitely wide pad", ylim=(3e-4, 3))
     ax.legend()

@@ -106,12 +106,7 @@ def squeeze(level: str):
     films = [marched(0.5, n) for n in (*counts, 2048)]
     in_time = np.abs(np.array(films[:-1]) / films[-1] - 1)
     yield Check(
-        "order in time",
-        fitted_order(1 / np.array(counts[-3:]), in_time[-3:]),
-        2,
-        0.2,
-        "BDF2 at equal steps",
-        AT_LEAST,
+        "order in time", fitted_order(1 / np.array(counts[-3:]), in_time[-3:]), 2, 0.2, "BDF2 at equal steps", AT_LEAST
     )
     resolutions = (0.25, 0.5, 1.0, 2.0)
     in_space = np.abs([one_step(r) for r in resolutions])
@@ -299,12 +294,7 @@ def jumps(level: str):
     """Tenfold jumps, with first steps over four decades: the steady state, or a reported failure."""
     rows: list[tuple] = []
     wrong = failed = 0
-    cases = [
-        ("entrainment_speed", 0.1),
-        ("entrainment_speed", 10.0),
-        ("load_per_width", 0.1),
-        ("load_per_width", 10.0),
-    ]
+    cases = [("entrainment_speed", 0.1), ("entrainment_speed", 10.0), ("load_per_width", 0.1), ("load_per_width", 10.0)]
     for M, L in MATRIX[level]:
         keywords, _, unit = contact(M, L)
         for name, factor in cases:
@@ -335,12 +325,7 @@ def jumps(level: str):
         tuple(rows),
     )
     yield Check(
-        "jumps that ended silently away from the steady state (M >= 1)",
-        wrong,
-        0,
-        0.0,
-        "lubfric.solve_ehl",
-        AT_MOST,
+        "jumps that ended silently away from the steady state (M >= 1)", wrong, 0, 0.0, "lubfric.solve_ehl", AT_MOST
     )
     yield Check(
         f"jumps reported as failed (M <= {HEAVIEST:g})", failed, 0, 0.0, "all of these should be solved", AT_MOST

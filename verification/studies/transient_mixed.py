@@ -58,12 +58,7 @@ def steady(model):
     point = lubfric.friction(fine)
     yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
     yield Check(
-        "held in time: drift",
-        np.ptp(held.coefficient) / point.coefficient,
-        0.0,
-        5e-4,
-        "a steady state",
-        AT_MOST,
+        "held in time: drift", np.ptp(held.coefficient) / point.coefficient, 0.0, 5e-4, "a steady state", AT_MOST
     )
     ramp = Ramp(start=0.005, end=0.15, until=4.0)
     slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
@@ -138,9 +133,7 @@ def loops(model):
     )
     right.plot(found.entrainment_speed[40:], found.friction_force[40:] / found.load[40:])
     right.set(
-        xlabel="entrainment speed (m/s)",
-        ylabel="friction force/load (-)",
-        title=f"reversing, {1e3 * period:g} ms",
+        xlabel="entrainment speed (m/s)", ylabel="friction force/load (-)", title=f"reversing, {1e3 * period:g} ms"
     )
     yield plotting.finish(
         "loops",
@@ -175,12 +168,7 @@ def stop_and_start(model):
     low = np.interp(at, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
     high = np.interp(at, found.entrainment_speed[up], found.coefficient[up])
     yield Check(
-        "start-up friction over shut-down friction at 0.04 m/s",
-        high / low,
-        1.1,
-        0.0,
-        "the film lags",
-        AT_LEAST,
+        "start-up friction over shut-down friction at 0.04 m/s", high / low, 1.1, 0.0, "the film lags", AT_LEAST
     )
     rest = found.film_load[(found.time > 9e-3) & (found.time <= 1e-2)][-1] / found.load[0]
     yield Check(
