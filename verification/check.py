@@ -194,19 +194,15 @@ class Field:
 Item = Check | Table | Figure | Field
 
 
-@dataclass(frozen=True)
-class StudyResult:
-    """All that a study found. It is for a study that returns once at its end, and does not yield as it goes."""
+def bound(name: str, error: float, limit: float, source: str, note: str = "") -> Check:
+    """The check that an error, or what is left over, is at most ``limit``."""
+    return Check(name, error, 0.0, limit, source, AT_MOST, note=note)
 
-    checks: tuple[Check, ...] = ()
-    tables: tuple[Table, ...] = ()
-    figures: tuple[Figure, ...] = ()
-    fields: tuple[Field, ...] = ()
 
-    def __iter__(self) -> Iterator[Item]:
-        kinds: tuple[Iterable[Item], ...] = (self.checks, self.tables, self.figures, self.fields)
-        for items in kinds:
-            yield from items
+def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> Iterator[Check]:
+    """A relative check of each row: (quantity, unit, measured, expected, tolerance)."""
+    for quantity, unit, measured, expected, tolerance in rows:
+        yield Check(f"{label}: {quantity}", measured, expected, tolerance, source, unit=unit, note=note)
 
 
 def file_name(name: str) -> str:
