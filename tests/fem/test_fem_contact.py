@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 from skfem import MeshTri
+from verification.rates import fitted_order
 
 from verification.fem.compliance import Elastic, curvature_number, layer_compliance
 from verification.fem.contact import solve_contact
@@ -13,7 +14,6 @@ from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels, multigrid, solve
 from verification.fem.layer_waves import fourier_compliance
 from verification.fem.report import InputError, SolveError
-from verification.rates import fitted_order
 from verification.studies import contact as line_study
 from verification.studies.contact_rough import corrected_area, half_space_patch, layer_of, press_patch
 

@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 
 pytest.importorskip("skfem")
 
+from verification.rates import fitted_order
+
 from verification.fem.ehl import LineContact, Solution, make_layout, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body, refined_displacement
 from verification.fem.ehl_film import Film, assemble, slope_jumps
 from verification.fem.fluid import Fluid
 from verification.fem.report import CONVERGED, InputError, SolveError
-from verification.rates import fitted_order
 
 ALPHA, INDEX, E_PRIME, RADIUS = 2.2e-8, 0.68, 2.2e11, 0.01
 VISCOSITY = math.exp(ALPHA * 1.96e8 / INDEX - 9.67)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
+from verification.rates import fitted_order
 
 from verification.fem.compliance import (
     Elastic,
@@ -22,7 +23,6 @@ from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve, stiffness
 from verification.fem.layer_waves import fourier_compliance
 from verification.fem.report import InputError, SolveError
-from verification.rates import fitted_order
 
 STEEL = Elastic(206e9, 0.3)
 UNIT = Elastic(1.0, 0.3)

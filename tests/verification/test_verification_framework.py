@@ -8,6 +8,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from verification.rates import fitted_order, orders
 
 from verification import __main__ as command
 from verification import plotting
@@ -24,7 +25,6 @@ from verification.check import (
     Table,
 )
 from verification.fem.report import SolveError, SolveReport
-from verification.rates import fitted_order, orders
 from verification.studies import STUDIES, Study
 
 
