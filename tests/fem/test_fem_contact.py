@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 from skfem import MeshTri
-from verification.rates import fitted_order
 
+from verification.convergence import fitted_order
 from verification.fem.compliance import Elastic, curvature_number, layer_compliance
 from verification.fem.contact import solve_contact
 from verification.fem.layer import graded_mesh, make_layer

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 pytest.importorskip("skfem")
 
-from verification.rates import fitted_order
-
+from verification.convergence import fitted_order
 from verification.fem.ehl import LineContact, Solution, make_layout, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body, refined_displacement
 from verification.fem.ehl_film import Film, assemble, slope_jumps

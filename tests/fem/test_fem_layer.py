@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
-from verification.rates import fitted_order
 
+from verification.convergence import fitted_order
 from verification.fem.compliance import (
     Elastic,
     curvature_number,

@@ -7,9 +7,9 @@ import pytest
 import skfem
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from verification.rates import fitted_order
 
 from verification import exact
+from verification.convergence import fitted_order
 from verification.fem.fluid import STEP, Fluid, slope
 from verification.fem.report import InputError, SolveError
 from verification.fem.reynolds import ELEMENTS, Problem, prolonged, solve_refined, solve_reynolds
