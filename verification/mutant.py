@@ -28,7 +28,7 @@ class Mutant:
     name: str
     what: str
     places: dict[str, Callable]
-    suite: tuple[str, ...]
+    suite: tuple[str, ...] = ()
 
 
 @contextlib.contextmanager
