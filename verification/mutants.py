@@ -109,9 +109,14 @@ def corner_axis(original):
 
 def with_oil(**lost):
     """A film solver that gets the line contact with another oil."""
-    return lambda original: (
-        lambda line, *args: original(replace(line, lubricant=replace(line.lubricant, **lost)), *args)
-    )
+
+    def broken(original):
+        def solve(line, *args, **options):
+            return original(replace(line, lubricant=replace(line.lubricant, **lost)), *args, **options)
+
+        return solve
+
+    return broken
 
 
 def in_time_without(**lost):
@@ -226,7 +231,7 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.film.contract:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
     },
     ("wiring_film",): {
-        "lubfric.ehl.solve:make_problem": (
+        "lubfric.film.levels:solve_line_contact": (
             ("film_viscosity_law", "viscosity law not passed to the film", with_oil(viscosity_law="barus")),
             ("film_density_law", "density law not passed to the film", with_oil(density_law="constant")),
             ("film_alpha", "alpha of the film not that of the scene", with_oil(pressure_viscosity_coefficient=25e-9)),
