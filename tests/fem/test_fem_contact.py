@@ -12,7 +12,7 @@ from verification.fem.contact import solve_contact
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels
 from verification.fem.layer_waves import fourier_compliance
-from verification.fem.report import InputError, SolveError
+from verification.fem.report import SolveError
 from verification.studies.contact_rough import corrected_area
 
 BODY = Elastic.from_e_prime(2.0, 0.3)
@@ -169,14 +169,6 @@ def test_corrected_area_of_discs():
 # ---- failures ----------------------------------------------------------------------------------------------------
 
 
-def test_too_few_steps_raise_with_report_and_result(coarse):
-    with pytest.raises(SolveError, match="iteration_limit") as caught:
-        press(coarse, max_iterations=1)
-    assert caught.value.report.residual > caught.value.report.tolerance
-    assert caught.value.result.pressure.shape == coarse.x.shape
-    assert not press(coarse, max_iterations=1, raise_on_failure=False).report.converged
-
-
 @pytest.mark.parametrize(
     "fault",
     [
@@ -190,26 +182,3 @@ def test_a_broken_compliance_does_not_pass(coarse, fault):
     broken = fault(coarse.compliance)
     with np.errstate(all="ignore"), pytest.raises(SolveError):
         solve_contact(lambda f: broken @ f, coarse.weights, coarse.x**2 / 2, LOAD, max_iterations=8)
-
-
-@pytest.mark.parametrize(
-    "change, word",
-    [
-        ({"load": 0.0}, "load"),
-        ({"load": np.nan}, "load"),
-        ({"limit": 0.2}, "cannot be carried"),
-        ({"limit": -1.0}, "limit"),
-        ({"tolerance": 0.0}, "tolerance"),
-        ({"gap0": np.array([0.0, np.nan])}, "gap0"),
-        ({"gap0": np.zeros((2, 2))}, "gap0"),
-        ({"weights": np.array([1.0, 0.0])}, "weights"),
-    ],
-)
-def test_bad_input_is_refused_before_any_work(change, word):
-    arguments = {"weights": np.ones(2), "gap0": np.zeros(2), "load": 1.0} | change
-
-    def never(force):
-        raise AssertionError("work was done")
-
-    with pytest.raises(InputError, match=word):
-        solve_contact(never, arguments.pop("weights"), arguments.pop("gap0"), arguments.pop("load"), **arguments)

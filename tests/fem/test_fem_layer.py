@@ -22,7 +22,7 @@ from verification.fem.compliance import (
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve, stiffness
 from verification.fem.layer_waves import fourier_compliance
-from verification.fem.report import InputError, SolveError
+from verification.fem.report import SolveError
 
 STEEL = Elastic(206e9, 0.3)
 UNIT = Elastic(1.0, 0.3)
@@ -73,12 +73,6 @@ def test_a_line_load_sees_the_layer_with_the_square_of_distance_over_thickness(p
     off = np.abs(line_load_difference(x, 1.0, body) / leading - 1)
     assert off[-1] < 1e-3
     assert fitted_order(x, off) == pytest.approx(2, abs=0.05)
-
-
-@pytest.mark.parametrize("young, poisson", [(0.0, 0.3), (np.nan, 0.3), (1.0, 0.5), (1.0, -1.0)])
-def test_impossible_bodies_are_refused(young, poisson):
-    with pytest.raises(InputError, match="allowed"):
-        Elastic(young, poisson)
 
 
 # ---- plane strain ------------------------------------------------------------------------------------------------
@@ -132,20 +126,6 @@ def test_compliance_scales_with_stiffness_and_not_with_size(young, size):
     assert other * young == pytest.approx(base, rel=1e-8)
 
 
-def test_layer_refuses_what_it_cannot_be():
-    skew = box(4)
-    skew.p[1, (skew.p[0] > 0.49) & (skew.p[1] < -0.1) & (skew.p[1] > -0.4)] += 0.03
-    with pytest.raises(InputError, match="same depths"):
-        make_layer(skew, UNIT)
-    make_layer(skew, UNIT, sides="free")
-    with pytest.raises(InputError, match="degree"):
-        make_layer(box(4), UNIT, degree=3)
-    with pytest.raises(InputError, match="surface"):
-        make_layer(box(4).translated((0.0, 1.0)), UNIT)
-    with pytest.raises(InputError, match="strip"):
-        graded_mesh(1.0, 1.0, 0.7, 0.1)
-
-
 # ---- three dimensions --------------------------------------------------------------------------------------------
 
 
@@ -190,18 +170,6 @@ def test_rigid_body_modes_strain_nothing():
     assert np.abs(left).max() < 1e-12
 
 
-def test_a_solve_cut_short_raises_with_what_it_had():
-    layer = brick(8, 1)
-    force = np.random.default_rng(5).standard_normal(layer.shape)
-    grid = multigrid(layer)
-    with pytest.raises(SolveError, match="iteration_limit") as caught:
-        solve(grid, force, max_iterations=1)
-    assert caught.value.report.residual > caught.value.report.tolerance
-    assert caught.value.result.surface.shape == layer.shape
-    kept = solve(grid, force, max_iterations=1, raise_on_failure=False)
-    assert not kept.report.converged and kept.report.iterations == 1
-
-
 def test_the_residual_is_not_taken_from_the_iteration():
     """A hierarchy of another, stiffer layer: its own residual falls, that of this layer does not."""
     layer = brick(8, 1)
@@ -209,25 +177,3 @@ def test_the_residual_is_not_taken_from_the_iteration():
     grid = multigrid(layer)
     with pytest.raises(SolveError):
         solve(replace(other, layer=layer, matrix=grid.matrix), layer.weights)
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"degree": 3},
-        {"shape": (7, 8), "degree": 2},
-        {"levels": np.array([-1.0, -0.5])},
-        {"size": (1.0, 0.0)},
-        {"levels": np.array([-1.0, -1.0, 0.0])},
-    ],
-)
-def test_impossible_bricks_are_refused(change):
-    with pytest.raises(InputError, match="allowed"):
-        replace(brick(8, 1), **change)
-
-
-@pytest.mark.parametrize("force", [np.zeros((8, 8)), np.ones((8, 7)), np.full((8, 8), np.nan)])
-def test_impossible_forces_are_refused(force):
-    grid = multigrid(brick(8, 1, layers=2))
-    with pytest.raises(InputError, match="force"):
-        solve(grid, force)

@@ -302,11 +302,12 @@ def test_orders():
 
 
 def test_a_solve_report_raises_with_what_it_has():
-    report = SolveReport("s", "stagnated", 3, 1.0, 1e-6)
+    report = SolveReport("s", "stagnated", 3, 1e-6, {"mass": 1.0, "load": 0.1})
     with pytest.raises(SolveError, match="stagnated after 3 iterations") as stop:
         report.raise_if_failed("result")
     assert stop.value.report is report and stop.value.result == "result"
-    SolveReport("s", "converged", 3, 1e-7, 1e-6).raise_if_failed()
+    assert report.residual == 1.0
+    SolveReport("s", "converged", 3, 1e-6, {"mass": 1e-7}).raise_if_failed()
 
 
 def test_processor_time_is_that_of_the_stated_core(monkeypatch):

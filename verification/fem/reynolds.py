@@ -258,16 +258,8 @@ def solve_reynolds(
         if len(history) > max_iterations:
             break
         p = p + newton_step(problem, matrix, r, p, held, cavitated)
-    report = SolveReport(
-        "Reynolds finite elements",
-        status,
-        len(history) - 1,
-        history[-1],
-        tolerance,
-        residuals,
-        tuple(history),
-        len(history) - 1,
-    )
+    steps = len(history) - 1
+    report = SolveReport("Reynolds finite elements", status, steps, tolerance, residuals, tuple(history))
     solution = Solution(problem, basis, p, r, report)
     if raise_on_failure:
         report.raise_if_failed(solution)

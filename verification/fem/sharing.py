@@ -174,16 +174,8 @@ def share_load(
     root(at, done, guess, step)
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
-    report = SolveReport(
-        "load sharing by finite elements",
-        status,
-        len(history),
-        min(history),
-        tolerance,
-        {"volume": min(history)},
-        history,
-        len(history),
-    )
+    residuals = {"volume": min(history)}
+    report = SolveReport("load sharing by finite elements", status, len(history), tolerance, residuals, history)
     found = replace(best(tried), report=report)
     if raise_on_failure:
         report.raise_if_failed(found)
