@@ -118,15 +118,8 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     out, level = options.out, options.level
     out.mkdir(parents=True, exist_ok=True)
     begun = time.perf_counter()
-    so_far = reports.Report(
-        level,
-        tuple(s.name for s in studies),
-        (),
-        False,
-        time.strftime("%Y-%m-%d %H:%M:%S %z"),
-        0.0,
-        reports.environment(),
-    )
+    names, started = tuple(s.name for s in studies), time.strftime("%Y-%m-%d %H:%M:%S %z")
+    so_far = reports.Report(level, names, (), False, started, 0.0, reports.environment())
 
     def save(report: reports.Report) -> reports.Report:
         report = replace(report, seconds=time.perf_counter() - begun)

@@ -10,9 +10,9 @@ import resource
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
 from .parent import end_with_parent
@@ -55,38 +55,25 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-@dataclass
-class Collector:
-    """Sorts what a study yields, and times its checks."""
+def collect(items: Iterable[Item], found: dict[type, list], progress: Callable[[Check], None]) -> None:
+    """Put every item of a study with its kind in ``found``.
 
-    items: dict[type, list] = field(default_factory=lambda: {k: [] for k in (Check, Table, Figure, Field)})
-    progress: Callable[[Check], None] = lambda check: None
-
-    def take(self, items, timed: bool) -> None:
-        """Take every item. The time since the one before belongs to a check that brings no time of its own."""
-        last = time.perf_counter()
-        for item in items:
-            now = time.perf_counter()
-            if isinstance(item, Check):
-                item = replace(item, seconds=now - last) if timed and item.seconds is None else item
-            last = now
-            self.add(item)
-
-    def add(self, item: Item) -> None:
-        """Put one item with its kind.
-
-        Two of one name would overwrite each other's file, or hide each other. Checks that say where they were measured
-        are told apart by that.
-        """
-        kind = type(item)
-        if kind not in self.items:
+    The time since the one before belongs to a check that brings no time of its own. Two items of one name would
+    overwrite each other's file, or hide each other. Checks that say where they were measured are told apart by that.
+    """
+    last = time.perf_counter()
+    for item in items:
+        now, kind = time.perf_counter(), type(item)
+        if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
         placed = isinstance(item, Check) and item.at
-        if not placed and any(other.name == item.name for other in self.items[kind]):
+        if not placed and any(other.name == item.name for other in found[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
-        self.items[kind].append(item)
         if isinstance(item, Check):
-            self.progress(item)
+            item = replace(item, seconds=now - last) if item.seconds is None else item
+            progress(item)
+        found[kind].append(item)
+        last = now
 
 
 def run(
@@ -99,8 +86,8 @@ def run(
     """Yield the `Outcome` of each study in order. ``announce`` is called before each, ``progress`` on each check.
 
     ``workers`` is a number of processes, with a fresh one for each study: the number of threads is read once, when
-    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and each check is told as it
-    comes.
+    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and ``progress`` sees each
+    check as it comes.
     """
     if not workers:
         for study in studies:
@@ -125,35 +112,21 @@ def quiet(check: Check) -> None:
 
 def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
-    collector = Collector(progress=progress)
+    found: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
     description = error = trace = ""
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""
-        produced = function(level, **study.options)
-        collector.take(produced, timed=inspect.isgenerator(produced))
-        if not collector.items[Check]:
+        collect(function(level, **study.options), found, progress)
+        if not found[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
         error, trace = explain(exc), traceback.format_exc()
-        progress(raised(study, error))
-    checks, tables, figures, fields = (tuple(v) for v in collector.items.values())
-    if error:
-        checks = (*checks, raised(study, error))
-    return Outcome(
-        study,
-        level,
-        description,
-        checks,
-        tables,
-        figures,
-        fields,
-        time.perf_counter() - start,
-        peak_memory(),
-        error,
-        trace,
-    )
+        found[Check].append(raised(study, error))
+        progress(found[Check][-1])
+    items, seconds = (tuple(v) for v in found.values()), time.perf_counter() - start
+    return Outcome(study, level, description, *items, seconds, peak_memory(), error, trace)
 
 
 def load(study: Study) -> Callable[[str], object]:

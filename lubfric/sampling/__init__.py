@@ -8,6 +8,7 @@ cells; `scatter` reads the standard error off one solved contact; `errors_of` an
 from .cite import together
 from .friction import friction
 from .missed import missed_share
+from .outlook import Forecast, forecast
 from .result import FrictionResult
 from .sample import Found, sampled
 from .scatter import block_error, gap_influence, line_load, strip_gap

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import asperity_curve, contact_curve, solve_contact
+from lubfric.contact import asperity_curve, contact_curve
+from lubfric.contact.solve import solve_contact
 from verification.__main__ import main
 from verification.figures import FIGURES, cylinder, flat_model, spheres
 

@@ -6,14 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from toys import EvenFilmLevel, Spring
-
-import lubfric
-from lubfric.contact import Grid
-from lubfric.errors import ITERATION_LIMIT
-from lubfric.film import LeftOut
-from lubfric.scene import budget
-from lubfric.sharing import OperatingPoint, Settings, balanced, forces
 from lubfric.sharing.grids import WORST_GRID, coarser_grids, grid_error, on_enough_cells
 from lubfric.sharing.one_grid import Stage, needed_settings, on_grid
 from lubfric.sharing.tolerances import (
@@ -25,6 +17,14 @@ from lubfric.sharing.tolerances import (
     first_film_tolerance,
     least_cells,
 )
+from toys import EvenFilmLevel, Spring
+
+import lubfric
+from lubfric.contact import Grid
+from lubfric.errors import ITERATION_LIMIT
+from lubfric.film import LeftOut
+from lubfric.scene import budget
+from lubfric.sharing import OperatingPoint, Settings, balanced, forces
 
 PAPER = lubfric.load_scene("paper")
 N = PAPER.numerics

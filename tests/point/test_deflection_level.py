@@ -3,9 +3,9 @@ told."""
 
 import numpy as np
 import pytest
+from lubfric.sharing.deflection import own_pressure_error
 
 import lubfric
-from lubfric.sharing.deflection import own_pressure_error
 
 HEAVY = (
     lubfric.load_scene("paper")

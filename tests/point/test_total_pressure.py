@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lubfric.sharing.total_pressure import mismatch, spread_of
 
 import lubfric
 from lubfric import ConvergenceError, InputError
 from lubfric.film import hat_kernel
 from lubfric.sharing import total_pressure
-from lubfric.sharing.total_pressure import mismatch, spread_of
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 HEAVY = PAPER.with_(

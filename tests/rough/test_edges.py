@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lubfric.contact.edges import ALLOWED, clear, within_reach
 
 import lubfric
-from lubfric.contact.edges import ALLOWED, clear, within_reach
 from lubfric.time.judge import judged_outputs
 
 BASE = lubfric.load_scene("paper").with_(

@@ -5,12 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lubfric.sampling.joined import joined
+from lubfric.sampling.response import Slopes, respond
 from scipy.optimize import brentq
 
 import lubfric
 from lubfric.sampling import line_friction
-from lubfric.sampling.joined import joined
-from lubfric.sampling.response import Slopes, respond
 
 TOTAL = 10.0
 

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
+from lubfric.sampling.patch_error import of_patch
 
 import lubfric
 from lubfric.sampling import line_friction, of_line
-from lubfric.sampling.patch_error import of_patch
 from lubfric.sharing import Heat, solved_as_deflected
 
 PATCH = lubfric.load_scene("paper").with_(

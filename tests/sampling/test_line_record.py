@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lubfric.sampling.line_record import LineRecord, pooled
 
 import lubfric
-from lubfric.sampling.line_record import LineRecord, pooled
 from lubfric.sharing import line_contact, solved
 
 

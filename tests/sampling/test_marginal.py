@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lubfric.sampling.marginal import Marginal, marginal, marginal_cells
 
 import lubfric
 from lubfric.contact import Grid, half_space
-from lubfric.sampling.marginal import Marginal, marginal, marginal_cells
 from lubfric.sharing import solved_as_deflected
 from verification.hostile.soak_scenes import random_scene
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from lubfric.sampling.other_cells import half_again, too_coarse
 
 import lubfric
 from lubfric.contact import half_space_contact
 from lubfric.output import main
-from lubfric.sampling.other_cells import half_again, too_coarse
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "film_deflection": "scaled"})
 CELL, LENGTH = 0.8e-6, 8e-6

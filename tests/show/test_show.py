@@ -155,7 +155,7 @@ def test_without_axes_new_ones_are_made(curve):
 
 
 def test_a_scene_prints_in_a_line_and_as_a_table_of_keys_values_and_units():
-    from lubfric.scene import Bodies
+    from lubfric.scene.bodies import Bodies
 
     oil = {"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}
     scene = SCENE.with_(lubricant=oil, motion={"speeds": np.geomspace(1e-3, 1, 40)})

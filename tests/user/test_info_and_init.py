@@ -1,11 +1,11 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import pytest
+from lubfric.sharing.validity_outlook import foretold
 
 import lubfric
 from lubfric.output import main
 from lubfric.output.describe import describe_scene
-from lubfric.sharing.validity_outlook import foretold
 
 HEAVY = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "material": "steel"},

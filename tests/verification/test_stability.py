@@ -11,7 +11,7 @@ import lubfric
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
 from lubfric.contact import half_space
 from lubfric.contact.residual import deflection_scale
-from lubfric.deterministic import solve_point
+from lubfric.deterministic.solve import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map, whole_map

@@ -11,20 +11,9 @@ import pytest
 
 from verification import __main__ as command
 from verification import plotting
-from verification.check import (
-    ABSOLUTE,
-    AT_LEAST,
-    AT_MOST,
-    KINDS,
-    RELATIVE,
-    Check,
-    Field,
-    Figure,
-    StudyResult,
-    Table,
-)
+from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Figure, Table
+from verification.convergence import Series, fitted_order
 from verification.fem.report import SolveError, SolveReport
-from verification.rates import fitted_order, orders
 from verification.studies import STUDIES, Study
 
 
@@ -38,18 +27,13 @@ def good(level):
     ax.plot([0, 1], [0, 1])
     yield plotting.finish("line", canvas, 'a "quoted" caption')
     yield Table("numbers", "caption", ("a", "b"), ((1, np.float64(2.5)), ("x", math.nan)))
-    yield Field(
-        "mesh",
-        "a triangle",
-        np.array([[0.0, 0], [1, 0], [0, 1]]),
-        {"triangle": np.array([[0, 1, 2]])},
-        {"p": np.arange(3.0)},
-    )
+    corners, cells = np.array([[0.0, 0], [1, 0], [0, 1]]), {"triangle": np.array([[0, 1, 2]])}
+    yield Field("mesh", "a triangle", corners, cells, {"p": np.arange(3.0)})
 
 
 def wrong(level):
     """A check that fails."""
-    return StudyResult(checks=(Check("off by one", 2.0, 1.0, 0.1, "arithmetic"),))
+    return [Check("off by one", 2.0, 1.0, 0.1, "arithmetic")]
 
 
 def raises(level):
@@ -63,7 +47,7 @@ def leaves(level):
 
 
 def empty(level):
-    return StudyResult()
+    return []
 
 
 def no_extra(level):
@@ -308,18 +292,22 @@ def test_names_that_become_files_are_checked():
 
 def test_orders():
     h = np.array([1, 0.5, 0.25])
-    assert np.allclose(orders(h, 3 * h**2.5), 2.5) and math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
+    assert math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
+    bent = 3 * h**2.5 + np.array([1, 0, 0])
+    assert Series("", h, bent, 2.5, "order", 1e-9, finest=2).judged().passed
+    assert not Series("", h, bent, 2.5, "order", 1e-9).judged().passed
     for errors in ([1, 0, 1], [1, math.nan, 1], [1.0]):
         with pytest.raises(ValueError, match="finite values > 0"):
             fitted_order(h[: len(errors)], errors)
 
 
 def test_a_solve_report_raises_with_what_it_has():
-    report = SolveReport("s", "stagnated", 3, 1.0, 1e-6)
+    report = SolveReport("s", "stagnated", 3, 1e-6, {"mass": 1.0, "load": 0.1})
     with pytest.raises(SolveError, match="stagnated after 3 iterations") as stop:
         report.raise_if_failed("result")
     assert stop.value.report is report and stop.value.result == "result"
-    SolveReport("s", "converged", 3, 1e-7, 1e-6).raise_if_failed()
+    assert report.residual == 1.0
+    SolveReport("s", "converged", 3, 1e-6, {"mass": 1e-7}).raise_if_failed()
 
 
 def test_processor_time_is_that_of_the_stated_core(monkeypatch):

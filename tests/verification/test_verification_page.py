@@ -7,7 +7,7 @@ from html import unescape
 
 import pytest
 
-from verification import page, plotting
+from verification import convergence, page, plotting
 from verification.check import Check, Field, Table
 from verification.report import Report, environment
 from verification.run import Outcome
@@ -35,7 +35,8 @@ pytestmark = pytest.mark.skipif(BROWSER is None, reason="no Chromium on this mac
 def html():
     """A page with everything on it: figures, wide tables, long words, failures."""
     long = "https_like_word_without_a_break_" * 4
-    figure = plotting.convergence("c", "a caption", {"P1": ([1, 0.5], [1, 0.25], 2)}, "size", "error")
+    series = [convergence.Series("P1", [1, 0.5], [1, 0.25], 2)]
+    figure = convergence.picture("c", "a caption", series, "size", "error")
     canvas, _ = plotting.axes(width=12)
     png = plotting.finish("wide", canvas, "a wide one", "png")
     checks = (

@@ -15,7 +15,7 @@ import numpy as np
 
 from lubfric.contact import ContactCurve
 from lubfric.film import shear_force, solve_ehl
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from lubfric.contact import find_asperities, solve_contact
+from lubfric.contact import find_asperities
+from lubfric.contact.solve import solve_contact
 
 from ..check import AT_LEAST, AT_MOST, Check
 from .draw import axes, image, png

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import lubfric
-from lubfric.surface import correlation_length, rms_slope
+from lubfric.surface.statistics import correlation_length, rms_slope
 
 from ..check import AT_MOST, Check
 from .draw import axes, image, png

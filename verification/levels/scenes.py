@@ -24,7 +24,12 @@ import numpy as np
 
 from lubfric.film import hertz
 from lubfric.oil import Lubricant
-from lubfric.scene import Bodies, ContactDomain, Motion, Numerics, Roughness, Scene
+from lubfric.scene.bodies import Bodies
+from lubfric.scene.contact import ContactDomain
+from lubfric.scene.motion import Motion
+from lubfric.scene.numerics import Numerics
+from lubfric.scene.roughness import Roughness
+from lubfric.scene.scene import Scene
 
 from ..parts import the
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import lubfric
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
 
 from ..check import AT_MOST, TOLD, Check, Item, Table
 from ..frame import Command

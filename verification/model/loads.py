@@ -15,7 +15,10 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import DeterministicResult, Problem, Start, layer, solve_point, state_on
+from lubfric.deterministic import Start, layer, state_on
+from lubfric.deterministic.problem import Problem
+from lubfric.deterministic.result import DeterministicResult
+from lubfric.deterministic.solve import solve_point
 
 from .. import kept
 from ..check import AT_MOST, Check, Item, Table

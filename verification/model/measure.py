@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import lubfric
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
 from lubfric.sharing import Prepared
 
 from .. import kept

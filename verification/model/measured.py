@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
 from lubfric.sharing import Prepared
 
 from .. import kept
