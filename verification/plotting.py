@@ -42,6 +42,16 @@ def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.
         return canvas, canvas.subplots(rows, columns, **options)
 
 
+def panels(count: int, columns: int, width: float, height: float):
+    """A figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    canvas, grid = axes(rows, columns, width, height * rows + 0.4, squeeze=False)
+    for spare in grid.flat[count:]:
+        spare.set_axis_off()
+    return canvas, grid.ravel()[:count]
+
+
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
