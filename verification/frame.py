@@ -98,12 +98,12 @@ def campaign(
 
 
 def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
-    """The study as the options want it. That of a campaign keeps its rows in a folder of its own."""
+    """The study as the options want it. Those of a campaign keep their rows in one folder for each level."""
     study = command.prepared(study, options)
     if not command.campaign:
         return study
-    folder = options.out / f"{study.name}-{options.level}"
-    return replace(study, options=study.options | {"run": kept.Run(folder, options.workers)})
+    run = kept.Run(options.out / f"kept-{options.level}", options.workers, study.name)
+    return replace(study, options=study.options | {"run": run})
 
 
 def parser(command: Command) -> argparse.ArgumentParser:

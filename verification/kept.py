@@ -30,19 +30,21 @@ class OtherCode(RuntimeError):
 
 @dataclass(frozen=True)
 class Run:
-    """How a campaign runs: the folder that keeps its rows (None: nowhere), and the number of processes."""
+    """How a part of a campaign runs: the folder that keeps its rows (None: nowhere), the number of processes, and the
+    name of its file."""
 
     folder: Path | None = None
     workers: int = 1
+    name: str = "rows"
 
     def solved(
-        self, cases: Mapping[str, Case], solve: Callable[[Case], Any], name: str = "rows"
+        self, cases: Mapping[str, Case], solve: Callable[[Case], Any], name: str = ""
     ) -> Iterator[tuple[Case, Any]]:
         """(case, ``solve(case)``) of every case in order, the row in plain types with NaN as None.
 
-        ``solve`` is a function that another process can import. The rows are kept in the file ``name`` of the folder.
+        ``solve`` is a function that another process can import. The rows are kept in a file of that ``name``.
         """
-        file = None if self.folder is None else self.folder / f"{name}.jsonl"
+        file = None if self.folder is None else self.folder / f"{name or self.name}.jsonl"
         known = {} if file is None else begin(file)
         missing = [key for key in cases if key not in known]
         with _mapped(min(self.workers, len(missing))) as mapped:

@@ -80,9 +80,7 @@ def targets() -> tuple[Target, ...]:
             CONTACT,
             contact_keys | {"gap0": FIELD, "e_prime": NUMBER[:-4], "boundary": WORD[:-2], "start": FIELD},
         ),
-        Target(
-            "solve_ehl", lubfric.solve_ehl, FILM, dict.fromkeys(FILM, NUMBER) | {"entrainment_speed": SIGNED_NUMBER}
-        ),
+        Target("solve_ehl", lubfric.solve_ehl, FILM, film),
         Target(
             "friction",
             lubfric.friction,
