@@ -52,6 +52,13 @@ def panels(count: int, columns: int, width: float, height: float):
     return canvas, grid.ravel()[:count]
 
 
+def image(canvas, ax, field, extent, label: str, **options):
+    """A map (nx, ny) with x to the right and a labelled colour bar."""
+    shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
+    ax.grid(False)
+    canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)
+
+
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
