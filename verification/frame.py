@@ -176,7 +176,7 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     try:
         for outcome in run(studies, level, tell_check, lambda s: tell_study(s, so_far.selected), workers):
             so_far = save(replace(so_far, outcomes=(*so_far.outcomes, reports.save_files(outcome, out))))
-            if command.campaign and options.docs:
+            if command.campaign and options.docs and not outcome.error:
                 put_tables(command, outcome, options)
     except KeyboardInterrupt:
         interrupted = True

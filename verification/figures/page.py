@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..check import Check
-from ..tables.source import source
+from ..tables.pages import source
 
 DOCUMENT = """# The figures of the paper, computed here
 
