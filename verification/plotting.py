@@ -71,7 +71,7 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
+def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160) -> Figure:
     """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
     import matplotlib
 
@@ -81,7 +81,7 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
-        canvas.savefig(stream, format=format, dpi=160, metadata={"Date": None} if format == "svg" else None)
+        canvas.savefig(stream, format=format, dpi=dpi, metadata={"Date": None} if format == "svg" else None)
     return Figure(name, caption, stream.getvalue(), format)
 
 
