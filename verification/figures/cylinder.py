@@ -198,7 +198,8 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
         "fig9",
         "Fig. 9: contact pressure at 0.001 m/s",
         f"Almost all of the load is carried by few, small contact spots: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
-        f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. {reached if top2 >= 6e9 else ''}",
+        f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. "
+        f"{reached if top2 >= 6e9 else ''}",
         "The paper's surface is not published. On the smooth (Gaussian) surrogate the highest pressure is "
         f"{top1 / 1e9:.1f} GPa. Only the sharper summits of the exponential one yield. The dashed lines are the Hertz "
         "strip, over which Eq. (8) is balanced. Contact reaches beyond it, because summits stand up to three Sq above "
