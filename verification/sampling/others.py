@@ -18,6 +18,7 @@ from ..plotting import axes, finish
 from . import SEED
 from .coverage import ENDLESS, SPEEDS, chance, solve, truths, within
 
+MAP = (1600, 1600)  # cells
 MAPS = {"quick": 1, "default": 2, "full": 6}
 PIECES, ASKED = (0.85, 0.99), 0.02  # bounds of the coverage by pieces; their standard error
 GENERATED = ("sq", "correlation_length")  # keys that do not go with a file
@@ -58,7 +59,7 @@ def piece(case: tuple) -> dict:
     else:
         scene, contact, speed = lubfric.load_scene("paper"), {"shape": None, "spacing": None}, 0.02
         keys = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
-        whole = lubfric.generate_surface((1600, 1600), 0.45e-6, **keys)
+        whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
     if place is not None:
         nx, ny = heights.shape[0] // cuts[0], heights.shape[1] // cuts[1]
