@@ -79,21 +79,21 @@ def main(command: Command, argv: list[str]) -> int:
 def campaign(
     name: str,
     summary: str,
-    parts: Sequence[tuple[str, str, str]],
+    parts: Sequence[tuple[str, str, str, dict[str, Any]]],
     levels: tuple[str, ...] = LEVELS,
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
     own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda part, options: {},
 ) -> Command:
-    """A command whose ``parts`` are (name, "module:function" in this package, title).
+    """A command whose ``parts`` are (name, "module:function" in this package, title, keywords).
 
-    Each is ``function(level, run=..., **own)`` with a `kept.Run` and its ``own(name, options)``; it yields what a study
-    does.
+    Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does. ``own(name,
+    options)`` are more keywords.
     """
 
     def prepared(study: Study, options: argparse.Namespace) -> Study:
         return replace(study, options=study.options | own(study.name, options))
 
-    studies = tuple(Study(part, f"verification.{target}", title, levels) for part, target, title in parts)
+    studies = tuple(Study(part, f"verification.{target}", title, levels, keys) for part, target, title, keys in parts)
     return Command(name, summary, studies, f"out/{name}", levels, 1, add_options, prepared, campaign=True)
 
 
@@ -155,16 +155,8 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     """Run the studies. The report is written after every one, so that a killed process loses only the one at work."""
     out, level = options.out, options.level
     out.mkdir(parents=True, exist_ok=True)
-    begun = time.perf_counter()
-    so_far = reports.Report(
-        level,
-        tuple(s.name for s in studies),
-        (),
-        False,
-        time.strftime("%Y-%m-%d %H:%M:%S %z"),
-        0.0,
-        reports.environment(),
-    )
+    begun, now = time.perf_counter(), time.strftime("%Y-%m-%d %H:%M:%S %z")
+    so_far = reports.Report(level, tuple(s.name for s in studies), (), False, now, 0.0, reports.environment())
 
     def save(report: reports.Report) -> reports.Report:
         report = replace(report, seconds=time.perf_counter() - begun)

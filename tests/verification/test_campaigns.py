@@ -125,7 +125,7 @@ def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
 
 def test_a_piece_is_its_part_of_the_map(tmp_path, monkeypatch):
     seen = []
-    monkeypatch.setattr(others, "MAP", (96, 81))
+    monkeypatch.setattr(others, "MAP", (192, 162))
     monkeypatch.setattr(others, "solve", lambda scene, speed, asked: seen.append(np.load(scene.surface.file)))
     for place in (None, *np.ndindex(2, 3)):
         others.piece(("", 3, (2, 3), place))

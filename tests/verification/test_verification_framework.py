@@ -252,7 +252,7 @@ def test_nothing_that_is_not_a_number_passes(kind, measured):
         {"expected": math.nan},
         {"tolerance": -1},
         {"tolerance": math.inf},
-        {"source": " "},
+        {"source": ""},
         {"expected": 0},
     ],
 )

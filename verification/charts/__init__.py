@@ -23,10 +23,8 @@ CHARTS = {
 
 def main(argv: list[str]) -> int:
     """The command."""
-    parts = [(name, "charts:chart", title) for name, title in CHARTS.items()]
-    own = {name: {"name": name} for name in CHARTS}
-    command = frame.campaign("charts", __doc__, parts, ("full", "quick"), own=lambda part, options: own[part])
-    return frame.main(command, argv)
+    parts = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
+    return frame.main(frame.campaign("charts", __doc__, parts, ("full", "quick")), argv)
 
 
 def chart(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

@@ -32,9 +32,8 @@ FIGURES = {
 
 def main(argv: list[str]) -> int:
     """The command."""
-    own = {name: {"name": name} for name in FIGURES}
-    parts = [(name, "figures:figure", name) for name in FIGURES]
-    command = frame.campaign("figures", __doc__, parts, ("full", "quick"), own=lambda part, options: own[part])
+    parts = [(name, "figures:figure", name, {"name": name}) for name in FIGURES]
+    command = frame.campaign("figures", __doc__, parts, ("full", "quick"))
     return frame.main(replace(command, finished=_document), argv)
 
 

@@ -11,11 +11,11 @@ from argparse import ArgumentParser, Namespace
 from .. import frame
 
 PARTS = (
-    ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line"),
-    ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map"),
-    ("quantities", "sampling.others:quantities", "Every other number beside its stated error"),
-    ("bias", "sampling.others:bias", "Bias and scatter of one patch against its length"),
-    ("cost", "sampling.others:cost", "Processor time against the error of f"),
+    ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line", {}),
+    ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map", {}),
+    ("quantities", "sampling.others:quantities", "Every other number beside its stated error", {}),
+    ("bias", "sampling.others:bias", "Bias and scatter of one patch against its length", {}),
+    ("cost", "sampling.others:cost", "Processor time against the error of f", {}),
 )
 SEED = 240_000
 

@@ -16,18 +16,15 @@ from ..kept import Run
 
 MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing", "whole": "One gap, one pressure"}
 PARTS = (
-    *((name, "stability:stability_map", title) for name, title in MAPS.items()),
-    ("bad-inputs", "hostile:bad_inputs", "Bad input"),
-    ("soak", "hostile.soak:soak", "Random scenes"),
+    *((name, "stability:stability_map", title, {"name": name}) for name, title in MAPS.items()),
+    ("bad-inputs", "hostile:bad_inputs", "Bad input", {}),
+    ("soak", "hostile.soak:soak", "Random scenes", {}),
 )
 
 
 def main(argv: list[str]) -> int:
     """The command."""
-    levels = ("full", "quick")
-    own = {name: {"name": name} for name in MAPS}
-    command = frame.campaign("stability", __doc__, PARTS, levels, own=lambda part, options: own.get(part, {}))
-    return frame.main(command, argv)
+    return frame.main(frame.campaign("stability", __doc__, PARTS, ("full", "quick")), argv)
 
 
 def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

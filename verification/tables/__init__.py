@@ -23,10 +23,8 @@ TABLES: dict[str, Callable[[], Cells]] = measured.TABLES | studies.TABLES
 
 def main(argv: list[str]) -> int:
     """The command."""
-    parts = [(name, "tables:written", caption(name)) for name in TABLES]
-    own = {name: {"name": name} for name in TABLES}
-    command = frame.campaign("tables", __doc__, parts, ("default",), _options, lambda part, options: own[part])
-    return frame.main(command, argv)
+    parts = [(name, "tables:written", caption(name), {"name": name}) for name in TABLES]
+    return frame.main(frame.campaign("tables", __doc__, parts, ("default",), _options), argv)
 
 
 def caption(name: str) -> str:
