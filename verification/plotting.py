@@ -39,6 +39,23 @@ def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.
         return canvas, canvas.subplots(rows, columns, **options)
 
 
+def panels(count: int, columns: int, width: float, height: float):
+    """A figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    canvas, grid = axes(rows, columns, width, height * rows + 0.4, squeeze=False)
+    for spare in grid.flat[count:]:
+        spare.set_axis_off()
+    return canvas, grid.ravel()[:count]
+
+
+def image(canvas, ax, field, extent, label: str, **options):
+    """A map (nx, ny) with x to the right and a labelled colour bar."""
+    shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
+    ax.grid(False)
+    canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)
+
+
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
@@ -51,7 +68,7 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
+def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160) -> Figure:
     """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
     import matplotlib
 
@@ -61,7 +78,7 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
-        canvas.savefig(stream, format=format, dpi=160, metadata={"Date": None} if format == "svg" else None)
+        canvas.savefig(stream, format=format, dpi=dpi, metadata={"Date": None} if format == "svg" else None)
     return Figure(name, caption, stream.getvalue(), format)
 
 

@@ -66,16 +66,15 @@ class Report:
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""
-        known = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
-        studies = [outcome_dict(o) for o in self.outcomes]
-        return finite({"format": FORMAT} | {name: getattr(self, name) for name in known} | {"studies": studies})
+        shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
+        values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
+        return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
 
 
 def outcome_dict(outcome: Outcome) -> dict:
     """One study for report.json."""
-    name = outcome.study.name
     return {
-        "name": name,
+        "name": outcome.study.name,
         "title": outcome.study.title,
         "description": outcome.description,
         "passed": outcome.passed,
@@ -84,9 +83,13 @@ def outcome_dict(outcome: Outcome) -> dict:
         "error": outcome.error,
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
-        "tables": [vars(t) for t in outcome.tables],
-        "figures": [{"file": file_of(name, f.name, f.format), "caption": f.caption} for f in outcome.figures],
-        "fields": [{"file": file_of(name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
+        "tables": [
+            {"name": t.name, "caption": t.caption, "columns": t.columns, "rows": t.rows} for t in outcome.tables
+        ],
+        "figures": [
+            {"file": file_of(outcome.study.name, f.name, f.format), "caption": f.caption} for f in outcome.figures
+        ],
+        "fields": [{"file": file_of(outcome.study.name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
     }
 
 
@@ -156,8 +159,8 @@ def terminal_table(report: Report) -> str:
     lines = []
     for outcome in report.outcomes:
         lines += [f"{outcome.study.name}: {outcome.study.title} ({seconds(outcome.seconds)})"]
+        width = max((len(c.name) for c in listed(outcome.checks)), default=0)
         shown = listed(outcome.checks)
-        width = max((len(c.name) for c in shown), default=0)
         if len(shown) < len(outcome.checks):
             lines += [f"  {len(outcome.checks)} checks, {sum(c.failed for c in outcome.checks)} failed"]
         for c in shown:

@@ -19,6 +19,7 @@ from .parent import end_with_parent
 from .studies import Study
 
 EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
+Progress = Callable[[Check], None]
 INSTALL = 'pip install "lubfric[verification]"'
 
 
@@ -55,39 +56,37 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-def collect(items: Iterable[Item], found: dict[type, list], progress: Callable[[Check], None]) -> None:
-    """Put every item of a study with its kind in ``found``.
-
-    The time since the one before belongs to a check that brings no time of its own. Two items of one name would
-    overwrite each other's file, or hide each other. Checks that say where they were measured are told apart by that.
-    """
+def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progress: Progress) -> None:
+    """Put every item of a study with its kind in ``found``. The time since the one before belongs to a check that
+    brings no time of its own."""
     last = time.perf_counter()
     for item in items:
         now, kind = time.perf_counter(), type(item)
         if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
+        # two of one name would hide each other, or overwrite each other's file; where they were measured tells checks apart
         placed = isinstance(item, Check) and item.at
         if not placed and any(other.name == item.name for other in found[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
         if isinstance(item, Check):
-            item = replace(item, seconds=now - last) if item.seconds is None else item
+            item = replace(item, seconds=now - last) if timed and item.seconds is None else item
             progress(item)
         found[kind].append(item)
         last = now
 
 
+def quiet(check: Check) -> None:
+    """Progress that nobody watches."""
+
+
 def run(
-    studies,
-    level: str,
-    progress: Callable[[Check], None] = lambda check: None,
-    announce: Callable[[Study], None] = lambda study: None,
-    workers: int = 0,
+    studies, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None, workers=0
 ) -> Iterator[Outcome]:
     """Yield the `Outcome` of each study in order. ``announce`` is called before each, ``progress`` on each check.
 
     ``workers`` is a number of processes, with a fresh one for each study: the number of threads is read once, when
-    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and ``progress`` sees each
-    check as it comes.
+    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and each check is told as it
+    comes.
     """
     if not workers:
         for study in studies:
@@ -106,11 +105,7 @@ def run(
             yield outcome
 
 
-def quiet(check: Check) -> None:
-    """Progress that nobody watches."""
-
-
-def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outcome:
+def run_one(study: Study, level: str, progress: Progress) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
     found: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
@@ -118,15 +113,16 @@ def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outc
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""
-        collect(function(level, **study.options), found, progress)
+        produced = function(level, **study.options)
+        collected(produced, inspect.isgenerator(produced), found, progress)
         if not found[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
         error, trace = explain(exc), traceback.format_exc()
+        progress(raised(study, error))
         found[Check].append(raised(study, error))
-        progress(found[Check][-1])
-    items, seconds = (tuple(v) for v in found.values()), time.perf_counter() - start
-    return Outcome(study, level, description, *items, seconds, peak_memory(), error, trace)
+    items = (tuple(items) for items in found.values())
+    return Outcome(study, level, description, *items, time.perf_counter() - start, peak_memory(), error, trace)
 
 
 def load(study: Study) -> Callable[[str], object]:

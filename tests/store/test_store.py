@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric._base import FolderLock, read_checked, write_checked, write_whole
-from lubfric.output.record import command_line as cli
+from lubfric.output import command_line as cli
 from lubfric.sharing import prepare
 from lubfric.studies import Records, decode, encode, fingerprint
 from lubfric.studies.codec import from_plain, to_plain

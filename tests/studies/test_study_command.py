@@ -128,7 +128,7 @@ def test_bad_options_are_one_line(tmp_path, capsys, arguments):
 
 
 def test_a_table_that_cannot_be_written_is_told_before_any_point(tmp_path, monkeypatch, capsys):
-    from lubfric.output.record import run_study as command
+    from lubfric.output import run_study as command
     from lubfric.studies import tables
 
     def missing(name):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.output.record import command_line as cli
+from lubfric.output import command_line as cli
 from lubfric.scene import Harmonic, Ramp
 
 BASE = lubfric.load_scene("flat").with_(

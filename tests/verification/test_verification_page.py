@@ -45,45 +45,20 @@ def html():
     )
     table = Table("t", "a wide table", [f"column {i}" for i in range(12)], [[i / 7 for i in range(12)]])
     field = Field("f", "pressure", [[0.0, 0.0]], {})
+    trace, words = "Traceback\n  " + "x" * 300, "Words.\n\nMore words."
+    study, drawn = Study("s", "m:f", "A study"), (figure, png)
     outcome = Outcome(
-        Study("s", "m:f", "A study"),
-        "quick",
-        "Words.\n\nMore words.",
-        checks,
-        (table,),
-        (figure, png),
-        (field,),
-        1.0,
-        2**30,
-        "SolveError: " + long,
-        "Traceback\n  " + "x" * 300,
+        study, "quick", words, checks, (table,), drawn, (field,), 1.0, 2**30, f"SolveError: {long}", trace
     )
     return page.render(Report("quick", ("s", "later"), (outcome,), False, "2026-01-01", 1.0, environment()))
 
 
 def browse(folder, page, *options):
     """Run the browser on a page in ``folder``, cut off from any network."""
-    return subprocess.run(
-        [
-            BROWSER,
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--hide-scrollbars",
-            "--no-first-run",
-            "--disable-dev-shm-usage",
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            f"--user-data-dir={folder / 'profile'}",
-            "--enable-logging=stderr",
-            "--virtual-time-budget=5000",
-            *options,
-            (folder / page).as_uri(),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
+    quiet = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --disable-dev-shm-usage".split()
+    quiet += ["--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--virtual-time-budget=5000"]
+    line = [BROWSER, *quiet, f"--user-data-dir={folder / 'profile'}", *options, (folder / page).as_uri()]
+    return subprocess.run(line, capture_output=True, text=True, timeout=60, check=True)
 
 
 @pytest.mark.parametrize("width", [390, 1200])
