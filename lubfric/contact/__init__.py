@@ -11,13 +11,13 @@ from .height_map import check_grid, contact_map, extended, measured, rough_bodie
 from .hertz_strip import weighted_mean
 from .kernels import semiperiodic_coefficients
 from .make import rough_contact
-from .operator import HalfSpace, _even_transform, half_space
+from .operator import HalfSpace, half_space
 from .problem import Problem, make_problem, starting_pressure
 from .refine import refine
-from .residual import contact_residuals, length_scale
-from .result import ContactResult
+from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, Grid, RoughContact
 from .solve import solve_contact
+from .transforms import even_transform
 
 __all__ = [
     "AsperityResult",
@@ -30,7 +30,7 @@ __all__ = [
     "HalfSpaceContact",
     "Problem",
     "RoughContact",
-    "_even_transform",
+    "even_transform",
     "asperity_contact",
     "asperity_curve",
     "check_grid",

@@ -1,8 +1,8 @@
-"""Deflection under a loaded strip of the free axis, with every wave along the periodic axis computed only as far as it
-reaches.
+"""Fourier transforms of patches: waves, even symbols, and the deflection under a loaded strip of a patch.
 
-A wave k along y decays like exp(-k x). So for all but the longest waves, a padded length far below twice the patch is
-enough for no image to reach the patch. Waves of similar reach are transformed together.
+A strip is some neighbouring rows of a free axis x beside a periodic y. There a wave k along y decays like exp(-k x).
+So for all but the longest waves, a padded length far below twice the patch is enough for no image to reach the patch.
+Waves of similar reach are transformed together.
 """
 
 from __future__ import annotations
@@ -12,9 +12,52 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
+PADDED = 131072  # waves of a block of padded columns
 NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
 WORTH = 2e4  # values that a transform of their own is worth
 ROUND = 8  # rows: strips of nearly the same width share their transforms
+
+
+def wavenumber(shape, spacing) -> np.ndarray:
+    """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
+    kx, ky = (2 * np.pi * fft.rfftfreq(n, d) for n, d in zip(shape, spacing))
+    return np.hypot(kx[:, None], ky)
+
+
+def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.ndarray:
+    """Real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of ``length``."""
+    c = np.moveaxis(coefficients, axis, 0)
+    even = np.zeros((length, *c.shape[1:]))
+    even[: len(c)] = c
+    even[length - len(c) + 1 :] = c[:0:-1]
+    return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))
+
+
+def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
+    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
+
+    Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
+    columns stays in the cache.
+    """
+    (nx, ny), (mx, my) = field.shape, padded
+    spectrum = fft.rfft(field, n=my, axis=1, workers=workers)
+    if mx == nx:
+        spectrum = _multiplied(spectrum, symbol, mx, workers)
+    else:
+        width = max(1, PADDED // mx)
+        for first in range(0, spectrum.shape[1], width):
+            part = np.s_[:, first : first + width]
+            spectrum[part] = _multiplied(spectrum[part], symbol[part], mx, workers)[:nx]
+    spectrum = fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)
+    return spectrum if my == ny else spectrum[:, :ny].copy()  # a part would hold on to the whole
+
+
+def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
+    """Columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written over."""
+    waves, half = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True), length // 2 + 1
+    waves[:half] *= symbol
+    waves[half:] *= symbol[(length - 1) // 2 : 0 : -1]
+    return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)
 
 
 @dataclass(frozen=True)
@@ -42,11 +85,7 @@ class Strip:
         spectrum = fft.rfft(pressure, axis=1, workers=self.workers)
         total = np.zeros((self.rows, spectrum.shape[1]), spectrum.dtype)
         for group in self.groups:
-            part = fft.fft(spectrum[:, group.columns], n=group.length, axis=0, workers=self.workers)
-            half = group.length // 2 + 1
-            part[:half] *= group.symbol
-            part[half:] *= group.symbol[(group.length - 1) // 2 : 0 : -1]
-            part = fft.ifft(part, axis=0, workers=self.workers, overwrite_x=True)
+            part = _multiplied(spectrum[:, group.columns], group.symbol, group.length, self.workers)
             before = min(first, group.reach)
             after = min(self.rows, first + count + group.reach) - first
             total[first : first + after, group.columns] = part[:after]
@@ -68,11 +107,8 @@ def strip(kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=
         few = not short.size or short[0] * count < WORTH or (reaches.size - begin - short[0]) * count < WORTH
         end = reaches.size if few else begin + int(short[0])
         length = fft.next_fast_len(min(count + (1 + beyond) * reach, 2 * farthest + 1))
-        even = np.zeros((length, end - begin))
-        lags = min(reach, farthest, (length - 1) // 2)
-        even[: lags + 1] = kernel[: lags + 1, begin:end]
-        even[length - lags :] = kernel[lags:0:-1, begin:end]
-        symbol = np.ascontiguousarray(fft.rfft(even, axis=0).real).astype(dtype)
+        lags = min(reach, farthest, (length - 1) // 2) + 1
+        symbol = even_transform(kernel[:lags, begin:end], length).astype(dtype)
         groups.append(Group(slice(begin, end), reach, length, symbol))
         begin = end
     return Strip((count, ny), rows, tuple(groups), workers)
