@@ -1,9 +1,8 @@
 """The dry rough contact: the elastic half-space, its kernels and solver, and independent asperities."""
 
-from .asperity import AsperityResult, asperity_contact, find_asperities
+from .asperity import AsperityResult, asperity_contact, find_asperities, separation_for_load
 from .asperity_curve import asperity_curve
 from .asperity_find import ridges
-from .asperity_separation import separation_for_load
 from .contact_curve import ContactCurve, contact_curve
 from .flat import FlatContact
 from .half_space import HalfSpaceContact, half_space_contact
