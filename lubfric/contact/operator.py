@@ -13,7 +13,7 @@ from scipy import fft
 from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
-from .transforms import Strip, even_transform, filtered, rounded, strip, wavenumber
+from .transforms import Strip, even_transform, filtered, rounded, wavenumber
 
 KINDS = ("periodic", "free")
 NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
@@ -63,7 +63,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     def _strip(self, *rows: int) -> Strip:
         kept = self.symbol.dtype, self.workers
-        return self._once(("strip", *rows), lambda: strip(self._kernel, self.shape[1], *rows, *kept))
+        return self._once(("strip", *rows), lambda: Strip(self._kernel, self.shape[1], *rows, *kept))
 
     @cached_property
     def _kernel(self) -> np.ndarray:

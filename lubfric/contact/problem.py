@@ -62,24 +62,20 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
     if operator is None:
         operator = half_space(gap0.shape, spacing, e_prime, boundary)
     else:
-        _check_operator(
-            operator,
-            gap0.shape,
-            validate.spacing("spacing", spacing),
-            validate.positive("e_prime", e_prime, "Pa"),
-            boundary,
-        )
+        asked = {
+            "shape": gap0.shape,
+            "spacing": validate.spacing("spacing", spacing),
+            "e_prime": validate.positive("e_prime", e_prime, "Pa"),
+            "boundary": (boundary, boundary) if isinstance(boundary, str) else tuple(boundary),
+        }
+        for name, value in asked.items():
+            if (built := getattr(operator, name)) != value:
+                raise InputError(
+                    f"operator was built for {name} = {built}, the contact has {value}; they must be the same"
+                )
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
     return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
-
-
-def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
-    asked = (shape, spacing, e_prime, (boundary, boundary) if isinstance(boundary, str) else tuple(boundary))
-    built = (operator.shape, operator.spacing, operator.e_prime, operator.boundary)
-    for name, a, b in zip(("shape", "spacing", "e_prime", "boundary"), asked, built):
-        if a != b:
-            raise InputError(f"operator was built for {name} = {b}, the contact has {a}; they must be the same")
 
 
 def starting_pressure(problem: Problem, start) -> np.ndarray | None:

@@ -126,7 +126,7 @@ def _searched(problem, state: State, load, pace, goal, iterations=0, exact=False
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
     search = Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
     search.run(goal, problem.max_iterations - iterations)
-    found = search.found(state.pressure)
+    found = search.found(state.pressure, problem.hardness)
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
         found = state.pressure

@@ -104,14 +104,15 @@ class Search:
             else:
                 self._step()
 
-    def found(self, pressure) -> np.ndarray:
-        """``pressure`` [Pa], the field with which the search began, with its changes."""
+    def found(self, pressure, hardness: float) -> np.ndarray:
+        """``pressure`` [Pa], the field with which the search began, with its changes; yielded cells have the hardness
+        [Pa] to the last digit."""
         values = self.cells.take(pressure)
         values += np.multiply(self.change, self.unit, dtype=float)
         values *= self.change > self.lower
         np.maximum(values, 0.0, out=values)
         if self.plastic:
-            np.copyto(values, self.hardness * self.unit, where=self.change >= self.upper)
+            np.copyto(values, hardness, where=self.change >= self.upper)
         return self.cells.spread(values)
 
     def _look(self) -> None:
@@ -126,8 +127,10 @@ class Search:
         if self.plastic:
             free ^= limited
         free |= inside
-        if self.exact and self.plastic and self.given and self._share(free) > self._capacity(free):
-            free = ~limited | (self.gap > self.level)
+        if self.exact and self.plastic and self.given:
+            capacity = CAPACITY * self.hardness * np.count_nonzero(free)
+            if self._share(free) > capacity:  # all that has not yielded for good has to help
+                free = ~limited | (self.gap > self.level)
         self.weight[:] = free
         self.count = np.count_nonzero(free)
         np.subtract(self.gap, np.float32(self.level), out=self.residue)
@@ -138,10 +141,6 @@ class Search:
     def _share(self, free) -> float:
         """The load that the free cells have to carry."""
         return float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
-
-    def _capacity(self, free) -> float:
-        """The load that the free cells can carry."""
-        return CAPACITY * self.hardness * np.count_nonzero(free)
 
     def _worst(self, tolerance: float) -> float:
         """The worst residual on these cells. Overlap is the worst as a rule, so the others are not looked at while it

@@ -11,7 +11,7 @@ from .._base import increasing_root, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from .cells import rescaled, shifted
 from .problem import Problem, make_problem, starting_pressure
-from .refine import Found, approximate, refine
+from .refine import Found, State, approximate, refine
 from .result import ContactResult
 from .search import FIRST_PACE
 
@@ -72,8 +72,8 @@ def solve_contact(
     start = starting_pressure(problem, start)
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
-        return _separated(problem, touching if mean_gap is None else float(mean_gap))
-    if mean_gap is None:
+        found = _separated(problem, touching if mean_gap is None else float(mean_gap))
+    elif mean_gap is None:
         found = _solved(problem, start, float(mean_pressure), mean_pressure=float(mean_pressure))
     else:
         found = _gap_controlled(problem, float(mean_gap), start)
@@ -195,14 +195,12 @@ def _volume(gap) -> float:
     return float(np.maximum(gap, 0.0).mean())
 
 
-def _separated(problem: Problem, mean_gap: float) -> ContactResult:
+def _separated(problem: Problem, mean_gap: float) -> Found:
     """Bodies that carry no load."""
     approach, zero = float(problem.gap0.mean()) - mean_gap, np.zeros_like(problem.gap0)
-    residuals = {"complementarity": 0.0, "penetration": 0.0, "load": 0.0}
-    notes = ("the bodies carry no load",)
-    report = Report("none", CONVERGED, 0, 0.0, problem.tolerance, notes=notes, residuals=residuals)
-    approach, gap = approach + problem.offset, problem.gap0 - approach
-    return ContactResult(zero, gap, zero.copy(), approach, 0.0, mean_gap, 0.0, 0.0, report)
+    residuals = {"complementarity": 0.0, "penetration": 0.0}
+    state = State(zero, zero.copy(), problem.gap0 - approach, approach, math.inf, residuals)
+    return Found(state, CONVERGED, 0, 0.0, (), FIRST_PACE, "none", ("the bodies carry no load",))
 
 
 def _result(problem: Problem, found: Found, mean_pressure, mean_gap) -> ContactResult:
@@ -210,7 +208,7 @@ def _result(problem: Problem, found: Found, mean_pressure, mean_gap) -> ContactR
     pressure, carried, volume = state.pressure, float(state.pressure.mean()), _volume(state.gap)
     residuals = dict(state.residuals)
     if mean_gap is None:
-        residuals["load"] = abs(carried - mean_pressure) / mean_pressure
+        residuals["load"] = abs(carried - mean_pressure) / (mean_pressure or 1.0)
     else:
         residuals["volume"] = abs(volume - mean_gap) / min(state.scale, mean_gap)
     worst = max(residuals.values())
@@ -218,10 +216,9 @@ def _result(problem: Problem, found: Found, mean_pressure, mean_gap) -> ContactR
         status = CONVERGED
     elif status == CONVERGED:
         status = ITERATION_LIMIT
-    worst, history, notes = min(worst, math.inf), tuple(found.history), tuple(found.notes)
-    report = Report(
-        found.solver, status, found.iterations, worst, tolerance, residuals, history, found.convolutions, notes
-    )
+    worst = worst if math.isfinite(worst) else math.inf
+    cost, said = (found.history, found.convolutions), found.notes
+    report = Report(found.solver, status, found.iterations, worst, tolerance, residuals, *cost, said)
     return ContactResult(
         pressure,
         state.gap,

@@ -7,8 +7,6 @@ Waves of similar reach are transformed together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy import fft
 
@@ -60,58 +58,41 @@ def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -
     return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)
 
 
-@dataclass(frozen=True)
-class Group:
-    """Waves ``columns`` of the spectrum, which reach at most ``reach`` rows, transformed over ``length`` rows."""
-
-    columns: slice
-    reach: int
-    length: int
-    symbol: np.ndarray
-
-
-@dataclass(frozen=True)
 class Strip:
-    """The deflection of ``rows`` of a patch under pressure on ``shape`` = (some neighbouring rows, all columns)."""
+    """The deflection of ``rows`` of a patch of ``ny`` columns under pressure on ``count`` neighbouring rows, at most
+    ``farthest`` rows apart, in the precision ``dtype``.
 
-    shape: tuple[int, int]
-    rows: int
-    groups: tuple[Group, ...]
-    workers: int | None = None
+    ``kernel`` [m/Pa]: lags along the free axis, waves along the periodic one. Each of the ``groups`` has the columns of
+    the spectrum, the number of rows that its waves reach at most, the number of rows to transform, and the symbol.
+    """
+
+    def __init__(self, kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=None):
+        self.shape, self.rows, self.workers, self.groups = (count, ny), rows, workers, []
+        reaches, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)], farthest), 0
+        sides = 1 if rows == count else 2
+        while begin < reaches.size:
+            reach = int(reaches[begin])
+            short = np.flatnonzero(reaches[begin:] <= reach // 2)
+            few = not short.size or min(short[0], reaches.size - begin - short[0]) * count < WORTH
+            end = reaches.size if few else begin + int(short[0])
+            length = fft.next_fast_len(min(count + sides * reach, 2 * farthest + 1))
+            lags = min(reach, farthest, (length - 1) // 2) + 1
+            symbol = even_transform(kernel[:lags, begin:end], length).astype(dtype)
+            self.groups.append((slice(begin, end), reach, length, symbol))
+            begin = end
 
     def apply(self, pressure: np.ndarray, first: int = 0) -> np.ndarray:
         """Deflection [m] (rows, ny) under ``pressure`` [Pa] on the rows from ``first`` on."""
         count, ny = self.shape
         spectrum = fft.rfft(pressure, axis=1, workers=self.workers)
         total = np.zeros((self.rows, spectrum.shape[1]), spectrum.dtype)
-        for group in self.groups:
-            part = _multiplied(spectrum[:, group.columns], group.symbol, group.length, self.workers)
-            before = min(first, group.reach)
-            after = min(self.rows, first + count + group.reach) - first
-            total[first : first + after, group.columns] = part[:after]
+        for columns, reach, length, symbol in self.groups:
+            part = _multiplied(spectrum[:, columns], symbol, length, self.workers)
+            before, after = min(first, reach), min(self.rows, first + count + reach) - first
+            total[first : first + after, columns] = part[:after]
             if before:
-                total[first - before : first, group.columns] = part[-before:]
+                total[first - before : first, columns] = part[-before:]
         return fft.irfft(total, n=ny, axis=1, workers=self.workers, overwrite_x=True)
-
-
-def strip(kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=None) -> Strip:
-    """`Strip` of ``count`` rows that deflect ``rows``, at most ``farthest`` rows apart.
-
-    ``kernel`` [m/Pa]: lags along the free axis, waves along the periodic one.
-    """
-    reaches, groups, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)], farthest), [], 0
-    beyond = 0 if rows == count else 1
-    while begin < reaches.size:
-        reach = int(reaches[begin])
-        short = np.flatnonzero(reaches[begin:] <= reach // 2)
-        few = not short.size or short[0] * count < WORTH or (reaches.size - begin - short[0]) * count < WORTH
-        end = reaches.size if few else begin + int(short[0])
-        length = fft.next_fast_len(min(count + (1 + beyond) * reach, 2 * farthest + 1))
-        lags = min(reach, farthest, (length - 1) // 2) + 1
-        symbol = even_transform(kernel[:lags, begin:end], length).astype(dtype)
-        groups.append(Group(slice(begin, end), reach, length, symbol))
-        begin = end
-    return Strip((count, ny), rows, tuple(groups), workers)
 
 
 def _reaches(kernel, negligible: float, farthest: int) -> np.ndarray:
