@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.contact import HalfSpace, _even_transform, semiperiodic_coefficients
+from lubfric.contact import HalfSpace, even_transform, semiperiodic_coefficients
 from lubfric.sharing import Prepared, prepare
 
 from .. import parts, plotting
@@ -154,7 +154,7 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
     often = PARTS - np.abs(np.arange(1 - PARTS, PARTS))  # pairs of parts at that distance
     known = np.abs(away) < nx * PARTS
     kernel = np.where(known[..., None], parts[np.minimum(np.abs(away), nx * PARTS - 1)], 0.0)
-    symbol = _even_transform(np.einsum("d,ndk->nk", often / PARTS, kernel), operator.padded[0], axis=0)
+    symbol = even_transform(np.einsum("d,ndk->nk", often / PARTS, kernel), operator.padded[0], axis=0)
     return replace(operator, symbol=symbol)
 
 
