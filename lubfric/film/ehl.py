@@ -44,11 +44,6 @@ class Effort:
         integer("least_cells", self.least_cells, minimum=0)
         integer("max_iterations", self.max_iterations, minimum=1)
 
-    @property
-    def cells(self) -> int:
-        """``least_cells``, or the number of cells of the finest grid."""
-        return min(self.least_cells, FINEST)
-
 
 def solve_ehl(
     *,
@@ -165,7 +160,7 @@ def make_problem(contact: LineContact, inlet_length: float | None, imposed: Line
 def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
     """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
     n = _coarsest(problem)
-    needed = max(effort.cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
+    needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
     while 2 * n < min(needed, FINEST):
         n *= 2
     return _ascend(problem, effort, state, n, 2)
@@ -202,12 +197,9 @@ def _coarsest(problem: Problem) -> int:
 def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
     """The cold starts to try, one after the other: (cells, seat, doublings of the speed)."""
     grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
-    grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
-    if len(seats) == 1:
-        return [(n, seats[0], 0) for n in grids]
-    return [
-        (n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))
-    ]
+    grids.sort(key=lambda n: n != coarsest)
+    starts = [(seat, 0) for seat in seats] + [(seats[0], DOUBLINGS)] * (len(seats) > 1)
+    return [(n, seat, doublings) for n in grids for seat, doublings in starts]
 
 
 def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
@@ -220,7 +212,7 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
         if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
             return levels
-        if len(levels) >= fewest and n >= effort.cells and grid_error(levels) <= effort.tolerance:
+        if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
             return levels
         rupture = levels[-1].z[-1]
         n *= 2
@@ -229,43 +221,37 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
 def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
     """The first solution: rough ones on n cells while alpha rises from the value at which L = EASY.
 
-    With an imposed pressure it begins with the cylinder of the seat, or with a speed that is doubled so many times.
+    With an imposed pressure it begins with the cylinder of the seat, at a speed that is doubled so many times. A thick
+    film bridges any gap that an imposed pressure leaves. Then the speed is halved again and again.
     """
-    if doublings:
-        return _descent(problem, n, max_steps, doublings)
-    if problem.imposed is not None:
-        alone, led_there = _first_state(problem.alone(), n, max_steps)
-        return from_alone(problem, alone), led_there
-    state: State | None = None
+    if problem.imposed is None:
+        shares = [min(1.0, EASY / max(problem.L, EASY))]
+        while shares[-1] < 1.0:
+            shares.append(min(1.0, STAGE * shares[-1]))
+        return _follow([problem.softened(share) for share in shares], n, max_steps)
+    stages = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
+    fastest = stages[0] if stages else problem
+    alone, led_there = _first_state(fastest.alone(), n, max_steps)
+    state, solutions = _follow(stages, n, max_steps, from_alone(fastest, alone))
+    return state, led_there + solutions
+
+
+def _faster(problem: Problem, factor: float) -> Problem:
+    """The same contact at ``factor`` times its speed, on the likelier seat there."""
+    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
+    faster = replace(problem, contact=contact)
+    return replace(faster, seat=find_seats(faster)[0])
+
+
+def _follow(stages: list[Problem], n: int, max_steps: int, state: State | None = None):
+    """The last state and the rough solutions of a chain of problems on n cells, each started from the one before."""
     solutions: list[Solution] = []
-    share = min(1.0, EASY / max(problem.L, EASY))
-    while True:
-        stage = problem.softened(share)
+    for stage in stages:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
         state = solution_state(stage, solutions[-1], 0.0)
-        if share == 1.0 or not np.isfinite(solutions[-1].error):
-            return state, solutions
-        share = min(1.0, STAGE * share)
-
-
-def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
-    """Begin with a thick film, which bridges any gap that an imposed pressure leaves, and halve the speed again and
-    again."""
-
-    def stage_of(k: int) -> Problem:
-        faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
-        stage = replace(problem, contact=faster)
-        return replace(stage, seat=find_seats(stage)[0])
-
-    state, solutions = _first_state(stage_of(doublings), n, max_steps)
-    for k in range(doublings, 0, -1):
-        stage = stage_of(k)
-        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
-        solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
-        state = solution_state(stage, solutions[-1], 0.0)
-        if solutions[-1].status != CONVERGED:
+        if not np.isfinite(solutions[-1].error):
             break
     return state, solutions
 

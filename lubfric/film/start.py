@@ -65,33 +65,17 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
-    t = solution.terms
-    return State(
-        problem.M,
-        problem.L,
-        t.P[:-1],
-        t.H,
-        float(t.q),
-        float(solution.z[-1]) - problem.seat_centre,
-        error,
-        problem.seat,
-    )
+    t, rupture = solution.terms, float(solution.z[-1]) - problem.seat_centre
+    return State(problem.M, problem.L, t.P[:-1], t.H, float(t.q), rupture, error, problem.seat)
 
 
 def from_alone(problem: Problem, state: State) -> State:
     """A state of ``problem.alone()``, in the units of ``problem``, as a state of ``problem``."""
     other = problem.alone()
     pressure, film = other.pressure_unit / problem.pressure_unit, other.film_unit / problem.film_unit
-    return State(
-        problem.M,
-        problem.L,
-        state.pressure * pressure,
-        state.film * film,
-        state.flux * film,
-        state.rupture * (other.length_unit / problem.length_unit),
-        state.grid_error,
-        problem.seat,
-    )
+    rupture = state.rupture * (other.length_unit / problem.length_unit)
+    moved = state.pressure * pressure, state.film * film, state.flux * film, rupture
+    return State(problem.M, problem.L, *moved, state.grid_error, problem.seat)
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
