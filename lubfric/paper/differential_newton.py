@@ -13,8 +13,18 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
-from .differential_equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
-from .differential_mesh import Mesh, convolve
+from .differential_equations import (
+    STEADY,
+    Mesh,
+    Squeeze,
+    Terms,
+    convolve,
+    evaluate,
+    inlet_ratio,
+    load_row,
+    measure,
+    tilt_row,
+)
 
 KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
 FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
@@ -149,6 +159,7 @@ def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int
     return (z + size * (y @ np.array(answers)) if answers else z), len(answers) + 1
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # history tests for it
 def newton(
     mesh: Mesh,
     problem: Problem,
@@ -160,11 +171,6 @@ def newton(
 ) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # history tests for it
-        return _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze)
-
-
-def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
         t = evaluate(mesh, problem, P, H, squeeze)
