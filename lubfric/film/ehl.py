@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from .newton import Solution, newton
 from .problem import Problem, Seat
 from .start import State, cold_start, find_seats, from_alone, refined_start, rupture_guess, solution_state, warm_start
 
-COARSEST, LAST_START, FINEST = 48, 768, 3072
+COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
 DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
@@ -126,7 +127,7 @@ def solve_line_contact(
     first: list[Solution] = []
     notes: tuple[str, ...] = ()
     if start is not None:
-        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
+        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.problem.seat.modulus < 1.0)]
         problem = replace(problem, seat=(alike or seats)[0])
         levels = _warm(problem, effort, start.state)
         if not _sound(levels):
@@ -145,11 +146,9 @@ def make_problem(contact: LineContact, inlet_length: float | None, imposed: Line
     contact."""
     if imposed is not None and contact.entrainment_speed < 0:
         imposed = imposed.mirrored()
-    if inlet_length is None:
-        return Problem(contact, None, imposed)
-    problem = Problem(contact, positive("inlet_length", inlet_length, "m"), imposed)
+    problem = Problem(contact, inlet_length, imposed)
     half_width = problem.flat_half_width * problem.length_unit
-    if inlet_length <= half_width:
+    if inlet_length is not None and positive("inlet_length", inlet_length, "m") <= half_width:
         raise InputError(
             f"inlet_length = {inlet_length:g} m lies inside the dry contact; "
             f"allowed: more than its half-width {half_width:.4g} m"
@@ -175,7 +174,10 @@ def _cold(
     """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
-    for n, seat, doublings in _attempts(seats, _coarsest(problem)):
+    coarsest = _coarsest(problem)
+    grids = sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != coarsest)
+    beginnings = [(seat, 0) for seat in seats] + [(seats[0], DOUBLINGS)] * (len(seats) > 1)
+    for n, (seat, doublings) in product(grids, beginnings):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         problem = replace(problem, seat=seat)
@@ -184,22 +186,14 @@ def _cold(
         if _sound(levels):
             return problem, levels, spent + first, notes
         spent += first + levels
-        if levels[0].status == CONVERGED and levels[-1].grid.n >= LAST_START:
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST * 2 ** (STARTS - 1):
             break  # it is not the start that fails
     return problem, levels, spent[: -len(levels)], notes
 
 
 def _coarsest(problem: Problem) -> int:
     """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
-    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
-
-
-def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
-    """The cold starts to try, one after the other: (cells, seat, doublings of the speed)."""
-    grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
-    grids.sort(key=lambda n: n != coarsest)
-    starts = [(seat, 0) for seat in seats] + [(seats[0], DOUBLINGS)] * (len(seats) > 1)
-    return [(n, seat, doublings) for n in grids for seat, doublings in starts]
+    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
 
 
 def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:

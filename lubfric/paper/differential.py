@@ -238,7 +238,7 @@ def _state(problem: Problem, solution: Solution, rupture: float, error: float) -
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
     H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
-    return State(problem.M, problem.L, P[:-1], H, solution.terms.q, rupture, error)
+    return State(problem, P[:-1], H, solution.terms.q, rupture, error)
 
 
 def assemble(problem: Problem, levels: list[Solution], tolerance: float) -> EHLResult:
