@@ -6,7 +6,7 @@ heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force 
 force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hertz`) are checks and starts.
 """
 
-from .deflection import LinePressure, hat_kernel
+from .deflection import hat_kernel
 from .ehl import Effort, make_problem, solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, cubic, smallest
 from .formulas import moes_film
@@ -30,7 +30,7 @@ from .problem import Problem
 from .reynolds import log_mean_fluidity
 from .rigid_cylinder import reduced_pressure, true_pressure
 from .shear import ShearForce, rolling_error, shear_force, spike_error
-from .start import State, expected_rupture, rupture_guess
+from .start import State, rupture_guess
 
 __all__ = [
     "EHLResult",
@@ -40,7 +40,6 @@ __all__ = [
     "InletHeat",
     "LARGEST",
     "LineContact",
-    "LinePressure",
     "OfLineContact",
     "Problem",
     "SLIDING",
@@ -49,7 +48,6 @@ __all__ = [
     "Surroundings",
     "composite_modulus",
     "cubic",
-    "expected_rupture",
     "hat_kernel",
     "heated_film",
     "heated_stress",

@@ -107,13 +107,10 @@ class EHLResult(Shown, OfLineContact):
         nodes = self.x
         inside = (flat >= nodes[0]) & (flat <= nodes[-1])
         film = np.empty_like(flat)
-        bend = self.film_thickness - nodes**2 / (2.0 * self.radius)
-        if self.imposed is not None:
-            bend -= self.imposed_deflection(nodes)
-            parabola += self.imposed_deflection(flat)
+        bend = self.film_thickness - nodes**2 / (2.0 * self.radius) - self.imposed_deflection(nodes)
         film[inside] = cubic(nodes, bend, flat[inside])
         film[~inside] = self.approach + _far_deflection(self, flat[~inside])
-        return (film + parabola).reshape(x.shape)
+        return (film + parabola + self.imposed_deflection(flat)).reshape(x.shape)
 
     def imposed_deflection(self, x) -> np.ndarray:
         """Part of the film [m] at ``x`` [m], any shape, that is due to the imposed pressure, up to a constant."""

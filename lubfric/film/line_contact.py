@@ -42,14 +42,9 @@ class LineContact:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
         if not isinstance(self.lubricant, Lubricant):
             raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.Lubricant")
-        checked = {
-            "load_per_width": validate.positive("load_per_width", self.load_per_width, "N/m"),
-            "radius": validate.positive("radius", self.radius, "m"),
-            "e_prime": validate.positive("e_prime", self.e_prime, "Pa"),
-            "entrainment_speed": speed,
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "entrainment_speed", speed)
+        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa")):
+            object.__setattr__(self, name, validate.positive(name, getattr(self, name), unit))
 
     @cached_property
     def speed_number(self) -> float:

@@ -18,8 +18,7 @@ from ..oil import Lubricant
 from ..scene import History, checked_history
 from ..time import FIRST_STEP, WET, Memory, Plan, TransientFilm, checked_times, plan_of, report_of, started, steps
 from .differential import UniformEffort, domain_ends, solve_differential
-from .differential_equations import Squeeze
-from .differential_mesh import NEAR, make_mesh
+from .differential_equations import NEAR, Squeeze, make_mesh
 from .differential_newton import newton
 
 TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step

@@ -128,14 +128,6 @@ def test_a_film_above_the_summits_needs_no_contact():
         assert clear.report.converged and not clear.pressure.any() and clear.gap.min() >= 0
 
 
-def test_a_warm_start_saves_iterations():
-    z, film, options, _ = case("cylinder", None)
-    cold = single_loop(z, film, D, E, **options)
-    warm = single_loop(z, film * 1.001, D, E, start=cold, **options)
-    again = single_loop(z, film * 1.001, D, E, **options)
-    assert difference(warm, again) < 1e-4 and warm.report.iterations < again.report.iterations
-
-
 @pytest.mark.parametrize(
     "change,match",
     [
