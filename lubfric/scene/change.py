@@ -7,6 +7,7 @@ from typing import Any
 
 from .._base import validate
 from ..errors import InputError
+from .numerics import refuse_dropped
 from .plausible import told_slips
 from .roughness import Roughness, as_given, counterface, named
 from .short_forms import resolve, short_keys
@@ -26,6 +27,8 @@ def changed_section(section: str, old: Any, values: Any) -> Any:
         by_field = "a dict of its fields, or " if kind is not str and old is not None else ""
         shown = repr(values) if isinstance(values, (str, float, int)) else f"a {type(values).__name__}"
         raise InputError(f"{section} = {shown}; allowed: {by_field}a {kind.__name__}")
+    if section == "numerics":
+        refuse_dropped(values)
     allowed = (*old.__dataclass_fields__, *short_keys(section))
     for key in values:
         if key not in allowed:

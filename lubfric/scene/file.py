@@ -18,7 +18,7 @@ from .contact import ContactDomain
 from .history_read import history
 from .missing import check_complete
 from .motion import Motion
-from .numerics import Numerics
+from .numerics import Numerics, refuse_dropped
 from .plausible import told_slips
 from .roughness import GENERATED, Roughness, check_keys, named
 from .scene import Scene
@@ -130,6 +130,7 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
+    refuse_dropped(table.get("numerics", {}))
     table, plan = _plan(table, folder)
     for section in (s for s in SECTIONS if s in table and s != "transient"):
         validate.keys(f"[{section}]", table[section], _keys(section))

@@ -10,15 +10,13 @@ from .._base import python_value
 from . import short_bodies as bodies
 from . import short_lubricant as lubricant
 from . import short_motion as motion
-from .short_pairs import only_one
 
 SECTIONS = {"bodies": bodies, "lubricant": lubricant, "motion": motion}
-BEFORE = {"numerics": {"ehl_tolerance": "film_tolerance"}}  # names that keys had before
 
 
 def short_keys(section: str) -> tuple[str, ...]:
     """Keys of a section that are not fields of it."""
-    return SECTIONS[section].KEYS if section in SECTIONS else tuple(BEFORE.get(section, ()))
+    return SECTIONS[section].KEYS if section in SECTIONS else ()
 
 
 def resolve(section: str, given: dict, old=None) -> dict:
@@ -27,9 +25,4 @@ def resolve(section: str, given: dict, old=None) -> dict:
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
     given = {key: python_value(value) for key, value in given.items()}
-    if section in SECTIONS:
-        return SECTIONS[section].resolve(given, old)
-    names = BEFORE.get(section, {})
-    for before, today in names.items():
-        only_one(section, given, before, today)
-    return {names.get(key, key): value for key, value in given.items()}
+    return SECTIONS[section].resolve(given, old) if section in SECTIONS else given
