@@ -33,23 +33,25 @@ def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
 
     ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
     """
-    given = {"nu40": _viscosity("nu40", nu40), "nu100": _viscosity("nu100", nu100)}
-    return _through(nu40, nu100, given, properties)
+    nu40, nu100 = _viscosity("nu40", nu40), _viscosity("nu100", nu100)
+    return _through(nu40, nu100, {"nu40": nu40, "nu100": nu100}, properties)
 
 
 def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
     """An `Oil` from its kinematic viscosity [m²/s] at 40 °C and its viscosity index (ASTM D2270 inverted, then
     D341)."""
-    given = {"nu40": _viscosity("nu40", nu40), "viscosity_index": float(viscosity_index)}
-    return _through(nu40, viscosity_at_100(nu40, viscosity_index), given, properties)
+    nu40 = _viscosity("nu40", nu40)
+    nu100 = viscosity_at_100(nu40, viscosity_index)
+    return _through(nu40, nu100, {"nu40": nu40, "viscosity_index": float(viscosity_index)}, properties)
 
 
 def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
     """An `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448) and a
     viscosity index (ASTM D2270 inverted, then D341)."""
-    nu40, given = grade_viscosity(grade), {"grade": str(grade), "viscosity_index": float(viscosity_index)}
-    named = {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties
-    return _through(nu40, viscosity_at_100(nu40, viscosity_index), given, named)
+    nu40 = grade_viscosity(grade)
+    nu100 = viscosity_at_100(nu40, viscosity_index)
+    given = {"grade": str(grade), "viscosity_index": float(viscosity_index)}
+    return _through(nu40, nu100, given, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
 
 
 def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
