@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lubfric.scene import short_keys
-from lubfric.scene.file import SECTIONS
+from lubfric.scene import SECTIONS, short_keys
 
 ROOT = Path(__file__).parent.parent
 

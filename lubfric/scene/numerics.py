@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-
 from typing import Any
 
 from .._base import Brief, validate
@@ -11,12 +10,14 @@ from ..errors import InputError
 from . import budget
 
 MOST_THREADS = 1024
-CAVITATED_SHEAR = ("none", "striated")
-HEATS = ("auto", "on", "off")
-FILM_DEFLECTIONS = ("hydrodynamic", "scaled", "total")
-MODELS = ("auto", "load-sharing", "deterministic")
-GRIDS = ("auto", "given")
-SAMPLINGS = ("line", "patch")
+OPTIONS = {
+    "model": ("auto", "load-sharing", "deterministic"),
+    "film_deflection": ("hydrodynamic", "scaled", "total"),
+    "grid": ("auto", "given"),
+    "sampling": ("line", "patch"),
+    "heat": ("auto", "on", "off"),
+    "cavitated_shear": ("none", "striated"),
+}
 DROPPED = {  # keys, and values of keys, that there were before: what to do instead
     "closure": "leave it out: film and contact always share the load as in Eq. (8)",
     "closure = 'one-way'": "leave it out, or give numerics.model = 'deterministic', which has one gap and one pressure",
@@ -83,14 +84,7 @@ class Numerics(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        for name, options in (
-            ("model", MODELS),
-            ("grid", GRIDS),
-            ("sampling", SAMPLINGS),
-            ("heat", HEATS),
-            ("film_deflection", FILM_DEFLECTIONS),
-            ("cavitated_shear", CAVITATED_SHEAR),
-        ):
+        for name, options in OPTIONS.items():
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)

@@ -73,12 +73,13 @@ def slip(name: str, value) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
     fits."""
     usual = USUAL.get(name)
+    if usual is None:
+        return None
     numbers = value if isinstance(value, (list, tuple)) else (value,)
     numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
-    strange = [v for v in numbers if usual is not None and not usual.holds(v)]
-    if usual is None or not strange or (strange[0] == 0 and name in NOUGHT):
+    v = next((v for v in numbers if not usual.holds(v)), None)
+    if v is None or v == 0 and name in NOUGHT:
         return None
-    v = strange[0]
     for unit, factor, *advice in usual.others:
         if usual.holds(v * factor):
             return "; ".join((f"{unit} meant? {v:g} {unit} = {v * factor:g} {usual.unit}", *advice))
@@ -125,7 +126,7 @@ def _index(scene) -> float | None:
 
 
 @contextmanager
-def told_slips(section: str, values: dict):
+def naming_slips(section: str, values: dict):
     """Add the likely slip, if there is one, to an `InputError` about one of ``values``."""
     try:
         yield

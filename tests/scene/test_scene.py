@@ -7,8 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_map
-from lubfric.scene import scene_as_dict
-from lubfric.scene.file import builtin_scenes
+from lubfric.scene import builtin_scenes, scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 
