@@ -61,10 +61,8 @@ def walther(first: tuple[float, float], second: tuple[float, float], **said: flo
     for nu in (thick, thin):
         validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
     if not thin < thick:
-        raise InputError(
-            f"kinematic viscosity = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K; allowed: one that "
-            "falls as the temperature rises (swapped?)"
-        )
+        fault = f" = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K"
+        raise InputError(fault, "kinematic viscosity", "one that falls as the temperature rises (swapped?)")
     a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))
     n = (a - b) / math.log10(warm / cold)
     return Walther(a + n * math.log10(cold), n, tuple(said.items()))
@@ -97,10 +95,8 @@ class ViscosityTable:
 
     def __post_init__(self):
         if len(self.temperatures) != len(self.viscosities) or len(self.temperatures) < 2:
-            raise InputError(
-                f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities; "
-                "allowed: as many of both, at least two"
-            )
+            said = f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities"
+            raise InputError(said, allowed="as many of both, at least two")
         if any(b <= a for a, b in zip(self.temperatures, self.temperatures[1:])):
             raise InputError(f"temperatures = {self.temperatures}; allowed: rising, in K")
         for i in range(1, len(self.temperatures)):

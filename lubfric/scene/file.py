@@ -90,9 +90,8 @@ def _map_path(name: str, given, folder: Path) -> Path:
     near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
-    raise InputError(
-        f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; give its path from there, or all of it"
-    )
+    said = f" = {validate.shown(str(given))}: no such file{where}{meant}"
+    raise InputError(said, name, way_out="give its path from there, or all of it")
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -169,8 +168,6 @@ def _read(source) -> tuple[dict, Path, str]:
         return read_toml(SCENES / f"{source}.toml", "scene"), Path(), str(source)
     path = Path(source)
     if not os.path.isfile(path):
-        raise InputError(
-            f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
-            f"{validate.nearest(source, names)}; built in: {', '.join(names)}"
-        )
+        said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
+        raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
     return read_toml(path, "scene"), path.parent, path.stem

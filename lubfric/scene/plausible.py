@@ -22,7 +22,7 @@ class Usual:
     low: float
     high: float
     unit: str
-    others: tuple[tuple[str, float] | tuple[str, float, str], ...] = ()
+    others: tuple[tuple, ...] = ()
 
     def holds(self, value: float) -> bool:
         """True inside the range."""
@@ -59,14 +59,7 @@ USUAL = {
     "numerics.sampling_tolerance": Usual(1e-3, 0.5, "-", (("%", 1e-2),)),
     "contact.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
 }
-NOUGHT = (
-    "lubricant.pressure_viscosity_coefficient",
-    "bodies.boundary_friction_coefficient",
-    "motion.entrainment_speed",
-    "motion.speeds",
-    "motion.slide_roll_ratio",
-    "surface.sq",
-)
+NOUGHT = ("lubricant.pressure_viscosity_coefficient", "surface.sq")  # usual where they are 0
 
 
 def slip(name: str, value) -> str | None:

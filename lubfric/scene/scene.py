@@ -54,11 +54,10 @@ class Scene(Shown):
 
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
-            raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; give an oil "
-                "(lubricant.grade, nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or "
-                "heat = 'auto'"
-            )
+            by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
+            ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
+            said = " = 'on' needs to know how the viscosity falls with the temperature"
+            raise InputError(said, "numerics.heat", way_out=ways)
 
     def with_(self, **sections) -> Scene:
         """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
@@ -68,10 +67,8 @@ class Scene(Shown):
         new = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
-                raise InputError(
-                    f"scene has no section {section!r}{validate.nearest(section, self.__dataclass_fields__)}"
-                    f"{_dotted(section, values)}"
-                )
+                near = validate.nearest(section, self.__dataclass_fields__)
+                raise InputError(f"scene has no section {section!r}{near}{_dotted(section, values)}")
             new[section] = changed_section(section, getattr(self, section), values)
         return replace(self, **new)
 
@@ -157,8 +154,6 @@ def check_resolved_gap(scene: Scene) -> None:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
         if value not in allowed:
-            raise InputError(
-                f" = {value!r} does not go with numerics.model = 'deterministic'",
-                name,
-                f"{', '.join(map(repr, allowed))}{why}, or numerics.model = 'load-sharing'",
-            )
+            said = f" = {value!r} does not go with numerics.model = 'deterministic'"
+            instead = f"{', '.join(map(repr, allowed))}{why}, or numerics.model = 'load-sharing'"
+            raise InputError(said, name, instead)

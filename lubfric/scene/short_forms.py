@@ -16,7 +16,7 @@ from .._base import python_value, validate
 from ..errors import InputError
 from ..film import composite_modulus
 from .bodies import pair
-from .short_oil import OIL_KEYS, kelvin, only_one, resolve_oil, together
+from .short_oil import OIL_KEYS, of_celsius, only_one, resolve_oil, together
 
 PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
 MOST_SPEEDS = 1_000_000
@@ -66,17 +66,17 @@ def reduced_radius(first: float, second: float) -> float:
     return 1 / curvature
 
 
+def _of_radii(radii, *_) -> dict:
+    return {"radius": reduced_radius(*pair("bodies.radii", radii, "m"))}
+
+
 def _of_materials(names, *_) -> dict:
     """Fields of one or two named materials."""
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (MATERIALS[validate.choice("bodies.material", name, tuple(MATERIALS))] for name in both)
-    return {
-        "e_prime": composite_modulus(
-            first.young_modulus, first.poisson_ratio, second.young_modulus, second.poisson_ratio
-        ),
-        "conductivity": (first.conductivity, second.conductivity),
-        "volumetric_heat": (first.volumetric_heat, second.volumetric_heat),
-    }
+    heat = {name: (getattr(first, name), getattr(second, name)) for name in ("conductivity", "volumetric_heat")}
+    moduli = (getattr(m, name) for m in (first, second) for name in ("young_modulus", "poisson_ratio"))
+    return {"e_prime": composite_modulus(*moduli), **heat}
 
 
 def _of_moduli(moduli, ratios, *_) -> dict:
@@ -112,6 +112,14 @@ def _of_surface_speeds(speeds, *_) -> dict:
     return {"entrainment_speed": (u1 + u2) / 2, "slide_roll_ratio": 2 * (u2 - u1) / (u1 + u2)}
 
 
+def _of_slip(percent, *_) -> dict:
+    return {"slide_roll_ratio": validate.number("motion.slip_percent", percent, "%") / 100}
+
+
+def _of_range(given, *_) -> dict:
+    return {"speeds": speeds_of_range("motion.speed_range", given)}
+
+
 def speeds_of_range(name: str, value) -> tuple[float, ...]:
     """The speeds [m/s] of [lowest, highest, count], in a geometric series; ``name``: of the key."""
     if not isinstance(value, (list, tuple)) or len(value) != 3:
@@ -126,27 +134,17 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
 
 FORMS = {
     "bodies": (
-        ShortForm(
-            ("radii",), ("radius",), lambda radii, *_: {"radius": reduced_radius(*pair("bodies.radii", radii, "m"))}
-        ),
+        ShortForm(("radii",), ("radius",), _of_radii),
         ShortForm(("material",), ("e_prime",), _of_materials),
         ShortForm(("young_modulus", "poisson_ratio"), ("e_prime",), _of_moduli),
         ShortForm(("hardness_hv",), ("hardness",), _of_vickers),
         ShortForm(("hertz_pressure",), ("load",), _of_hertz_pressure),
     ),
-    "lubricant": (ShortForm(("temperature_celsius",), ("temperature",), lambda c, *_: {"temperature": kelvin(c)}),),
+    "lubricant": (ShortForm(("temperature_celsius",), ("temperature",), of_celsius),),
     "motion": (
         ShortForm(("surface_speeds",), ("entrainment_speed", "slide_roll_ratio"), _of_surface_speeds),
-        ShortForm(
-            ("slip_percent",),
-            ("slide_roll_ratio",),
-            lambda slip, *_: {"slide_roll_ratio": validate.number("motion.slip_percent", slip, "%") / 100},
-        ),
-        ShortForm(
-            ("speed_range",),
-            ("speeds",),
-            lambda given, *_: {"speeds": speeds_of_range("motion.speed_range", given)},
-        ),
+        ShortForm(("slip_percent",), ("slide_roll_ratio",), _of_slip),
+        ShortForm(("speed_range",), ("speeds",), _of_range),
     ),
 }
 

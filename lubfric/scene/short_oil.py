@@ -18,13 +18,9 @@ from ..oil import (
 from .bodies import pair
 
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
-PROPERTIES = ("base", "density", "density_slope", "alpha_estimate")  # of the oil, beside alpha and conductivity
+PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
+OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field
 OIL_KEYS = (*SOURCES[:-1], *PROPERTIES)  # of [lubricant], beside its fields
-OF_AN_OIL = {  # keys of [lubricant] that are fields of an `Oil`
-    **{key: key for key in ("base", "density", "density_slope", "conductivity")},
-    "alpha_estimate": "estimate",
-    "pressure_viscosity_coefficient": "alpha",
-}
 AT_40 = 40 + CELSIUS
 OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
@@ -47,9 +43,8 @@ def resolve_oil(given: dict, old) -> dict:
         if not {"temperature", "pressure_viscosity_coefficient", "conductivity"} & set(given):
             return given
     if "viscosity" in given:
-        raise InputError(
-            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; give one of them"
-        )
+        both = "viscosity and an oil (grade, nu40, oil, ...)"
+        raise InputError(f"[lubricant] has {both}, which say the same thing; give one of them")
     oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
     changed = {name: given.pop(key) for key, name in OF_AN_OIL.items() if key in given}
     temperature = given.pop("temperature", getattr(old, "temperature", None))
@@ -101,13 +96,13 @@ def _own_coefficient(old) -> dict:
     return {} if old.temperature_coefficient == of_oil else {"temperature_coefficient": old.temperature_coefficient}
 
 
-def kelvin(celsius) -> float:
-    """``lubricant.temperature_celsius`` in K."""
+def of_celsius(celsius, *_) -> dict:
+    """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:
         allowed = "up to 250 °C (K were meant? temperature)"
         raise InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", allowed)
-    return degrees + CELSIUS
+    return {"temperature": degrees + CELSIUS}
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:

@@ -60,15 +60,12 @@ def _text(value) -> str:
 
 
 def _history(value: History) -> str:
-    shown: Any = value  # a dataclass, whatever kind it is
-    for kind, known in KINDS.items():
-        if type(value) is known:
-            parts = {f.name: getattr(value, f.name) for f in fields(shown)}
-            inner = ", ".join(f"{name} = {_text(part)}" for name, part in parts.items() if part is not None)
-            return f'{{ kind = "{kind}", {inner} }}'
-    raise InputError(
-        f"a history of type {type(value).__name__} has no form in a scene file; allowed: {', '.join(KINDS)}"
-    )
+    kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
+    if kind is None:
+        said = f"a history of type {type(value).__name__} has no form in a scene file"
+        raise InputError(said, allowed=", ".join(KINDS))
+    inner = ", ".join(f"{name} = {_text(part)}" for name, part in vars(value).items())
+    return f'{{ kind = "{kind}", {inner} }}'
 
 
 def write_template(path: Path) -> None:
