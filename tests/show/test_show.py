@@ -9,8 +9,7 @@ from matplotlib.figure import Figure
 
 import lubfric
 from lubfric._base import friction_over_time, new_figure
-from lubfric.scene import Harmonic, Ramp, Table
-from lubfric.scene.file import builtin_scenes
+from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}

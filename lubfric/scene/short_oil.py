@@ -15,26 +15,24 @@ from ..oil import (
     from_viscosities,
     named_oil,
 )
-from .short_pairs import only_one, pair, together
+from .bodies import pair
 
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
-PROPERTIES = ("base", "density", "density_slope", "alpha_estimate")  # of the oil, beside alpha and conductivity
-KEYS = (*SOURCES[:-1], "temperature_celsius", *PROPERTIES)
+PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
+OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field
+OIL_KEYS = (*SOURCES[:-1], *PROPERTIES)  # of [lubricant], beside its fields
 AT_40 = 40 + CELSIUS
 OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
-def resolve(given: dict, old) -> dict:
-    """Plain fields of [lubricant] from an oil at ``temperature`` [K] or ``temperature_celsius``: viscosity,
+def resolve_oil(given: dict, old) -> dict:
+    """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity,
     pressure-viscosity coefficient and temperature coefficient (both as given, else of the oil).
 
     The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
     ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
     """
-    only_one("lubricant", given, "temperature", "temperature_celsius")
     _check_limit(given, old)
-    if "temperature_celsius" in given:
-        given["temperature"] = _kelvin(given.pop("temperature_celsius"))
     before = getattr(old, "oil", None)
     if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
         if before is None:
@@ -45,17 +43,10 @@ def resolve(given: dict, old) -> dict:
         if not {"temperature", "pressure_viscosity_coefficient", "conductivity"} & set(given):
             return given
     if "viscosity" in given:
-        raise InputError(
-            "[lubricant] has viscosity and an oil (grade, nu40, oil, ...), which say the same thing; give one of them"
-        )
+        both = "viscosity and an oil (grade, nu40, oil, ...)"
+        raise InputError(f"[lubricant] has {both}, which say the same thing; give one of them")
     oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
-    changed = {key: given.pop(key) for key in PROPERTIES if key in given}
-    if "alpha_estimate" in changed:
-        changed["estimate"] = changed.pop("alpha_estimate")
-    if "pressure_viscosity_coefficient" in given:
-        changed["alpha"] = given.pop("pressure_viscosity_coefficient")
-    if "conductivity" in given:
-        changed["conductivity"] = given.pop("conductivity")
+    changed = {name: given.pop(key) for key, name in OF_AN_OIL.items() if key in given}
     temperature = given.pop("temperature", getattr(old, "temperature", None))
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
@@ -105,20 +96,20 @@ def _own_coefficient(old) -> dict:
     return {} if old.temperature_coefficient == of_oil else {"temperature_coefficient": old.temperature_coefficient}
 
 
-def _kelvin(celsius) -> float:
+def of_celsius(celsius, *_) -> dict:
+    """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:
-        raise InputError(
-            f"lubricant.temperature_celsius = {degrees:g} °C; allowed: up to 250 °C (K were meant? temperature)"
-        )
-    return degrees + CELSIUS
+        allowed = "up to 250 °C (K were meant? temperature)"
+        raise InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", allowed)
+    return {"temperature": degrees + CELSIUS}
 
 
 def _oil(source: dict, before: Oil | None) -> Oil:
     """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
     only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
-    kept = _kept(before)
+    kept = {} if before is None else {name: getattr(before, name) for name in OF_AN_OIL.values()}
     if "oil" in source:
         return source["oil"] if isinstance(source["oil"], Oil) else named_oil(source["oil"])
     if "viscosity_table" in source:
@@ -144,7 +135,18 @@ def _oil(source: dict, before: Oil | None) -> Oil:
     return before
 
 
-def _kept(oil: Oil | None) -> dict:
-    if oil is None:
-        return {}
-    return {key: getattr(oil, key) for key in ("base", "density", "density_slope", "alpha", "estimate", "conductivity")}
+def only_one(section: str, given: dict, *keys: str) -> None:
+    """At most one of ``keys`` (each a key, or several that go together joined by '+') is given."""
+    found = [key for key in keys if any(k in given for k in key.split("+"))]
+    if len(found) > 1:
+        names = " and ".join(found)
+        raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
+
+
+def together(section: str, given: dict, *keys: str) -> bool:
+    """True when all ``keys`` are given, False when none is; an error when some are."""
+    there = [key for key in keys if key in given]
+    if there and len(there) < len(keys):
+        missing = ", ".join(key for key in keys if key not in given)
+        raise InputError(f"[{section}] {', '.join(there)} needs {missing} as well")
+    return bool(there)
