@@ -52,7 +52,7 @@ def read_history(
     """The `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
-    unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused. See `lubfric._base.columns`.
+    unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused. See `lubfric._base.tables`.
     """
     names = _word("time_column", time_column), _word("column", column)
     times, values = read_columns(Path(path), names, ("s", unit))

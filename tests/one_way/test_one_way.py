@@ -15,7 +15,7 @@ from lubfric.one_way.limit import pressure_limit
 from lubfric.one_way.point import solve_one_way
 from lubfric.one_way.together import together
 from lubfric.output import main
-from lubfric.output.vtk import vtk_bytes
+from lubfric.output.fields import vtk_bytes
 from lubfric.sampling import Uncertainty
 from lubfric.surface import Surface
 

@@ -8,7 +8,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.vtk import grid_bytes, vtk_bytes
+from lubfric.output.fields import grid_bytes, vtk_bytes
 
 SCENE = (
     BODIES_AND_OIL
