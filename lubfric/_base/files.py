@@ -8,6 +8,7 @@ import uuid
 import weakref
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from ..errors import InputError, OutputError
 
@@ -32,17 +33,9 @@ def write_whole(path, *content, sync: bool = True) -> None:
     ``sync=False`` leaves it to the operating system when the disk gets it, for what may be lost with the power. Raises
     as `whole_file`.
     """
-    with whole_file(path, sync=sync) as part:
-        with part.open("wb", buffering=0) as file:
-            for piece in content:
-                _write_all(file, piece)
-
-
-def _write_all(file, piece) -> None:
-    """Write all of ``piece``. The system may take less at once than it is given."""
-    rest = memoryview(piece)
-    while len(rest):
-        rest = rest[file.write(rest) :]
+    with whole_file(path, sync=sync) as part, part.open("wb") as file:
+        for piece in content:
+            file.write(piece)
 
 
 @contextmanager
@@ -125,23 +118,21 @@ class FolderLock:
 
     def __init__(self, folder):
         self.path = Path(folder) / LOCK
-        self._file = None
+        self._file: Any = None
 
     def __enter__(self) -> FolderLock:
-        while True:
+        while self._file is None:
             with saying(f"{self.path.parent} cannot be used"):
                 self.path.parent.mkdir(parents=True, exist_ok=True)
-                file = self.path.open("a+")
-            self._take(file)
-            if _still_there(file, self.path):  # not that of a run which ended, and removed it, meanwhile
-                break
-            file.close()
+                self._file = self.path.open("a+")
+            self._take()
+            if not self._still_there():  # that of a run which ended, and removed it, meanwhile
+                self.drop()
         with saying(f"{self.path} was not written"):
-            file.seek(0)
-            file.truncate()
-            file.write(str(os.getpid()))
-            file.flush()
-        self._file = file
+            self._file.seek(0)
+            self._file.truncate()
+            self._file.write(str(os.getpid()))
+            self._file.flush()
         _HELD.add(self)
         return self
 
@@ -157,32 +148,27 @@ class FolderLock:
             self._file.close()
         self._file = None
 
-    def _take(self, file) -> None:
+    def _take(self) -> None:
         try:
-            _lock(file)
+            if fcntl is not None:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            else:
+                self._file.seek(2**20)  # beyond what is written, so that others can read who holds it
+                msvcrt.locking(self._file.fileno(), msvcrt.LK_NBLCK, 1)
         except OSError:
-            file.seek(0)
-            holder = file.read().strip() or "unknown"
-            file.close()
+            self._file.seek(0)
+            holder = self._file.read().strip() or "unknown"
+            self.drop()
             raise InputError(
                 f"{self.path.parent} is being written by another run (process {holder}); "
                 "give another folder, or wait until it ends"
             ) from None
 
-
-def _lock(file) -> None:
-    if fcntl is not None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    else:
-        file.seek(2**20)  # beyond what is written, so that others can read who holds it
-        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-
-
-def _still_there(file, path: Path) -> bool:
-    try:
-        return os.path.samestat(os.fstat(file.fileno()), path.stat())
-    except FileNotFoundError:
-        return False
+    def _still_there(self) -> bool:
+        try:
+            return os.path.samestat(os.fstat(self._file.fileno()), self.path.stat())
+        except FileNotFoundError:
+            return False
 
 
 def _drop_in_child() -> None:

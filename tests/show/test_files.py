@@ -88,12 +88,6 @@ def test_what_a_point_has_not_is_refused():
     assert grid_bytes(np.arange(2.0), np.arange(3.0), {}, "t").startswith(b"# vtk DataFile Version 3.0\n")
 
 
-def test_a_run_in_time_has_neither(tmp_path, capsys):
-    (tmp_path / "s.toml").write_text(SCENE + "[transient]\nduration = 0.01\n")
-    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--report"]) == 2
-    assert "this is a scene with [transient]" in capsys.readouterr().err and not (tmp_path / "o").exists()
-
-
 def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkeypatch):
     (tmp_path / "m.csv").write_text("U [mm/s],mu\n10,0.08\n100,0.03\n")
     from matplotlib.axes import Axes
