@@ -68,7 +68,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     ),
     "Eyring stress in MPa": ({"lubricant": {"eyring_stress": "5"}}, "5 MPa = 5e\\+06 Pa"),
     "slip in percent as a ratio": ({"motion": {"slip_percent": None, "slide_roll_ratio": "5"}}, "slip_percent"),
-    "speed in mm/s": ({"motion": {"entrainment_speed": "500.0"}}, "500 mm/s = 0.5 m/s"),
+    "speed in mm/s": ({"motion": {"entrainment_speed": "150.0"}}, "150 mm/s = 0.15 m/s"),
     "misspelt key": ({"motion": {"entrainment_speed": None, "entrainement_speed": "1.0"}}, "entrainment_speed"),
     "misspelt section": ({"lubrikant": {"viscosity": "0.1"}}, "lubricant"),
     "Sq in micrometres": ({"surface": {"sq": "0.1"}}, "0.1 um = 1e-07 m"),
