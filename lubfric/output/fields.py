@@ -2,21 +2,13 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 
 from ..sampling import FrictionResult
 from ..sharing import Prepared, on_cells_of
+from .record import npz_bytes
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
-
-
-def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
-    """``arrays`` as a compressed ``.npz`` file."""
-    file = io.BytesIO()
-    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
-    return file.getvalue()
 
 
 def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:

@@ -1,13 +1,14 @@
-"""The record of a run, result.json: resolved input, versions, numbers and reports."""
+"""The record of a run, result.json: resolved input, versions, numbers and reports; and arrays as a file."""
 
 from __future__ import annotations
 
+import io
 import platform
 from dataclasses import asdict
 
 import numpy as np
 
-from .._base import __version__, plain
+from .._base import __version__
 from ..quantities import NUMBERS
 from ..scene import Scene, scene_as_dict
 from ..sharing import Prepared
@@ -16,18 +17,17 @@ from ..surface import Surface, rms_slope
 
 
 def curve_record(prepared: Prepared, curve: StribeckResult, seconds: float) -> dict:
-    """The record of a curve in plain JSON types: resolved input, versions, seed, timings, numbers and reports."""
+    """The record of a curve: resolved input, versions, seed, timings, numbers and reports."""
     surface = prepared.surface
     statistics = {name: getattr(surface, name) for name in ("sq", "sa", "ssk", "sku", "missing_fraction")}
     statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))
-    record = made_of(prepared.scene, surface, statistics=statistics) | {
+    return made_of(prepared.scene, surface, statistics=statistics) | {
         "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
         "seconds": seconds,
         "report": curve.report.as_dict(),
         "validity": list(curve.validity),
         "points": [_point(curve, i) for i in range(curve.speed.size)],
     }
-    return plain(record)
 
 
 def made_of(scene: Scene, surface: Surface, **described: object) -> dict:
@@ -52,3 +52,10 @@ def _point(curve: StribeckResult, index: int) -> dict:
         "report": point.report.as_dict(),
         **violated,
     }
+
+
+def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
+    """``arrays`` as a compressed ``.npz`` file."""
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
+    return file.getvalue()

@@ -12,9 +12,8 @@ from ..sharing import in_a_cell, prepare
 from ..studies import fingerprint
 from ..time import STATE, UNITS, TransientResult, transient
 from .console import Pace, keeping, say, say_written
-from .fields import npz_bytes
 from .plot_history import animate, plot_history
-from .record import made_of
+from .record import made_of, npz_bytes
 from .run_folder import CHECKPOINT, RunFolder, run_folder, run_name
 
 
