@@ -1,11 +1,34 @@
-"""How a result prints: one line, and a table in notebooks; and how a part of a scene prints: without the fields that
-have their defaults."""
+"""How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
+as one line, as a table in notebooks, or as the call that makes them."""
 
 from __future__ import annotations
 
 from dataclasses import MISSING, Field, fields
 from html import escape
 from typing import Any
+
+import numpy as np
+
+
+class FrozenArrays:
+    """Base of frozen dataclasses: every array field is read-only, after copying and unpickling too."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.freeze()
+
+    def freeze(self) -> None:
+        """Make the array fields read-only (call it in ``__post_init__``, on arrays of one's own)."""
+        for value in self.__dict__.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+
+class FieldsOnly:
+    """Base of frozen dataclasses with cached properties: derived values are not pickled."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]
 
 
 class Shown:

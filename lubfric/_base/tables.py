@@ -1,16 +1,21 @@
-"""Columns of numbers in a text file from elsewhere: headings with units, any usual separator and decimal mark."""
+"""Tables as text: those of results, written and read back, and columns of numbers in files from elsewhere (headings
+with units, any usual separator and decimal mark). Results in JSON types."""
 
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import InputError
-from . import validate
+import numpy as np
 
+from ..errors import InputError
+from .validate import nearest, shown
+
+IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_BYTES = 2**27
 UNITS = {  # dimension: {unit: in SI}
     "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
@@ -22,6 +27,47 @@ UNITS = {  # dimension: {unit: in SI}
     "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
 }
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
+
+
+def plain(value):
+    """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
+    if isinstance(value, dict):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
+    """``columns`` by heading as comma-separated text."""
+    file = io.StringIO(newline="")
+    writer = csv.writer(file)
+    writer.writerow(columns)
+    writer.writerows(zip(*(np.asarray(values, dtype=object).tolist() for values in columns.values())))
+    return file.getvalue().encode()
+
+
+class Columns(dict):
+    """Columns of a table by name; a missing one is an `InputError`."""
+
+    def __missing__(self, name: str):
+        raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
+
+
+def read_table(path: Path) -> Columns:
+    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a damaged table or another one."""
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            heading, *rows = list(csv.reader(file))
+        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
+    except (ValueError, IndexError, csv.Error) as problem:
+        said = f"{path} is no table of numbers, or torn ({shown(str(problem))})"
+        raise InputError(f"{said}; give a table that 'lubfric run' wrote") from None
 
 
 def read_columns(
@@ -50,7 +96,7 @@ def read_columns(
         if len(places) != 1:
             found = f"{len(places)} columns" if places else "no column"
             raise InputError(
-                f"file {path.name} has {found} {name!r}{'' if places else validate.nearest(name, known)}; "
+                f"file {path.name} has {found} {name!r}{'' if places else nearest(name, known)}; "
                 f"it has: {', '.join(headings)}"
             )
         heading = headings[places[0]]
@@ -73,7 +119,7 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
 def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
     """Raise `InputError` for a ``heading`` without brackets that ends with a unit other than SI (``time/ms``, ``speed
     mm/s``, ``speed_mm_s``, ``slip %``): its values would be read as SI."""
-    text = " ".join(heading.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
+    text = _in_ascii(heading)
     for si, table in UNITS.items():
         for unit, factor in table.items():
             if expected != si and (expected is not None or unit.isalpha() and len(unit) < 2):  # a letter may be a name
@@ -87,12 +133,16 @@ def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
                 )
 
 
+def _in_ascii(text: str) -> str:
+    """``text`` with a u for the sign of micro, and single spaces."""
+    return " ".join(text.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
+
+
 def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
     """The factor that turns a value into SI."""
     if given is None:
         return 1.0
-    word = " ".join(given.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
-    word = re.sub(r"\s*[\N{MIDDLE DOT}.*]\s*s$", " s", word)  # Pa.s, Pa·s, Pa*s
+    word = re.sub(r"\s*[\N{MIDDLE DOT}.*]\s*s$", " s", _in_ascii(given))  # Pa.s, Pa·s, Pa*s
     tables = [table for unit, table in UNITS.items() if expected in (None, unit)]
     for table in tables:
         if word in table:
@@ -137,7 +187,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"file {path.name}, line {line}, column {place + 1}: {validate.shown(field)} is not a number; allowed: a "
+            f"file {path.name}, line {line}, column {place + 1}: {shown(field)} is not a number; allowed: a "
             "finite number in every row"
         )
     return value
@@ -151,7 +201,7 @@ def _text(path: Path) -> str:
             raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
         content = path.read_bytes()
     except (OSError, ValueError) as problem:
-        raise InputError(f"file {validate.shown(str(path))} cannot be read ({problem})") from None
+        raise InputError(f"file {shown(str(path))} cannot be read ({problem})") from None
     codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
     for code in codes:
         try:
