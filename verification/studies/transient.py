@@ -24,7 +24,6 @@ from lubfric.time import (
     advance,
     make_fixed_grid,
     make_setting,
-    parabola,
     solve_transient_ehl,
     symmetric_nodes,
 )
@@ -127,9 +126,14 @@ def setting(resolution: float):
 def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
+<<<<<<< HEAD
     z = parabola(made, 1e-6)
     now = Progress((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
+=======
+    first = made.undeformed(1e-6)
+    now = Progress((Level(0.0, first.film, first.z),), LONG)
+>>>>>>> w-time
     for k in range(steps):
         found = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
         now = the(found, "step in time")
@@ -140,8 +144,8 @@ def one_step(resolution: float) -> float:
     """Relative error of the sinking speed in one backward Euler step, in which the law holds with the film
     at its end."""
     made, step = setting(resolution), 1e-2 * LONG
-    z = parabola(made, 1e-6)
-    h = made.solve(step, Memory(1 / step, z[-1] + 0.5 * made.grid.x**2), z).terms.H.min() * made.problem.film_unit
+    first = made.undeformed(1e-6)
+    h = made.solve(step, Memory(1 / step, first.film), first.z).terms.H.min() * made.problem.film_unit
     return float((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
 
 

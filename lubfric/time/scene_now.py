@@ -22,37 +22,34 @@ def changes(scene: Scene) -> Transient:
     return scene.transient
 
 
-def scene_at(scene: Scene, time: float, before: bool = True) -> Scene:
-    """``scene``, whose ``transient`` says what changes, just before ``time`` [s], or just after: with the load, radius,
-    speed, slide-roll ratio and viscosity of the moment. Its hardness is left out, because the contact has it."""
-    bodies, oil, motion = scene.bodies, scene.lubricant, scene.motion
-    speed = _value(scene, "speed", motion.entrainment_speed, time, before)
-    ratio = _ratio(sliding_at(scene, time, before), speed)
-    return replace(
-        scene,
-        bodies=replace(
-            bodies,
-            load=_value(scene, "load", bodies.load, time, before),
-            radius=_value(scene, "radius", bodies.radius, time, before),
-            hardness=None,
-        ),
-        lubricant=replace(oil, viscosity=_value(scene, "viscosity", oil.viscosity, time, before)),
-        motion=replace(motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=()),
-    )
+def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
+    """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
+    load, radius, speed, slide-roll ratio and viscosity of the moment. Its hardness is left out, because the contact has
+    it."""
+
+    def now(name: str, constant: float) -> float:
+        return _value(scene, name, constant, time, side)
+
+    bodies, oil = scene.bodies, scene.lubricant
+    bodies = replace(bodies, load=now("load", bodies.load), radius=now("radius", bodies.radius), hardness=None)
+    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
+    speed, sliding = now("speed", scene.motion.entrainment_speed), sliding_at(scene, time, side)
+    alone = abs(sliding) > FASTER * abs(speed)
+    ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
+    motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
+    return replace(scene, bodies=bodies, lubricant=oil, motion=motion)
 
 
-def sliding_at(scene: Scene, time: float, before: bool = True) -> float:
+def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
     """u2 - u1 [m/s]."""
     motion = scene.motion
-    speed = _value(scene, "speed", motion.entrainment_speed, time, before)
-    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, before)
+    speed = _value(scene, "speed", motion.entrainment_speed, time, side)
+    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
 
 
-def _value(scene: Scene, name: str, constant: float, time: float, before: bool) -> float:
+def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
     history = getattr(changes(scene), name)
-    if history is None:
-        return constant
-    return history.before(time) if before else history.at(time)
+    return constant if history is None else getattr(history, side)(time)
 
 
 @dataclass(frozen=True)
@@ -63,20 +60,23 @@ class WarmInlet(History):
     scene: Scene
 
     def at(self, time: float) -> float:
-        return _warm(scene_at(self.scene, time, before=False))
+        return self._warm(time, "at")
 
     def before(self, time: float) -> float:
-        return _warm(scene_at(self.scene, time))
+        return self._warm(time, "before")
 
     def range(self, duration: float) -> tuple[float, float]:
         """The range that `LOOKS` times and every stop show."""
-        low, high = self._seen
-        return low, high
+        return self._seen
 
     @cached_property
     def _seen(self) -> tuple[float, float]:
-        found = [f(t) for t in _looks(self.scene) for f in (self.before, self.at)]
+        found = [self._warm(t, side) for t in _looks(self.scene) for side in ("before", "at")]
         return min(found), max(found)
+
+    def _warm(self, time: float, side: str) -> float:
+        now = scene_at(self.scene, time, side)
+        return film_lubricant(now, now.motion.entrainment_speed).viscosity
 
 
 def inlet_viscosity(scene: Scene) -> History:
@@ -92,20 +92,7 @@ def inlet_viscosity(scene: Scene) -> History:
     return WarmInlet(scene.with_(numerics={"heat": "on"}))
 
 
-def _warm(now: Scene) -> float:
-    return film_lubricant(now, now.motion.entrainment_speed).viscosity
-
-
 def _looks(scene: Scene) -> list[float]:
     plan = changes(scene)
     stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
     return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})
-
-
-def _ratio(sliding: float, speed: float) -> float:
-    """Slide-roll ratio, no larger than `FASTER`."""
-    if sliding == 0:
-        return 0.0
-    if abs(sliding) > FASTER * abs(speed):
-        return math.copysign(FASTER, sliding)
-    return sliding / speed
