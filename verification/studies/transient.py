@@ -126,14 +126,9 @@ def setting(resolution: float):
 def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
-<<<<<<< HEAD
-    z = parabola(made, 1e-6)
-    now = Progress((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
-    system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
-=======
     first = made.undeformed(1e-6)
     now = Progress((Level(0.0, first.film, first.z),), LONG)
->>>>>>> w-time
+    system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
         found = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
         now = the(found, "step in time")
