@@ -11,9 +11,14 @@ from typing import Any
 
 from .._base import PART, read_checked, validate, write_checked
 from ..errors import InputError
-from ..studies import decode, encode, fingerprint
+from ..sharing import Validity
+from ..studies import classes_of, decode, encode, fingerprint
+from .film_newton import FilmStep
+from .march import Progress
+from .sharing import Contact
 
 STATE, OUTPUTS = "state.bin", "output_*.bin"
+CLASSES = classes_of(Progress, FilmStep, Contact, Validity)  # that a state or an output may hold
 
 
 class Checkpoint:
@@ -73,4 +78,4 @@ def _read(path: Path):
     content = read_checked(path) if path.is_file() else None
     if content is None:
         raise InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
-    return decode(content)
+    return decode(content, CLASSES)
