@@ -14,7 +14,7 @@ OPTIONS = {
     "model": ("auto", "load-sharing", "deterministic"),
     "film_deflection": ("hydrodynamic", "scaled", "total"),
     "grid": ("auto", "given"),
-    "sampling": ("line", "patch"),
+    "sampling": ("strips", "patch"),
     "heat": ("auto", "on", "off"),
     "cavitated_shear": ("none", "striated"),
 }
@@ -49,7 +49,7 @@ class Numerics(Brief):
     tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
         out (`tolerances`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
-    sampling : the surface that is solved: "line", a line of the scene's roughness as long as ``sampling_tolerance``
+    sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite line may leave
     film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
@@ -73,7 +73,7 @@ class Numerics(Brief):
     film_deflection: str = "scaled"
     model: str = "auto"
     grid: str = "auto"
-    sampling: str = "line"
+    sampling: str = "strips"
     sampling_tolerance: float = 0.02
     heat: str = "auto"
     accept: bool = False

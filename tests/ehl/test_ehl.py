@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.film import LineContact, assemble, grid, grubin, kernel, newton, problem, reynolds, start
+from lubfric.film import LineContact, assemble, deflection, grid, newton, problem, reynolds, start
 from lubfric.film import ehl as solve
 from lubfric.film import formulas as film
 from lubfric.film import rigid_cylinder as rigid
@@ -105,6 +105,25 @@ def test_rigid_piezoviscous(excess):
     assert moes_film(load, L, viscosity_law="barus", tolerance=3e-4)[0] == pytest.approx(h_min, rel=1e-3)
 
 
+@pytest.mark.parametrize("M, L", [(1e-12, 0.0), (1e-9, 1.0), (1e-6, 100.0), (1e-3, 1.0), (1e-3, 20.0), (0.01, 0.0)])
+def test_a_light_film_is_rigid_and_isoviscous_and_takes_few_steps(M, L):
+    h_min, _, h_flow, r = moes_film(M, L, tolerance=1e-2)
+    assert h_min * M == pytest.approx(2.447484, rel=5e-3) and h_flow * M == pytest.approx(3.0, rel=5e-3)
+    assert r.cells == 96 and r.report.iterations <= 16
+
+
+@pytest.mark.parametrize("M, L", [(0.05, 100.0), (0.03, 1000.0), (0.01, 1e4)])
+def test_a_rigid_film_between_both_limits_is_that_of_the_reduced_pressure(M, L):
+    """Roelands, by the quadrature of `true_pressure`: what the bodies give at L so large and M so small is little."""
+    r = moes_film(M, L, tolerance=1e-2)[3]
+    x = math.sqrt(2 * r.radius * r.min_film) * np.tan(np.linspace(-math.pi / 2, math.atan(0.4751299), 100001)[1:])
+    reduced = rigid.pressure(
+        x, r.min_film, radius=r.radius, entrainment_speed=r.entrainment_speed, viscosity=ROELANDS_VISCOSITY
+    )
+    assert np.trapezoid(rigid.true_pressure(r.contact.lubricant)(reduced), x) == pytest.approx(r.load, rel=5e-3)
+    assert r.cells == 96 and r.report.iterations <= 50
+
+
 def test_isoviscous_elastic():
     assert moes_film(10, 0.0, tolerance=3e-4)[2] == pytest.approx(2.655 * 10**-0.2, rel=1e-3)
     assert moes_film(50, 0.0, tolerance=3e-4)[2] == pytest.approx(2.534 * 50**-0.2, rel=1e-3)
@@ -121,7 +140,7 @@ def test_hertz_limit_of_a_heavy_contact():
 
 def test_grubin_inlet_is_approached_at_high_load():
     ratios = [
-        moes_film(M, 15.0, viscosity_law="barus", tolerance=1e-3)[2] / grubin.flow_film(M, 15.0) for M in (20, 80, 320)
+        moes_film(M, 15.0, viscosity_law="barus", tolerance=1e-3)[2] / film.grubin_film(M, 15.0) for M in (20, 80, 320)
     ]
     departures = np.abs(np.array(ratios) - 1)
     assert np.all(np.diff(departures) < 0) and departures[-1] < 0.045
@@ -158,7 +177,7 @@ def test_kernel_is_the_exact_integral():
 
     nodes = np.array([-3.0, -1.2, -0.5, 0.0, 0.1])
     points = np.array([-4.0, -1.2, -0.7, 0.1, 0.6])
-    K = kernel.hat_kernel(points, nodes)
+    K = deflection.hat_kernel(points, nodes)
     for i, x in enumerate(points):
         for j in range(nodes.size):
             hat = np.eye(nodes.size)[j]
@@ -175,7 +194,7 @@ def test_kernel_is_the_exact_integral():
 
 def test_kernel_flattens_a_hertz_pressure():
     xi = np.sin(np.linspace(-math.pi / 2, math.pi / 2, 301))
-    flat = 0.5 * xi**2 + kernel.hat_kernel(xi, xi) @ (0.25 * np.sqrt(np.maximum(0, 1 - xi**2)))
+    flat = 0.5 * xi**2 + deflection.hat_kernel(xi, xi) @ (0.25 * np.sqrt(np.maximum(0, 1 - xi**2)))
     assert np.ptp(flat) < 1e-4
 
 
@@ -398,7 +417,7 @@ def test_film_at_any_position(M, L):
     assert float(r.film_at(0.0)) == pytest.approx(r.central_film, rel=1e-9)
     middles = r.x[:-1] + 0.37 * np.diff(r.x)
     x = np.concatenate([np.linspace(-25, 25, 400) * r.half_width, middles, middles]).reshape(2, -1)
-    reference = kernel.hat_kernel(x.ravel() / r.half_width, r.x / r.half_width) @ r.pressure
+    reference = deflection.hat_kernel(x.ravel() / r.half_width, r.x / r.half_width) @ r.pressure
     exact = r.approach + x**2 / (2 * r.radius) + (reference * r.half_width / r.e_prime).reshape(x.shape)
     error, outside = np.abs(r.film_at(x) / exact - 1), (x < r.x[0]) | (x > r.x[-1])
     assert error.max() < 4e-3 and (not outside.any() or error[outside].max() < 2e-4)

@@ -8,14 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
+from lubfric import paper as differential_solve
 from lubfric.film import LineContact, Problem, cubic, hat_kernel, smallest
 from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
-from lubfric.paper import differential as differential_solve
 from lubfric.paper import differential_newton, solve_differential_deflection
-from lubfric.paper.differential_equations import evaluate, measure
-from lubfric.paper.differential_mesh import convolve, make_mesh
-from lubfric.paper.differential_newton import Squeeze, newton
+from lubfric.paper.differential_equations import Squeeze, convolve, evaluate, make_mesh, measure
+from lubfric.paper.differential_newton import newton
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,
@@ -41,7 +40,7 @@ def moes(M, L, **options):
 
 
 def numbers(result):
-    unit = result.load / (result.e_prime * result.load_number)
+    unit = result.load / (result.e_prime * result.contact.M)
     return np.array([result.min_film, result.central_film, result.flow_film]) / unit
 
 
@@ -195,16 +194,11 @@ def test_reversed_motion_mirrors(heavy):
     assert back.flux == -heavy.flux and back.rupture == -heavy.rupture
 
 
-def test_starts_from_a_neighbour_and_starts_the_default(heavy):
+def test_it_starts_the_default(heavy):
     near = moes(60, 9)
-    cold = solve_differential_deflection(**near, tolerance=1e-3)
-    for start in (heavy, lubfric.solve_ehl(**moes(50, 10))):
-        warm = solve_differential_deflection(**near, tolerance=1e-3, start=start)
-        assert not any("failed" in note for note in warm.report.notes)
-        np.testing.assert_allclose(numbers(warm), numbers(cold), rtol=1e-3)
     default = lubfric.solve_ehl(**near, tolerance=1e-3, start=heavy)
     assert not any("failed" in note for note in default.report.notes)
-    np.testing.assert_allclose(numbers(default), numbers(cold), rtol=2e-3)
+    np.testing.assert_allclose(numbers(default), numbers(lubfric.solve_ehl(**near, tolerance=1e-3)), rtol=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -249,7 +243,6 @@ def test_a_domain_that_ends_before_rupture_says_so():
         ({"domain": (0, 1e-3)}, "domain"),
         ({"domain": (-1e-3,)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
-        ({"start": 1}, "start"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),
         ({"tolerance": 0}, "tolerance"),
         ({"load_per_width": math.nan}, "load_per_width"),
