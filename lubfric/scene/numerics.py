@@ -27,6 +27,7 @@ DROPPED = {  # keys, and values of keys, that there were before: what to do inst
     "ehl_tolerance": "its name is numerics.film_tolerance",
     "model = 'full'": "leave it out, and give numerics.tolerance a smaller value",
     "film_deflection = 'auto'": "leave it out, or give 'hydrodynamic', 'scaled' or 'total'",
+    "sampling = 'line'": "leave it out, or give 'strips'",
 }
 
 
@@ -51,7 +52,7 @@ class Numerics(Brief):
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
-    sampling_tolerance : standard error of f that a finite line may leave
+    sampling_tolerance : standard error of f that a finite surface may leave
     film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
         scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total")
     model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure

@@ -276,6 +276,7 @@ def test_the_resolved_scene_is_plain_data():
         ({"model": "full"}, "numerics.tolerance a smaller value"),
         ({"film_deflection": "auto"}, "'scaled'"),
         ({"ehl_tolerance": 1e-3}, "numerics.film_tolerance"),
+        ({"sampling": "line"}, "'strips'"),
     ],
 )
 def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, way_out):
