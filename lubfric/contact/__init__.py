@@ -12,9 +12,9 @@ from .kernels import semiperiodic_coefficients
 from .make import rough_contact
 from .operator import HalfSpace, half_space
 from .problem import Problem, make_problem, starting_pressure
-from .refine import refine
 from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, Grid, RoughContact
+from .rounds import refine
 from .solve import solve_contact
 from .transforms import even_transform
 

@@ -9,8 +9,7 @@ import pytest
 
 import lubfric
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.contact import half_space
-from lubfric.contact.residual import deflection_scale
+from lubfric.contact import half_space, length_scale
 from lubfric.deterministic import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
@@ -136,9 +135,10 @@ def test_bulk_deflection_does_not_hide_open_gaps():
 def test_scale_of_residuals_is_bounded_without_periodicity():
     operator = half_space((8, 8), 1e-6, 231e9, "free")
     ripple = 4 / np.pi * 1e9 * 1e-6 / 231e9
-    assert deflection_scale(1.0 * 64e9, 64e9, 1e-9, operator) == pytest.approx(ripple)
-    assert deflection_scale(1.0 * 64e9, 64e9, 1.0, operator) == pytest.approx(1.0)
-    assert deflection_scale(0.0, 64e9, 1e-9, operator) == pytest.approx(1e-9)
+    pressure = np.full((8, 8), 1e9)
+    for deflection_of_all, roughness, expected in ((1.0, 1e-9, ripple), (1.0, 1.0, 1.0), (0.0, 1e-9, 1e-9)):
+        displacement = np.full((8, 8), deflection_of_all)
+        assert length_scale(pressure, displacement, displacement, operator, roughness) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
