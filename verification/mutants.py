@@ -48,10 +48,9 @@ def decadic_exponent(original):
 def without_overlap(original):
     """A search that knows only cells under pressure, and takes the gap for open elsewhere."""
 
-    def look(descent):
-        fields = descent.fields
-        np.maximum(fields.gap, descent.level, out=fields.gap, where=fields.change <= fields.lower)
-        return original(descent)
+    def look(search):
+        np.maximum(search.gap, search.level, out=search.gap, where=search.change <= search.lower)
+        return original(search)
 
     return look
 
@@ -313,8 +312,8 @@ MUTANTS = (
         "penetration_ignored",
         "contact set and stopping test look at p g only",
         {
-            "lubfric.contact.descent:Descent._look": without_overlap,
-            "lubfric.contact.looked:contact_residuals": no_penetration,
+            "lubfric.contact.search:Search._look": without_overlap,
+            "lubfric.contact.rounds:contact_residuals": no_penetration,
         },
         FORMULAS,
     ),
