@@ -204,7 +204,7 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
+        if not _sound(levels) or n >= FINEST:
             return levels
         if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
             return levels
