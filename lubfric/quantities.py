@@ -1,90 +1,232 @@
-"""Units and long names of inputs and results: keys of a scene, numbers of a result."""
+"""Every number of a result and every number of a scene, once: unit, long name, symbol, and what its error depends on.
+
+Results, their errors, tables, pages and pictures take names, units and words from here. A new number of a result is a
+line of `PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it.
+"""
 
 from __future__ import annotations
 
-QUANTITIES = {  # name: (unit, long name)
-    "coefficient": ("-", "friction coefficient"),
-    "contact_load": ("N", "load carried by the rough contact"),
-    "film_load": ("N", "load carried by the film"),
-    "shear_force": ("N", "shear force of the film"),
-    "couette_force": ("N", "sliding part of the shear force"),
-    "rolling_force": ("N", "rolling part of the shear force"),
-    "boundary_force": ("N", "friction force of the contact spots"),
-    "real_contact_area_fraction": ("-", "real contact area over nominal area"),
-    "real_contact_area": ("m2", "real contact area"),
-    "plastic_area_fraction": ("-", "plastic area over nominal area"),
-    "min_film": ("m", "smallest film thickness"),
-    "central_film": ("m", "central film thickness"),
-    "mean_gap": ("m", "mean gap of the rough surfaces"),
-    "film_to_roughness_ratio": ("-", "central film over Sq"),
-    "inlet_film_factor": ("-", "film thinner by the heat of its inlet"),
-    "flash_temperature_rise": ("K", "largest temperature rise of the surfaces"),
-    "film_temperature_rise": ("K", "largest mean temperature rise of the film over the surfaces"),
-    "clearance": ("-", "gap between the film and the highest summits over Sq, where they do not touch"),
-    "steepness": ("-", "d ln(film_load/contact_load) over d ln(speed)"),
-    "load_residual": ("-", "relative residual of the load balance"),
-    "volume_residual": ("-", "relative residual of the volume balance"),
-    "seconds": ("s", "processing time"),
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields
+from inspect import cleandoc
+from typing import Any, Generic, NamedTuple, TypeVar
+
+T = TypeVar("T")  # float, or an array over operating points
+
+
+class Quantity(NamedTuple):
+    """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
+    none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know.
+    """
+
+    unit: str
+    label: str
+    symbol: str = ""
+    error: str = ""
+    column: str = ""
+    note: str = ""
+
+
+def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
+    """A field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` of it, ``default``."""
+    default = {"default": more.pop("default")} if "default" in more else {}
+    return field(metadata={"quantity": Quantity(unit, label, symbol, **more)}, **default)
+
+
+def quantities(kind: type) -> dict[str, Quantity]:
+    """The quantities among the fields of a dataclass, by name."""
+    return {f.name: f.metadata["quantity"] for f in fields(kind) if "quantity" in f.metadata}
+
+
+def described_in_doc(kind: type[T]) -> type[T]:
+    """Class decorator: the attributes in the docstring begin with the quantities of ``kind``."""
+    head = "Attributes\n----------\n"
+    lines = [f"{name} : {q.label} [{q.unit}]{q.note and '; ' + q.note}\n" for name, q in quantities(kind).items()]
+    kind.__doc__ = cleandoc(kind.__doc__ or "").replace(head, head + "".join(lines))
+    return kind
+
+
+@dataclass(frozen=True, repr=False)
+class Quantities(Generic[T]):
+    """The numbers of an operating point whose errors are estimated (T: float), or of many points (T: array)."""
+
+    coefficient: T = quantity(
+        "-", "friction coefficient", "f", error="all", note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9)"
+    )
+    contact_load: T = quantity("N", "load carried by the rough contact", "F_C", error="split")
+    film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
+    shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
+    couette_force: T = quantity("N", "sliding part of the shear force", error="shear")
+    rolling_force: T = quantity("N", "rolling part of the shear force", error="shear")
+    boundary_force: T = quantity(
+        "N", "friction force of the contact spots", "f_b F_C", error="split", note="zero in pure rolling"
+    )
+    real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
+    real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
+    plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="spots")
+    min_film: T = quantity(
+        "m", "smallest film thickness", "h_min", error="film", note="of the smooth film; NaN without entrainment"
+    )
+    central_film: T = quantity(
+        "m", "central film thickness", "h_c", error="film", note="of the smooth film; NaN without entrainment"
+    )
+    mean_gap: T = quantity(
+        "m", "mean gap of the rough surfaces", error="film", note="the film thickness when they are separated"
+    )
+    film_to_roughness_ratio: T = quantity("-", "central film over Sq", "lambda", error="film")
+    inlet_film_factor: T = quantity(
+        "-", "film thinner by the heat of its inlet", error="heat", note="1 where heat is left out"
+    )
+    flash_temperature_rise: T = quantity(
+        "K", "largest temperature rise of the surfaces", error="heat", note="0 where heat is left out"
+    )
+    film_temperature_rise: T = quantity(
+        "K",
+        "largest mean temperature rise of the film over the surfaces",
+        error="heat",
+        note="mean across the film; 0 where heat is left out",
+    )
+
+
+@dataclass(frozen=True, repr=False)
+class PointQuantities(Quantities[T]):
+    """All numbers of an operating point: of a `lubfric.FrictionResult`, and as arrays of a `lubfric.StribeckResult`."""
+
+    speed: T = quantity("m/s", "entrainment speed", "U")
+    load_residual: T = quantity("-", "relative residual of the load balance", note="(F_C + F_H - F_T)/F_T")
+    volume_residual: T = quantity("-", "relative residual of the volume balance", note="(gap - film)/(gap + film)")
+    seconds: T = quantity("s", "processing time")
+
+
+@dataclass(frozen=True, kw_only=True)
+class UncertaintyQuantities(Generic[T]):
+    """How sure a friction coefficient is, in numbers: of a point (T: float) or of many (T: array)."""
+
+    numerical: T = quantity(
+        "-", "estimated relative error of f by film, grids and solvers", column="numerical_error", default=math.nan
+    )
+    sampling: T = quantity(
+        "-",
+        "relative standard error of f because a finite length of rough surface stands for all of it",
+        column="sampling_error",
+        note="NaN where it is not known",
+        default=math.nan,
+    )
+    line_scatter: T = quantity(
+        "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
+    )
+    participation: T = quantity(
+        "-", "number of equally loaded spots that would carry the load as unevenly", default=math.nan
+    )
+    length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
+    area_needed: T = quantity(
+        "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
+    )
+    model_form: T = quantity(
+        "-",
+        "estimated relative error of load sharing itself",
+        column="model_form_error",
+        note="not in the interval",
+        default=math.nan,
+    )
+
+
+_OF_POINT = quantities(PointQuantities)
+NUMBERS = ("speed", *(name for name in _OF_POINT if name != "speed"))  # of a result, in the order of its tables
+DECIDED = {  # of ``decision``, in the tables of studies
+    "clearance": Quantity("-", "gap between the film and the highest summits over Sq, where they do not touch"),
+    "steepness": Quantity("-", "d ln(film_load/contact_load) over d ln(speed)"),
 }
-KEYS = {  # units of the keys of a scene that are numbers
-    "speed": ("m/s", "entrainment speed"),
-    "bodies.radius": ("m", "reduced radius"),
-    "bodies.width": ("m", "length of the line contact"),
-    "bodies.load": ("N", "total load"),
-    "bodies.e_prime": ("Pa", "composite modulus E'"),
-    "bodies.hardness": ("Pa", "plastic limit of the contact pressure"),
-    "bodies.boundary_friction_coefficient": ("-", "boundary friction coefficient"),
-    "lubricant.viscosity": ("Pa s", "viscosity at ambient pressure"),
-    "lubricant.pressure_viscosity_coefficient": ("1/Pa", "pressure-viscosity coefficient"),
-    "lubricant.eyring_stress": ("Pa", "Eyring stress"),
-    "lubricant.limiting_stress_coefficient": ("-", "limiting shear stress per pressure"),
-    "lubricant.limiting_stress_offset": ("Pa", "limiting shear stress at ambient pressure"),
-    "lubricant.temperature_coefficient": ("1/K", "fall of ln(viscosity) with the temperature"),
-    "lubricant.conductivity": ("W/(m K)", "thermal conductivity of the film"),
-    "motion.entrainment_speed": ("m/s", "entrainment speed"),
-    "motion.speeds": ("m/s", "entrainment speeds"),
-    "motion.slide_roll_ratio": ("-", "slide-roll ratio"),
-    "motion.slip_percent": ("%", "slide-roll ratio in percent"),
-    "bodies.conductivity": ("W/(m K)", "thermal conductivity of both bodies"),
-    "bodies.volumetric_heat": ("J/(m3 K)", "heat capacity of both bodies"),
-    "bodies.hertz_pressure": ("Pa", "peak Hertz pressure"),
-    "bodies.hardness_hv": ("HV", "Vickers hardness"),
-    "lubricant.temperature": ("K", "temperature of the oil"),
-    "lubricant.temperature_celsius": ("°C", "temperature of the oil"),
-    "lubricant.viscosity_index": ("-", "viscosity index"),
-    "lubricant.nu40": ("m2/s", "kinematic viscosity at 40 °C"),
-    "lubricant.nu100": ("m2/s", "kinematic viscosity at 100 °C"),
-    "lubricant.density": ("kg/m3", "density of the oil at 15 °C"),
-    "lubricant.density_slope": ("kg/(m3 K)", "fall of the density with the temperature"),
-    "surface.sq": ("m", "root mean square roughness"),
-    "surface.correlation_length": ("m", "correlation length"),
-    "surface.spacing": ("m", "cell size of the map"),
-    "surface.s_filter": ("m", "nesting index below which the map is smoothed"),
-    "surface.l_filter": ("m", "nesting index above which the map is levelled"),
-    "contact.spacing": ("m", "cell size"),
-    "transient.duration": ("s", "duration"),
-    "transient.initial_film": ("m", "film to start from"),
+QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]} | DECIDED
+OF_UNCERTAINTY = quantities(UncertaintyQuantities)
+INTERVAL = {
+    "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
+    "interval_high": Quantity("-", "upper end of the 95 % interval of f"),
+}
+KEYS = {  # of a scene, as far as they are numbers
+    "speed": _OF_POINT["speed"],
+    "bodies.radius": Quantity("m", "reduced radius"),
+    "bodies.width": Quantity("m", "length of the line contact"),
+    "bodies.load": Quantity("N", "total load"),
+    "bodies.e_prime": Quantity("Pa", "composite modulus E'"),
+    "bodies.hardness": Quantity("Pa", "plastic limit of the contact pressure"),
+    "bodies.boundary_friction_coefficient": Quantity("-", "boundary friction coefficient"),
+    "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
+    "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),
+    "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
+    "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
+    "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
+    "lubricant.temperature_coefficient": Quantity("1/K", "fall of ln(viscosity) with the temperature"),
+    "lubricant.conductivity": Quantity("W/(m K)", "thermal conductivity of the film"),
+    "motion.entrainment_speed": Quantity("m/s", "entrainment speed"),
+    "motion.speeds": Quantity("m/s", "entrainment speeds"),
+    "motion.slide_roll_ratio": Quantity("-", "slide-roll ratio"),
+    "motion.slip_percent": Quantity("%", "slide-roll ratio in percent"),
+    "bodies.conductivity": Quantity("W/(m K)", "thermal conductivity of both bodies"),
+    "bodies.volumetric_heat": Quantity("J/(m3 K)", "heat capacity of both bodies"),
+    "bodies.hertz_pressure": Quantity("Pa", "peak Hertz pressure"),
+    "bodies.hardness_hv": Quantity("HV", "Vickers hardness"),
+    "lubricant.temperature": Quantity("K", "temperature of the oil"),
+    "lubricant.temperature_celsius": Quantity("°C", "temperature of the oil"),
+    "lubricant.viscosity_index": Quantity("-", "viscosity index"),
+    "lubricant.nu40": Quantity("m2/s", "kinematic viscosity at 40 °C"),
+    "lubricant.nu100": Quantity("m2/s", "kinematic viscosity at 100 °C"),
+    "lubricant.density": Quantity("kg/m3", "density of the oil at 15 °C"),
+    "lubricant.density_slope": Quantity("kg/(m3 K)", "fall of the density with the temperature"),
+    "surface.sq": Quantity("m", "root mean square roughness"),
+    "surface.correlation_length": Quantity("m", "correlation length"),
+    "surface.spacing": Quantity("m", "cell size of the map"),
+    "surface.s_filter": Quantity("m", "nesting index below which the map is smoothed"),
+    "surface.l_filter": Quantity("m", "nesting index above which the map is levelled"),
+    "contact.spacing": Quantity("m", "cell size"),
+    "transient.duration": Quantity("s", "duration"),
+    "transient.initial_film": Quantity("m", "film to start from"),
 }
 KEYS |= {
-    key.replace("surface.", "counterface."): (unit, f"{text}, of the other body")
-    for key, (unit, text) in KEYS.items()
+    key.replace("surface.", "counterface."): Quantity(unit, f"{label}, of the other body")
+    for key, (unit, label, *_) in KEYS.items()
     if key.startswith("surface.")
 }
-OF_ERRORS = {"line_length": ("m", "length of the line of rough surface")}
+COLUMNS = KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()}
 
 
-def described(name: str, table: dict) -> dict[str, str]:
+def depending_on(error: str) -> tuple[str, ...]:
+    """Names of the quantities whose error depends on that: "split" (the division of the load), "shear", "area",
+    "spots", "film", "heat"."""
+    return tuple(name for name, q in QUANTITIES.items() if q.error == error)
+
+
+def described(name: str, table: dict[str, Quantity] = COLUMNS) -> dict[str, str]:
     """Attributes of a column, in the words of the CF conventions."""
-    unit, text = table.get(name, ("", name.rpartition(".")[2].replace("_", " ")))
-    return {"units": "1" if unit == "-" else unit, "long_name": text} if unit else {"long_name": text}
+    unit, label = table.get(name, Quantity("", name.rpartition(".")[2].replace("_", " ")))[:2]
+    return {"units": "1" if unit == "-" else unit, "long_name": label} if unit else {"long_name": label}
 
 
 def heading(name: str) -> str:
     """The heading of a column: its name, and its unit in brackets."""
-    return f"{name} [{(KEYS | QUANTITIES | OF_ERRORS).get(name, ('-',))[0]}]"
+    return f"{name} [{COLUMNS[name].unit if name in COLUMNS else '-'}]"
+
+
+def axis_label(name: str) -> str:
+    """The label of an axis: long name, symbol and unit."""
+    unit, label, symbol = COLUMNS.get(name, Quantity("", name))[:3]
+    return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
+
+
+def short_label(name: str) -> str:
+    """The heading of a table for people: the symbol (where there is none, the long name) and the unit, if any."""
+    q = COLUMNS[name]
+    return (q.symbol or q.label) + (f" ({q.unit})" if q.unit != "-" else "")
+
+
+def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
+    """Attributes of ``values`` by symbol, to four digits and with their units: ``{"F_C": "3.2 N"}``."""
+    rows = [(COLUMNS[name], getattr(values, name)) for name in names]
+    return {q.symbol or q.label: f"{value:.4g}" + (f" {q.unit}" if q.unit != "-" else "") for q, value in rows}
 
 
 def key_unit(section: str, key: str) -> str:
     """The unit of a key of a scene, for people; "" where it has none."""
-    unit = KEYS.get(f"{section}.{key}", ("",))[0]
+    unit = KEYS[f"{section}.{key}"].unit if f"{section}.{key}" in KEYS else "-"
     return "" if unit == "-" else unit

@@ -66,20 +66,9 @@ class Report:
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""
-        return finite(
-            {
-                "format": FORMAT,
-                "passed": self.passed,
-                "complete": self.complete,
-                "verdict": self.verdict,
-                "level": self.level,
-                "selected": list(self.selected),
-                "started": self.started,
-                "seconds": self.seconds,
-                "environment": self.environment,
-                "studies": [outcome_dict(o) for o in self.outcomes],
-            }
-        )
+        shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
+        values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
+        return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
 
 
 def outcome_dict(outcome: Outcome) -> dict:
@@ -95,13 +84,7 @@ def outcome_dict(outcome: Outcome) -> dict:
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
         "tables": [
-            {
-                "name": t.name,
-                "caption": t.caption,
-                "columns": list(t.columns),
-                "rows": [list(r) for r in t.rows],
-            }
-            for t in outcome.tables
+            {"name": t.name, "caption": t.caption, "columns": t.columns, "rows": t.rows} for t in outcome.tables
         ],
         "figures": [
             {"file": file_of(outcome.study.name, f.name, f.format), "caption": f.caption} for f in outcome.figures

@@ -25,11 +25,7 @@ def in_time_without(**lost):
     """A contact in time with another oil."""
 
     def broken(original):
-        def contact(*args):
-            *others, lubricant, duration, initial, width = args
-            return original(*others, replace(lubricant, **lost), duration, initial, width)
-
-        return contact
+        return lambda **history: original(**history | {"lubricant": replace(history["lubricant"], **lost)})
 
     return broken
 
@@ -103,7 +99,7 @@ def doubled(original):
 
 def of_unit_width(original):
     """A contact in time whose load is not divided by the width."""
-    return lambda *args: original(*args[:-1], 1.0)
+    return lambda **history: original(**history | {"width": 1.0})
 
 
 def still(original):
@@ -115,37 +111,37 @@ MUTANTS = (
     Mutant(
         "transient_newtonian",
         "Eyring's law dropped in a transient",
-        {"lubfric.time.film_shear:shear_stress": sheared_without(eyring_stress=None)},
+        {"lubfric.time.shear:shear_stress": sheared_without(eyring_stress=None)},
         TIME,
     ),
     Mutant(
         "transient_no_limit",
         "limiting stress dropped in a transient",
-        {"lubfric.time.film_shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
+        {"lubfric.time.shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
         TIME,
     ),
     Mutant(
         "transient_density",
         "density law dropped in a transient",
-        {"lubfric.time.setup:ContactHistory": in_time_without(density_law="constant")},
+        {"lubfric.time.begin:ContactHistory": in_time_without(density_law="constant")},
         TIME,
     ),
     Mutant(
         "transient_viscosity_law",
         "viscosity law of a transient is Roelands' whatever was asked",
-        {"lubfric.time.setup:ContactHistory": in_time_without(viscosity_law="roelands")},
+        {"lubfric.time.begin:ContactHistory": in_time_without(viscosity_law="roelands")},
         TIME,
     ),
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {f"lubfric.time.{where}:sliding_at": lambda f: lambda *args: 2 * f(*args) for where in ("at_a_time", "moment")},
+        {f"lubfric.time.{where}:sliding_at": lambda f: lambda *args: 2 * f(*args) for where in ("scene_now", "moment")},
         TIME,
     ),
     Mutant(
         "transient_load",
         "load of a transient taken as load per width",
-        {"lubfric.time.setup:ContactHistory": of_unit_width},
+        {"lubfric.time.begin:ContactHistory": of_unit_width},
         TIME,
     ),
     Mutant("ramp_ignored", "ramps of a transient stay at their start", {"lubfric.scene.history:Ramp.at": still}, TIME),

@@ -7,22 +7,41 @@ solve as stagnated.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED
-from .careful import CarefulDescent
-from .cells import Cells
-from .descent import FIRST_PACE, REACH, Descent
-from .looked import State, look
-from .projection import rescaled
+from .cells import Cells, rescaled
+from .result import contact_residuals, length_scale, zero_level
+from .search import FIRST_PACE, Search
 
+REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
 MARGIN = 0.8  # of the tolerance, aimed at by the search
 FALL = 8e-6  # of the residual within a round: as far as single precision goes
-RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which conjugate steps are exact and careful
+RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which the search is exact
 WASTED = 4  # rounds without halving the residual
+
+
+@dataclass(frozen=True)
+class State:
+    """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
+
+    ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
+    the precision of the operator used.
+    """
+
+    pressure: np.ndarray
+    displacement: np.ndarray
+    gap: np.ndarray
+    approach: float
+    scale: float
+    residuals: dict[str, float]
+
+    @property
+    def residual(self) -> float:
+        """The worst."""
+        return max(self.residuals.values())
 
 
 @dataclass(frozen=True)
@@ -45,81 +64,72 @@ class Found:
         return self.state.pressure
 
 
+def look(problem, operator, pressure, level=None) -> State:
+    """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
+    displacement = operator.apply(pressure)
+    gap = (problem.gap0 + displacement).astype(displacement.dtype, copy=False)
+    if level is None:
+        yielded = pressure >= problem.hardness
+        level = zero_level(gap, (pressure > 0) & ~yielded, yielded)
+    gap -= level
+    scale = length_scale(pressure, displacement, problem.gap0, operator, problem.roughness)
+    residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
+    del residuals["load"]
+    return State(pressure, displacement, gap, level, scale, residuals)
+
+
 def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
     """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
-    operator, fast = problem.operator, problem.operator.single
-    state, exact = look(problem, fast, pressure, level), False
-    best, wasted, iterations, convolutions = math.inf, 0, 0, 1.0
+    state, status = look(problem, problem.operator.single, pressure, level), None
+    best, wasted, iterations, convolutions = np.inf, 0, 0, 1.0
     history: list[float] = []
-    while True:
-        status = _status(problem, state.residual, exact, iterations, wasted)
-        if status:
-            return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
+    while status is None:
         goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
+        pressure = state.pressure
         if state.residual > goal and iterations < problem.max_iterations:
-            cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-            state = state.light()
-            kind = CarefulDescent if wasted > 0 or _rigid(problem) else Descent
-            descent = kind(problem, cells, state, load, pace)
-            pressure = state.pressure
-            del state
-            descent.run(goal, problem.max_iterations - iterations)
-            found = descent.found(pressure)
-            iterations, pace = iterations + descent.iterations, pace if wasted else descent.pace
-            history += descent.history[:-1]
-            convolutions += descent.convolutions
-            del descent, cells
-            pressure = _admissible(found, pressure, load, problem.hardness)
-            del found
-        else:
-            pressure = state.pressure
-            del state
-        state, exact = look(problem, operator, pressure, level), True
+            search, pressure = _searched(problem, state, load, pace, goal, iterations, wasted > 0)
+            iterations, pace = iterations + search.iterations, pace if wasted else search.pace
+            history += search.history[:-1]
+            convolutions += search.convolutions
+            del search
+        state = look(problem, problem.operator, pressure, level)
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
+        if state.residual <= problem.tolerance:
+            status = CONVERGED
+        elif iterations >= problem.max_iterations:
+            status = ITERATION_LIMIT
+        elif wasted > WASTED:
+            status = STAGNATED
+    return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
 
 
-def _admissible(found, begun, load, hardness) -> np.ndarray:
-    """``found``, which may be overwritten, made to carry the load. If single precision has lost the load, the pressure
-    with which the search had ``begun`` is used."""
+def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> tuple[np.ndarray, float, float]:
+    """A start for a finer grid, by one round in single precision without a check: pressure [Pa], its pace, and the
+    number of convolutions."""
+    state = look(problem, problem.operator.single, pressure, level)
+    if not state.residual:
+        return pressure, pace, 1.0
+    search, pressure = _searched(problem, state, load, pace, MARGIN * problem.tolerance)
+    return pressure, search.pace, 1.0 + search.convolutions
+
+
+def _searched(problem, state: State, load, pace, goal, iterations=0, exact=False) -> tuple[Search, np.ndarray]:
+    """A search from ``state``, and its pressure [Pa] made to carry the load. If single precision has lost the load, the
+    pressure of ``state``."""
+    operator, flags = problem.operator.single, state.pressure > 0
+    if np.isfinite(state.scale):
+        overlap = state.residuals["penetration"] * state.scale
+    else:
+        overlap = max(0.0, -float(state.gap.min()))
+    flags |= state.gap < REACH * overlap
+    rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
+    search = Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
+    search.run(goal, problem.max_iterations - iterations)
+    found = search.found(state.pressure, problem.hardness)
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
-        return begun
-    if load is None or hardness < np.inf:
-        return found if load is None else rescaled(found, load, hardness)
-    found *= load / total
-    return found
-
-
-def _rigid(problem) -> bool:
-    """Whether cells yield before they deform noticeably. Then only the set of yielded cells is to be found."""
-    bent = problem.hardness * min(problem.operator.spacing) / problem.operator.e_prime
-    return bent < RIGID * problem.roughness
-
-
-def _status(problem, residual, exact, iterations, wasted) -> str | None:
-    """How the solve has ended, or None."""
-    if not exact:
-        return None
-    if residual <= problem.tolerance:
-        return CONVERGED
-    if iterations >= problem.max_iterations:
-        return ITERATION_LIMIT
-    return STAGNATED if wasted > WASTED else None
-
-
-def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
-    """One round, in single precision throughout: a start for a finer grid."""
-    fast = problem.operator.single
-    state = look(problem, fast, pressure, level)
-    if not state.residual:
-        return Found(state, "", 0, 1.0, (), pace)
-    cells = Cells.flagged(fast, (state.pressure > 0) | (state.gap < REACH * state.overlap))
-    state = state.light()
-    descent = (CarefulDescent if _rigid(problem) else Descent)(problem, cells, state, load, pace)
-    descent.run(MARGIN * problem.tolerance, problem.max_iterations)
-    found = _admissible(descent.found(pressure), pressure, load, problem.hardness)
-    state = State(
-        found, np.empty((0, 0)), np.empty((0, 0)), state.approach, state.scale, {"search": descent.history[-1]}
-    )
-    return Found(state, "", descent.iterations, 1.0 + descent.convolutions, (), descent.pace)
+        found = state.pressure
+    elif load is not None:
+        found = rescaled(found, load, problem.hardness)
+    return search, found

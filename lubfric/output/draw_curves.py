@@ -8,7 +8,7 @@ import numpy as np
 
 from .._base import GREEN, GREY, RED, friction_lines, interval_band, new_figure, plain_ticks
 from ..errors import InputError
-from ..quantities import KEYS
+from ..quantities import axis_label
 
 
 def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str, load: float) -> None:
@@ -71,8 +71,7 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
         (across, x, ax.set_xscale, ax.set_xlabel),
         (up, y, ax.set_yscale, ax.set_ylabel),
     ):
-        unit, name = KEYS.get(key, ("", key))
-        label(f"{name} ({unit})" if unit else name)
+        label(axis_label(key))
         if np.all(values_of > 0) and values_of.max() > 20 * values_of.min():
             scale("log")
     figure.colorbar(shown, label="friction coefficient (-)" if quantity == "coefficient" else quantity)

@@ -2,12 +2,11 @@
 
 from .generate import ACFS, generate_surface
 from .height_map import Surface
-from .outliers import outliers
-from .prepare import FORMS
+from .instrument import UNITS
+from .prepare import FORMS, outliers
 from .read import read_surface
 from .statistics import correlation_length, rms_slope
-from .table import DECIMALS
-from .units import UNITS
+from .text import DECIMALS
 
 __all__ = [
     "ACFS",

@@ -8,8 +8,8 @@ from scipy import integrate
 
 from lubfric import InputError
 from lubfric.contact import westergaard
-from lubfric.film import formulas as film
 from lubfric.film import LineContact, hertz
+from lubfric.film import formulas as film
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.oil import Lubricant
 

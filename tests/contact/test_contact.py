@@ -278,10 +278,10 @@ def test_iteration_limit_raises_with_everything():
 
 def test_certification_does_not_believe_the_iteration(monkeypatch):
     """A search that claims success with a wrong field is found out."""
-    from lubfric.contact.descent import Descent
+    from lubfric.contact.search import Search
 
-    honest = Descent.found
-    monkeypatch.setattr(Descent, "found", lambda self, pressure: np.roll(honest(self, pressure), 1, axis=0))
+    honest = Search.found
+    monkeypatch.setattr(Search, "found", lambda self, pressure: np.roll(honest(self, pressure), 1, axis=0))
     with pytest.raises(ConvergenceError) as caught:
         solve_contact(rough((32, 32)), DX, E_PRIME, mean_pressure=5e8)
     assert caught.value.report.residuals["penetration"] > 1e-3

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric import time as module
 from lubfric.film import LineContact, Problem, solve_ehl
 from lubfric.oil import Lubricant
 from lubfric.paper import solve_differential_transient
@@ -21,14 +20,11 @@ from lubfric.time import (
     advance,
     make_fixed_grid,
     make_setting,
-    parabola,
     solve_transient_ehl,
     symmetric_nodes,
 )
-from lubfric.time.film_active_set import solve_step
-from lubfric.time.film_setting import steady_start
-from lubfric.time.film_squeeze import Conditions, Spring, evaluate, jacobian
-from lubfric.time.film_tail import outside, outside_shear
+from lubfric.time.film_equations import Conditions, Spring, StepEquations, outside, outside_shear
+from lubfric.time.film_setting import Setting, steady_start
 
 SQUEEZE = dict(
     load_per_width=100.0,
@@ -94,18 +90,13 @@ def squeeze_setting(resolution):
 
 def test_second_order_in_time():
     setting = squeeze_setting(0.5)
-    z = parabola(setting, 1e-6)
+    start = setting.undeformed(1e-6)
+    free = SimpleNamespace(solve=setting.solve, error_of=lambda solution, difference: 0.0)
     ends = []
     for steps in (32, 64, 128, 512):
-        now = Progress((Level(0.0, z[-1] + 0.5 * setting.grid.x**2, z),), 0.3 * LONG / steps)
+        now = Progress((Level(0.0, start.film, start.z),), LONG)
         for k in range(steps):
-            now = advance(
-                replace(now, step=LONG),
-                0.3 * LONG * (k + 1) / steps,
-                SimpleNamespace(solve=setting.solve, error_of=lambda solution, difference: 0.0),
-                1.0,
-                0.0,
-            )
+            now = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, free, 1.0, 0.0)
         ends.append(now.levels[-1].film.min())
     errors = np.abs(np.array(ends[:3]) - ends[3])
     orders = np.log2(errors[:-1] / errors[1:])
@@ -113,12 +104,11 @@ def test_second_order_in_time():
 
 
 def test_second_order_in_space():
-    errors = []
+    errors, step = [], 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
     for resolution in (0.25, 0.5, 1.0):
         setting = squeeze_setting(resolution)
-        z = parabola(setting, 1e-6)
-        step = 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
-        found = setting.solve(step, Memory(1 / step, z[-1] + 0.5 * setting.grid.x**2), z)
+        start = setting.undeformed(1e-6)
+        found = setting.solve(step, Memory(1 / step, start.film), start.z)
         h = found.terms.H.min() * setting.problem.film_unit
         errors.append((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
     orders = np.log2(np.abs(errors[:-1]) / np.abs(errors[1:]))
@@ -252,27 +242,26 @@ def test_a_stopped_contact_decays_like_its_exact_squeeze():
 
 
 def rough_state():
-    keywords, problem, _ = moes(5, 8, "dowson-higginson")
+    _, problem, _ = moes(5, 8, "dowson-higginson")
     b = problem.half_width
     grid = make_fixed_grid(symmetric_nodes(0.4, (b, b), (3.0, 6.0)))
     rng = np.random.default_rng(1)
     P = np.sqrt(np.maximum(0.05, 1 - (grid.x / b) ** 2)) * (1 + 0.01 * rng.standard_normal(grid.n + 1))
-    z = np.append(P, 30.0)
     memory = Memory(0.7, 40 + 0.5 * grid.x**2)
     spring = Spring(rng.random(grid.n + 1) / grid.n, 20.0, 2.0, 30.0)
-    return grid, problem, Conditions(0.4, 3.0, 1.2, 0.8), memory, spring, z
+    return StepEquations(grid, problem, Conditions(0.4, 3.0, 1.2, 0.8), memory, spring), np.append(P, 30.0)
 
 
 def test_the_jacobian_is_the_derivative():
-    grid, problem, now, memory, spring, z = rough_state()
-    J = jacobian(grid, now, memory, spring, evaluate(grid, problem, now, memory, spring, z))
+    equations, z = rough_state()
+    J = equations.jacobian(equations.evaluate(z))
     rng = np.random.default_rng(2)
     for _ in range(4):
         d = rng.standard_normal(z.size)
         d[:-1] *= np.abs(z[:-1])
 
         def both(step):
-            t = evaluate(grid, problem, now, memory, spring, z + step * d)
+            t = equations.evaluate(z + step * d)
             return np.append(t.r, t.balance)
 
         numerical = (both(1e-6) - both(-1e-6)) / 2e-6
@@ -286,8 +275,8 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
     h = lambda s: film + 0.5 * c * (s * s - a * a)  # noqa: E731
     slope = lambda s: 6 * nu * (flow + rate * (s - a) - speed * h(s)) / h(s) ** 3  # noqa: E731
     pressure, load = outside(a, film, c, nu, speed, flow, rate)
-    assert pressure.value == pytest.approx(-quad(slope, a, np.inf, epsrel=1e-11)[0], rel=1e-8)
-    assert load.value == pytest.approx(-quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8)
+    assert pressure[0] == pytest.approx(-quad(slope, a, np.inf, epsrel=1e-11)[0], rel=1e-8)
+    assert load[0] == pytest.approx(-quad(lambda s: (s - a) * slope(s), a, np.inf, epsrel=1e-11)[0], rel=1e-8)
     reach, shear = outside_shear(a, film, c, nu, speed, flow, rate)
     assert reach == pytest.approx(quad(lambda s: 1 / h(s), a, np.inf)[0], rel=1e-8)
     assert shear == pytest.approx(quad(lambda s: 0.5 * h(s) * slope(s), a, np.inf)[0], rel=1e-8)
@@ -295,25 +284,20 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
 
 def test_a_step_balances_mass_and_keeps_complementarity():
     keywords, _, unit = moes(20, 5)
+    speed = keywords["entrainment_speed"]
     contact = ContactHistory(
-        Constant(keywords["load_per_width"]),
-        Constant(0.01),
-        keywords["e_prime"],
-        Constant(keywords["entrainment_speed"]),
-        Constant(keywords["viscosity"]),
-        Lubricant(0.0358, 2.2e-8),
-        10 * unit,
+        load=Constant(keywords["load_per_width"]),
+        radius=Constant(0.01),
+        e_prime=keywords["e_prime"],
+        speed=jump(speed, 0.5, at=0.01 * unit),
+        viscosity=Constant(keywords["viscosity"]),
+        lubricant=Lubricant(0.0358, 2.2e-8),
+        duration=10 * unit,
     )
     setting = make_setting(contact, 1e-3)
     start = steady_start(setting)
     step = 0.05 * unit
-    found = solve_step(
-        setting.grid,
-        setting.problem,
-        replace(setting.conditions(0.0), speed=0.5),
-        Memory(setting.time_unit / step, start.film),
-        start.z,
-    )
+    found = setting.solve(step, Memory(1 / step, start.film), start.z)
     t = found.terms
     assert found.status == "converged" and np.all(t.P >= 0) and np.all(t.r[1:-1] >= -1e-6)
     assert np.max(np.abs((t.P * t.r)[1:-1])) < 1e-5 * t.P.max()
@@ -326,27 +310,18 @@ def test_a_step_balances_mass_and_keeps_complementarity():
 def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
     keywords, _, unit = moes(10, 5)
     keywords["entrainment_speed"] = jump(keywords["entrainment_speed"], 0.5)
-    real = solve_step
+    real = Setting.solve
 
-    def failing(grid, problem, now, memory, z, **options):
-        found = real(grid, problem, now, memory, z, **options)
-        return (
-            replace(found, status="diverged")
-            if memory.rate and now.speed < 0.9 and failing.calls > 40
-            else count(found)
-        )
+    def failing(setting, time, *rest):
+        found = real(setting, time, *rest)
+        return replace(found, status="diverged") if time > 0.02 * unit else found
 
-    def count(found):
-        failing.calls += 1
-        return found
-
-    failing.calls = 0
-    monkeypatch.setattr("lubfric.time.film_setting.solve_step", failing)
+    monkeypatch.setattr(Setting, "solve", failing)
     times = unit * np.array([0.0, 0.01, 50.0])
     with pytest.raises(lubfric.ConvergenceError, match="stagnated") as caught:
-        solve_transient_ehl(**keywords, times=times)
+        solve_transient_ehl(**keywords, times=times, tolerance=3e-3)
     assert caught.value.result.time.tolist() == times[:2].tolist()
-    assert not solve_transient_ehl(**keywords, times=times, raise_on_failure=False).report.converged
+    assert not solve_transient_ehl(**keywords, times=times, tolerance=3e-3, raise_on_failure=False).report.converged
 
 
 @pytest.mark.parametrize(
@@ -366,4 +341,4 @@ def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
 def test_bad_input_is_refused(change, words):
     keywords, _, _ = moes(10, 5)
     with pytest.raises(lubfric.InputError, match=words):
-        module.solve_transient_ehl(**keywords | {"times": [0.0, 1.0]} | change)
+        solve_transient_ehl(**keywords | {"times": [0.0, 1.0]} | change)

@@ -11,7 +11,6 @@ from verification.fem import ehl
 from verification.fem.compliance import Elastic
 from verification.fem.fluid import Fluid
 from verification.fem.harmonic import Strip, compliance
-from verification.fem.report import InputError, SolveError
 from verification.fem.rough import press
 from verification.fem.sharing import Bodies, FlatBodies, root, rupture, share_load, shear
 
@@ -69,22 +68,6 @@ def test_hardness_caps_the_pressure_and_yielded_cells_overlap(strip):
     assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
 
 
-def test_bad_input_and_a_solve_cut_short(strip):
-    gap0 = np.random.default_rng(1).random((24, 12)) * 1e-7
-    for call in (
-        lambda: press(strip, gap0[:3], 1.0),
-        lambda: press(strip, gap0, -1.0),
-        lambda: press(strip, gap0, 1e9, hardness=1e9),
-        lambda: Strip((23, 12), (CELL, CELL), BODY),
-        lambda: Strip((24, 12), (CELL, CELL), BODY, side=4),
-    ):
-        with pytest.raises(InputError):
-            call()
-    with pytest.raises(SolveError) as caught:
-        press(strip, gap0, 100.0, max_iterations=0)
-    assert not caught.value.report.converged and caught.value.result.pressure.shape == (24, 12)
-
-
 @pytest.mark.parametrize("guess", [-8.0, 0.0, 5.0])
 def test_root_of_an_increasing_function(guess):
     values = []
@@ -122,9 +105,6 @@ def test_load_sharing_closes_both_balances(strip):
     assert found.coefficient == pytest.approx(
         (0.09 * found.contact_load + found.couette + found.rolling) / 5.5, rel=1e-12
     )
-    with pytest.raises(SolveError) as caught:
-        share_load(bodies, refinements=0, max_evaluations=1, guess=3.0)
-    assert not caught.value.report.converged and caught.value.result.film_load > 0
 
 
 def test_closed_forms_of_contact_agree_with_each_other():

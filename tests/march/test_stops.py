@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.scene import Table
-from lubfric.scene.history_corners import corners
+from lubfric.scene.history import corners
 from lubfric.time import plan_of
 
 PULSE = Table(times=(0.0, 0.33, 0.331, 0.398, 0.399, 1.0), values=(0.01, 0.01, 0.1, 0.1, 0.01, 0.01))

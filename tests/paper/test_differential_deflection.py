@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
+from lubfric import paper as differential_solve
 from lubfric.film import LineContact, Problem, cubic, hat_kernel, smallest
 from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
-from lubfric.paper import differential as differential_solve
 from lubfric.paper import differential_newton, solve_differential_deflection
 from lubfric.paper.differential_equations import Squeeze, convolve, evaluate, make_mesh, measure
 from lubfric.paper.differential_newton import newton

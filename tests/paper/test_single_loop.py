@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import half_space, solve_contact
+from lubfric.contact import half_space
+from lubfric.contact.solve import solve_contact
 from lubfric.paper import alternating, single_loop
 
 E, D, N, RADIUS = 231e9, 1e-6, 96, 2e-3

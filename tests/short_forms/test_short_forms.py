@@ -7,7 +7,7 @@ import pytest
 import lubfric
 from lubfric import oil
 from lubfric.film import hertz
-from lubfric.scene.short_bodies import reduced_radius
+from lubfric.scene.short_forms import reduced_radius
 
 PAPER = lubfric.load_scene("paper")
 INF = math.inf

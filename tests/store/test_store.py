@@ -162,7 +162,7 @@ def test_the_first_of_two_records_counts_and_json_is_strict(tmp_path):
 
 HOLDER = """
 import sys
-from lubfric.studies import FolderLock
+from lubfric._base import FolderLock
 with FolderLock(sys.argv[1]):
     print("ready", flush=True)
     sys.stdin.read()

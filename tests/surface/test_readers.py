@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from lubfric import InputError, Surface, read_surface
-from lubfric.surface import correlation_length, instrument, rms_slope
+from lubfric.surface import instrument
 from lubfric.surface.read import SUFFIXES, read_instrument_file
+from lubfric.surface.statistics import correlation_length, rms_slope
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))

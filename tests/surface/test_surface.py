@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.surface import correlation_length, rms_slope
-from lubfric.surface.statistics import autocorrelation
+from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
 
 ROUGH = {"sq": 240e-9, "correlation_length": 16e-6}
 

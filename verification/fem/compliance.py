@@ -105,14 +105,8 @@ def line_load_difference(x, thickness: float, body: Elastic):
     """Exact ``[u(x) - u(0)]_layer - [u(x) - u(0)]_half-space``, m per N/m of a line load at 0; x in m."""
 
     def one(at: float) -> float:
-        return quad(
-            lambda s: missing(s, body.poisson) * (1 - np.cos(s * at)) / s,
-            0,
-            FAR,
-            epsabs=1e-13,
-            epsrel=1e-10,
-            limit=2000,
-        )[0]
+        limits = {"epsabs": 1e-13, "epsrel": 1e-10, "limit": 2000}
+        return quad(lambda s: missing(s, body.poisson) * (1 - np.cos(s * at)) / s, 0, FAR, **limits)[0]
 
     scaled = np.abs(np.atleast_1d(np.asarray(x, dtype=float))) / thickness
     return 4 / (np.pi * body.e_prime) * np.array([one(at) for at in scaled])

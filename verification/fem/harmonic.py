@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 from scipy import fft
-from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
 from .compliance import Elastic
 from .report import InputError
+from .triangles import factorised, graded
 
 
 @dataclass(frozen=True)
@@ -96,11 +96,6 @@ def compliance(strip: Strip) -> Compliance:
     return Compliance(strip, np.array(harmonics), free.size)
 
 
-def factorised(matrix):
-    """Sparse LU of a symmetric positive definite matrix."""
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
 def graded_mesh(strip: Strip) -> MeshTri:
     """Triangles, split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
     patch)``."""
@@ -108,15 +103,12 @@ def graded_mesh(strip: Strip) -> MeshTri:
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
-    while True:
-        corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+
+    def allowed(corners):
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
-        distance = np.hypot(aside, corners[1]).min(axis=0)
-        large = np.flatnonzero(longest > np.hypot(fine, strip.growth * distance))
-        if not large.size:
-            return mesh
-        mesh = mesh.refined(large)
+        return np.hypot(fine, strip.growth * np.hypot(aside, corners[1]).min(axis=0))
+
+    return graded(mesh, allowed)
 
 
 def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:

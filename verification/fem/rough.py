@@ -69,16 +69,8 @@ def press(
         if status == CONVERGED or len(history) > max_iterations:
             break
         touching, yielded = next_set(pressure, gap, touching, yielded, hardness)
-    report = SolveReport(
-        "contact on finite elements, active set",
-        status,
-        len(history),
-        history[-1],
-        tolerance,
-        residuals,
-        tuple(history),
-        len(history),
-    )
+    solver = "contact on finite elements, active set"
+    report = SolveReport(solver, status, len(history), tolerance, residuals, tuple(history))
     result = Pressed(np.clip(pressure, 0, hardness), gap, approach, yielded, report)
     if raise_on_failure:
         report.raise_if_failed(result)

@@ -174,16 +174,8 @@ def share_load(
     root(at, done, guess, step)
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
-    report = SolveReport(
-        "load sharing by finite elements",
-        status,
-        len(history),
-        min(history),
-        tolerance,
-        {"volume": min(history)},
-        history,
-        len(history),
-    )
+    residuals = {"volume": min(history)}
+    report = SolveReport("load sharing by finite elements", status, len(history), tolerance, residuals, history)
     found = replace(best(tried), report=report)
     if raise_on_failure:
         report.raise_if_failed(found)
@@ -231,21 +223,10 @@ def divided(bodies: Bodies | FlatBodies, split: float, refinements: int, tried: 
     under = bodies.under(shape, contact_load, None if near is None else tried[near].pressed)
     weight = bodies.weight / bodies.weight.sum()
     couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - under.touching))
-    sense = math.copysign(1.0, bodies.sliding)
     boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)
-    return Shared(
-        film_load,
-        contact_load,
-        couette,
-        rolling,
-        float(sense * (boundary + couette + rolling) / bodies.load),
-        float(weight @ under.gap),
-        float(weight @ shape),
-        float(weight @ under.touching),
-        film,
-        under.pressed,
-        film.report,
-    )
+    f = float(math.copysign(1.0, bodies.sliding) * (boundary + couette + rolling) / bodies.load)
+    means = (float(weight @ values) for values in (under.gap, shape, under.touching))
+    return Shared(film_load, contact_load, couette, rolling, f, *means, film, under.pressed, film.report)
 
 
 def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
@@ -262,15 +243,8 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     """
     c, dofs = film.contact, film.body.line.doflocs[0]
     start, end = dofs.min() * c.half_width, rupture(film)
-    x = np.unique(
-        np.concatenate(
-            [
-                np.linspace(a, b, PARTS, endpoint=False)
-                for a, b in zip(*film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width, strict=True)
-            ]
-            + [edges, [end]]
-        )
-    )
+    ends = film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width
+    x = np.unique([*np.linspace(*ends, PARTS, endpoint=False).ravel(), *edges, end])
     x = x[(x > start) & (x <= end)]
     middle = 0.5 * (x[1:] + x[:-1])
     p, h = film.at(middle)
@@ -294,9 +268,9 @@ def rupture(film: ehl.Solution) -> float:
     c, order = film.contact, np.argsort(film.body.x)
     x, H = film.body.x[order] * c.half_width, film.H[order] * c.film_unit
     thinnest = int(H.argmin())
-    return brentq(
-        lambda at: float(film.at(np.array([at]))[1][0]) - film.flow_film,
-        x[thinnest],
-        x[thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]],
-        xtol=1e-6 * c.half_width,
-    )
+    beyond = thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]
+
+    def excess(at: float) -> float:
+        return float(film.at(np.array([at]))[1][0]) - film.flow_film
+
+    return brentq(excess, x[thinnest], x[beyond], xtol=1e-6 * c.half_width)

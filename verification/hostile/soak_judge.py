@@ -13,9 +13,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.sharing import Prepared, on_cells_of
+from lubfric.sampling.sample import PAIR
+from lubfric.sharing.prepared import Prepared, on_cells_of
 
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
@@ -166,8 +168,6 @@ def _strip(surfaces, x) -> Strip:
 
 def _pair(lines, index: int) -> tuple[Strip, Strip]:
     """A piece on its own cells and on every so-manieth of them."""
-    from lubfric.sampling.sample import PAIR
-
     surface, (fx, fy) = lines.pair(index, PAIR * lines.lengths[1]), lines.cells.factors
     z, (dx, dy) = surface.heights, surface.spacing
     x = lines.cells.axis()[0] + (np.arange(z.shape[0]) - fx // 2) * dx
@@ -176,7 +176,7 @@ def _pair(lines, index: int) -> tuple[Strip, Strip]:
 
 
 def verdict(prepared: Prepared, result) -> dict[str, float]:
-    """Deviations of ``result`` by name, over what is allowed."""
+    """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
     scene, load = prepared.scene, prepared.scene.bodies.load
     share, forces = result.contact_load / load, result.boundary_force + result.shear_force
     found = {
@@ -184,7 +184,11 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
-    if scene.contact.model == "half-space" and scene.surface.sq:
+    if result.speed == 0:
+        found["contact share"] = abs(share - 1) / scene.numerics.tolerance
+        expected = scene.bodies.boundary_friction_coefficient
+        found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
+    elif scene.contact.model == "half-space" and scene.surface.sq:
         stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
         if result.line is not None and len(result.line.used) and share > 0:
             stated += SECOND_ORDER * result.uncertainty.sampling**2
@@ -223,7 +227,7 @@ def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tup
 
 
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
-    from scipy.optimize import brentq
+    """As `closed_again`, by a root between divisions on both sides of it."""
 
     def surplus(split):
         sides = judge.sides(split)

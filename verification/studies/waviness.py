@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic import Start, lay_out, solve_point
+from lubfric.deterministic import Start
+from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic.solve import solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
-from lubfric.surface import Surface
+from lubfric.surface.height_map import Surface
 
 from ..check import ABSOLUTE, Check, Item, Table
 from ..fem import ehl

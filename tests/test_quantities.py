@@ -1,0 +1,60 @@
+"""The one table of numbers agrees with what results and scenes have."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric import quantities as q
+from lubfric.sampling import FIELDS, Uncertainty
+from lubfric.scene.file import SECTIONS
+from lubfric.scene.short_forms import short_keys
+
+
+def test_results_have_the_numbers_of_the_table_and_no_others():
+    numbers = {f.name for f in fields(lubfric.FrictionResult) if f.type == "float"} | set(q.NUMBERS)
+    assert numbers == set(q.NUMBERS)
+    assert set(q.NUMBERS) <= {f.name for f in fields(lubfric.FrictionResult)}
+    assert set(q.NUMBERS) <= {f.name for f in fields(lubfric.StribeckResult)}
+    assert set(FIELDS) == {name for name, row in q.QUANTITIES.items() if row.error}
+    assert set(q.OF_UNCERTAINTY) <= {f.name for f in fields(Uncertainty)}
+
+
+def test_every_key_of_the_table_is_a_key_of_a_scene():
+    for key in set(q.KEYS) - {"speed"}:
+        section, _, name = key.partition(".")
+        assert name in [*(f.name for f in fields(SECTIONS[section])), *short_keys(section)], key
+
+
+def test_words_for_columns_axes_tables_and_lines():
+    assert q.heading("contact_load") == "contact_load [N]" and q.heading("line_length") == "line_length [m]"
+    assert q.axis_label("coefficient") == "friction coefficient f (-)"
+    assert q.axis_label("surface.seed") == "surface.seed"
+    assert q.short_label("film_load") == "F_H (N)" and q.short_label("coefficient") == "f"
+    assert q.described("bodies.load") == {"units": "N", "long_name": "total load"}
+    assert q.described("surface.seed") == {"long_name": "seed"}
+    assert q.depending_on("heat") == ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
+
+
+def test_a_result_made_from_the_table():
+    """Fields, docstring and words of a class over the table: numbers for a point, arrays for a curve."""
+
+    @q.described_in_doc
+    @dataclass(frozen=True)
+    class Result(q.PointQuantities[float]):
+        """A result.
+
+        Attributes
+        ----------
+        report : of the solve
+        """
+
+        report: str
+
+    found = Result(**{name: 0.5 for name in q.NUMBERS}, report="fine")
+    assert q.in_words(found, ("speed", "coefficient")) == {"U": "0.5 m/s", "f": "0.5"}
+    assert "film_load : load carried by the film [N]\n" in Result.__doc__ and "report : of the solve" in Result.__doc__
+    with pytest.raises(TypeError):
+        Result(report="no numbers")
+    assert np.isnan(q.UncertaintyQuantities().sampling)
