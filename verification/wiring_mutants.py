@@ -148,19 +148,19 @@ MUTANTS = (
     Mutant(
         "film_viscosity_law",
         "viscosity law not passed to the film",
-        {"lubfric.film.levels:solve_line_contact": with_oil(viscosity_law="barus")},
+        {"lubfric.sharing.point:solve_line_contact": with_oil(viscosity_law="barus")},
         FILM,
     ),
     Mutant(
         "film_density_law",
         "density law not passed to the film",
-        {"lubfric.film.levels:solve_line_contact": with_oil(density_law="constant")},
+        {"lubfric.sharing.point:solve_line_contact": with_oil(density_law="constant")},
         FILM,
     ),
     Mutant(
         "film_alpha",
         "pressure-viscosity coefficient of the film not that of the scene",
-        {"lubfric.film.levels:solve_line_contact": with_oil(pressure_viscosity_coefficient=25e-9)},
+        {"lubfric.sharing.point:solve_line_contact": with_oil(pressure_viscosity_coefficient=25e-9)},
         FILM,
     ),
     Mutant(
@@ -178,7 +178,7 @@ MUTANTS = (
     Mutant(
         "slide_roll",
         "slide-roll ratio always 2",
-        {"lubfric.film.contract:shear_force": with_keywords(slide_roll_ratio=2.0)},
+        {"lubfric.sharing.forces:shear_force": with_keywords(slide_roll_ratio=2.0)},
         FILM,
     ),
     Mutant(
