@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric import paper as differential_solve
 from lubfric.film import LineContact, Problem, hat_kernel
 from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
 from lubfric.paper import differential_newton, solve_differential_deflection
+from lubfric.paper.differential import cold_start
 from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
 from lubfric.paper.differential_newton import newton
 
@@ -210,7 +210,7 @@ def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
     problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA)))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
-    s = newton(mesh, problem, *differential_solve._cold(mesh, problem), 1e-8, 60)
+    s = newton(mesh, problem, *cold_start(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8
     P, H = spoil(s.P, s.H)
     assert measure(evaluate(mesh, problem, P, H), P, H)[name] > 5e-4
