@@ -225,10 +225,10 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.contact.half_space:centred_axis": (
             ("half_cell", "film and strip half a cell off the roughness", corner_axis),
         ),
-        "lubfric.film.contract:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
+        "lubfric.sharing.forces:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
     },
     ("wiring_film",): {
-        "lubfric.film.levels:solve_line_contact": (
+        "lubfric.sharing.point:solve_line_contact": (
             ("film_viscosity_law", "viscosity law not passed to the film", with_oil(viscosity_law="barus")),
             ("film_density_law", "density law not passed to the film", with_oil(density_law="constant")),
             ("film_alpha", "alpha of the film not that of the scene", with_oil(pressure_viscosity_coefficient=25e-9)),
@@ -237,7 +237,7 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
             ("steady_newtonian", "Eyring's law dropped in steady shear", sheared_without(eyring_stress=None)),
             ("limit_offset", "limiting stress without its offset", sheared_without(limiting_stress_offset=0.0)),
         ),
-        "lubfric.film.contract:shear_force": (
+        "lubfric.sharing.forces:shear_force": (
             ("slide_roll", "slide-roll ratio always 2", with_keywords(slide_roll_ratio=2.0)),
         ),
     },
