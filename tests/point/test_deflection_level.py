@@ -78,7 +78,7 @@ def test_a_tighter_tolerance_asks_for_the_whole_load_earlier():
 
 
 def test_films_in_time_keep_their_own_pressure():
-    from lubfric.time.setup import begin
+    from lubfric.time.begin import begin
 
     small = (
         lubfric.load_scene("paper")
