@@ -40,8 +40,9 @@ class Checkpoint:
         """
         if not (self.folder / STATE).is_file():
             return None
+        content = _content(self.folder / STATE)
         try:
-            kept = _read(self.folder / STATE)
+            kept = decode(content, CLASSES)
         except ValueError:  # of another version
             kept = {"fingerprint": None}
         if kept["fingerprint"] != self.fingerprint:
@@ -50,7 +51,7 @@ class Checkpoint:
                 "run the same scene, or give an empty folder"
             )
         self._count = kept["outputs"]
-        return kept["state"], [_read(self._output(number)) for number in range(self._count)]
+        return kept["state"], [decode(_content(self._output(number)), CLASSES) for number in range(self._count)]
 
     def append(self, output) -> None:
         """Add one output: like the state, of dataclasses of this package, dicts, numbers and arrays."""
@@ -74,8 +75,8 @@ class Checkpoint:
         return self.folder / OUTPUTS.replace("*", f"{number:07d}")
 
 
-def _read(path: Path):
+def _content(path: Path) -> bytes:
     content = read_checked(path) if path.is_file() else None
     if content is None:
         raise InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
-    return decode(content, CLASSES)
+    return content
