@@ -26,8 +26,8 @@ speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
     + SMALL_PATCH
 )
 HISTORY = (
-    "[transient]\nduration = 0.01\noutputs = 10\n"
-    'speed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
+    "[transient]\nduration = 0.0005\noutputs = 3\n"
+    'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
 COUNTED = """
 import sys
