@@ -71,7 +71,7 @@ def load_sharing(level: str):
     It is Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4 µm),
     coarse enough for finite elements. *Film*: full-system finite elements (elastic body of 240 half-widths, Reynolds on
     its surface) against lubfric's half-space and Newton's method. *Contact*: P2 elements in the section with waves
-    along the line, active set and dense algebra, against lubfric's Bessel kernel and conjugate gradient. *Balance and
+    along the line and an active set, against lubfric's Bessel kernel and conjugate gradient. *Balance and
     friction*: another root finder and other integrals. Both sides get the same heights on the same cells and the same
     meaning of a displacement, its mean over a cell. lubfric's own is at cell centres, and is averaged over parts of the
     cells by its own kernel (`cell_mean`). What is left is the error of the finite elements.
