@@ -76,14 +76,8 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
 
 def laid(case: Case, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
-    fine = lubfric.generate_surface(
-        (FINE, FINE * case.across // case.cells),
-        WIDTH / FINE,
-        sq=100e-9,
-        correlation_length=LENGTH,
-        acf="gaussian",
-        seed=1,
-    )
+    shape, rough = (FINE, FINE * case.across // case.cells), {"sq": 100e-9, "acf": "gaussian", "seed": 1}
+    fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
     surface, line = fine.resampled(shape=(case.cells, case.across)), replace(contact, entrainment_speed=case.speed)
     upstream, downstream = reach(line, surface.sq)
 
