@@ -64,7 +64,7 @@ def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progr
         now, kind = time.perf_counter(), type(item)
         if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
-        # two of one name would hide each other, or overwrite each other's file; where they were measured tells checks apart
+        # two of one name would hide each other, or their files; checks may also differ by where they were measured
         placed = isinstance(item, Check) and item.at
         if not placed and any(other.name == item.name for other in found[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
