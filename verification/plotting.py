@@ -99,11 +99,7 @@ def convergence(name: str, caption: str, series: dict, size_label: str, error_la
         if expected is not None:
             finest = np.argmin(sizes)
             ax.loglog(
-                sizes,
-                errors[finest] * (sizes / sizes[finest]) ** expected,
-                ":",
-                color=line.get_color(),
-                linewidth=1.0,
+                sizes, errors[finest] * (sizes / sizes[finest]) ** expected, ":", color=line.get_color(), linewidth=1.0
             )
     ax.set(xlabel=size_label, ylabel=error_label, title=notes)
     canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)

@@ -161,10 +161,7 @@ def deviation_map(quick: bool, run: Run) -> PaperFigure:
         agrees,
         differs,
         canvas,
-        {
-            "fig6": (headings, rows),
-            "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter),
-        },
+        {"fig6": (headings, rows), "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter)},
         (
             Check(
                 "largest d of summits on an exponential surface, %",

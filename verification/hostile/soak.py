@@ -61,12 +61,7 @@ def judged(chunks: list[dict]) -> Iterator[Item]:
 def chunk(seed: int, numbers: range) -> dict:
     """What became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
     scenes = [scene_row(seed, number) for number in numbers]
-    return {
-        "first": numbers[0],
-        "scenes": scenes,
-        "process": os.getpid(),
-        "memory": resident_memory() / 2**20,
-    }
+    return {"first": numbers[0], "scenes": scenes, "process": os.getpid(), "memory": resident_memory() / 2**20}
 
 
 def scene_row(seed: int, number: int) -> dict:
