@@ -121,11 +121,12 @@ def run_one(study: Study, level: str, progress: Progress) -> Outcome:
         error, trace = explain(exc), traceback.format_exc()
         progress(raised(study, error))
         found[Check].append(raised(study, error))
-    items = (tuple(items) for items in found.values())
-    return Outcome(study, level, description, *items, time.perf_counter() - start, peak_memory(), error, trace)
+    checks, tables, figures, fields = (tuple(items) for items in found.values())
+    seconds, memory = time.perf_counter() - start, peak_memory()
+    return Outcome(study, level, description, checks, tables, figures, fields, seconds, memory, error, trace)
 
 
-def load(study: Study) -> Callable[[str], object]:
+def load(study: Study) -> Callable[..., Iterable[Item]]:
     """The function behind ``study.target``."""
     module, _, function = study.target.partition(":")
     return getattr(importlib.import_module(module), function)

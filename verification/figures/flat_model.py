@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -118,7 +119,7 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
         return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
     for law in laws:
-        keys = {"slide_roll_ratio": scene.motion.slide_roll_ratio, "width": b.width}
+        keys: dict[str, Any] = {"slide_roll_ratio": scene.motion.slide_roll_ratio, "width": b.width}
         forces = [
             [
                 shear_force(film, replace(lubricant, **law), contact_fraction=part, **keys).total

@@ -42,7 +42,8 @@ def judged(chunks: list[dict]) -> Iterator[Item]:
     scenes = [one for row in chunks for one in row["scenes"]]
     ended = Counter(one["ended"] for one in scenes)
     closed = [one for one in scenes if one["ratio"] is not None]
-    worst = max(closed, key=lambda one: one["ratio"], default={"ratio": math.inf, "words": "nothing was judged"})
+    none: dict = {"ratio": math.inf, "words": "nothing was judged"}
+    worst = max(closed, key=lambda one: one["ratio"], default=none)
     wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
     raw = [one["words"] for one in scenes if one["ended"] == RAW]
     yield Check("raw errors", len(raw), 0, 0, "none is allowed", AT_MOST, note="; ".join(raw[:3]))
