@@ -193,10 +193,10 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.oil.lubricant:Lubricant.roelands_exponent": (
             ("viscosity_exponent", "Roelands' exponent with the decadic logarithm", decadic_exponent),
         ),
-        "lubfric.rough.half_space:HalfSpaceContact._state": (
+        "lubfric.contact.half_space:HalfSpaceContact._state": (
             ("missing_y_mean", "volume balance on one row instead of the mean along y", argument(2, first_row)),
         ),
-        "lubfric.rough.half_space:solve_contact": (
+        "lubfric.contact.half_space:solve_contact": (
             ("half_the_load", "rough contact carries half of F_C", keywords(mean_pressure=lambda p: p / 2)),
             ("stale_warm_start", "contact of the neighbouring load returned for this one", stale),
         ),
@@ -267,16 +267,16 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         ),
     },
     ("wiring_time",): {
-        "lubfric.unsteady.film_shear:shear_stress": (
+        "lubfric.time.film_shear:shear_stress": (
             ("transient_newtonian", "Eyring's law dropped in a transient", oil_without(0, eyring_stress=None)),
             ("transient_no_limit", "limiting stress dropped", oil_without(0, limiting_stress_coefficient=None)),
         ),
-        "lubfric.unsteady.setup:ContactHistory": (
+        "lubfric.time.setup:ContactHistory": (
             ("transient_density", "density law dropped in a transient", oil_without(-4, density_law="constant")),
             ("transient_viscosity_law", "always Roelands' law in time", oil_without(-4, viscosity_law="roelands")),
             ("transient_load", "load of a transient taken as load per width", argument(-1, lambda width: 1.0)),
         ),
-        "lubfric.history.kinds:Ramp.at": (
+        "lubfric.scene.history:Ramp.at": (
             ("ramp_ignored", "ramps of a transient stay at their start", argument(1, lambda time: 0.0)),
         ),
     },
