@@ -82,30 +82,6 @@ def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160)
     return Figure(name, caption, stream.getvalue(), format)
 
 
-<<<<<<< HEAD
-=======
-def convergence(name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = "") -> Figure:
-    """Errors against mesh size, log-log, each with its fitted order and a line of the expected one.
-
-    ``series`` maps a label to ``(sizes, errors, expected_order)``; ``expected_order`` may be None.
-    """
-    canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
-    for label, (sizes, errors, expected) in series.items():
-        sizes, errors = np.asarray(sizes, dtype=float), np.asarray(errors, dtype=float)
-        text = f"{label}: order {fitted_order(sizes, errors):.2f}"
-        text += "" if expected is None else f" (expected {expected:g})"
-        (line,) = ax.loglog(sizes, errors, "o-", label=text)
-        if expected is not None:
-            finest = np.argmin(sizes)
-            ax.loglog(
-                sizes, errors[finest] * (sizes / sizes[finest]) ** expected, ":", color=line.get_color(), linewidth=1.0
-            )
-    ax.set(xlabel=size_label, ylabel=error_label, title=notes)
-    canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)
-    return finish(name, canvas, caption)
-
-
->>>>>>> v1
 def compact(figure: Figure, colours: int = 128) -> Figure:
     """The same picture with a palette (rare colours are kept as well), for files that stay. It takes a third of the
     space."""
