@@ -90,9 +90,10 @@ def field_image(axes, x, y, values, colours: str, label: str, **options):
     return image
 
 
-def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> None:
+def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
-    `lubfric.StribeckResult`. ``between``: (speeds, f, its two parts) on a smooth curve through the points."""
+    `lubfric.StribeckResult`. ``between``: (speeds, f, its two parts) on a smooth curve through the points. Returns the
+    indices of the points drawn, in order: those that failed, and rest, are left out."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -107,6 +108,7 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
     axes.set(xscale="log", xlabel=speed_label(c["speed"]), ylabel=FRICTION)
     plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
+    return order
 
 
 def curve_axes(curve, ax=None, **style):

@@ -34,13 +34,11 @@ def plot_stribeck(
     for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
     drawn beside the curve.
     """
-    good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
-    order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
-    c = type(columns)((name, column[order]) for name, column in columns.items())
-    speed, ratio = np.abs(c["speed"]), c["film_to_roughness_ratio"]
     figure = new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
-    friction_over_speed(top, c)
+    order = friction_over_speed(top, columns)
+    c = type(columns)((name, column[order]) for name, column in columns.items())
+    speed, ratio = np.abs(c["speed"]), c["film_to_roughness_ratio"]
     if measured is not None:
         error = None if measured.deviation is None else 1.96 * measured.deviation
         points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": measured.source}
