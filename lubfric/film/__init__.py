@@ -28,7 +28,7 @@ from .line_contact import LineContact, OfLineContact
 from .newton import step_length
 from .problem import Problem
 from .reynolds import log_mean_fluidity
-from .rigid_cylinder import reduced_pressure, true_pressure
+from .rigid_cylinder import true_pressure
 from .shear import ShearForce, rolling_error, shear_force, spike_error
 from .start import State, rupture_guess
 
@@ -57,7 +57,6 @@ __all__ = [
     "make_problem",
     "moes_film",
     "node_positions",
-    "reduced_pressure",
     "rolling_error",
     "rupture_guess",
     "shear_force",

@@ -22,7 +22,7 @@ from .grid import FAR_INLET, make_grid, node_positions
 from .line_contact import LineContact
 from .newton import Solution, newton
 from .problem import Problem, Seat
-from .start import State, cold_start, find_seats, from_alone, refined_start, rupture_guess, solution_state, warm_start
+from .start import State, cold_start, find_seats, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
@@ -204,7 +204,7 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
+        if not _sound(levels) or n >= FINEST:
             return levels
         if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
             return levels
@@ -213,34 +213,20 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
 
 
 def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
-    """The first solution: rough ones on n cells while alpha rises from the value at which L = EASY.
+    """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
 
-    With an imposed pressure it begins with the cylinder of the seat, at a speed that is doubled so many times. A thick
-    film bridges any gap that an imposed pressure leaves. Then the speed is halved again and again.
+    alpha rises from the value at which L = EASY. With an imposed pressure this is done for the cylinder of the seat
+    alone, at a speed that is doubled so many times, because a thick film bridges any gap that an imposed pressure
+    leaves. Then the speed is halved again and again.
     """
-    if problem.imposed is None:
-        shares = [min(1.0, EASY / max(problem.L, EASY))]
-        while shares[-1] < 1.0:
-            shares.append(min(1.0, STAGE * shares[-1]))
-        return _follow([problem.softened(share) for share in shares], n, max_steps)
-    stages = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
-    fastest = stages[0] if stages else problem
-    alone, led_there = _first_state(fastest.alone(), n, max_steps)
-    state, solutions = _follow(stages, n, max_steps, from_alone(fastest, alone))
-    return state, led_there + solutions
-
-
-def _faster(problem: Problem, factor: float) -> Problem:
-    """The same contact at ``factor`` times its speed, on the likelier seat there."""
-    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
-    faster = replace(problem, contact=contact)
-    return replace(faster, seat=find_seats(faster)[0])
-
-
-def _follow(stages: list[Problem], n: int, max_steps: int, state: State | None = None):
-    """The last state and the rough solutions of a chain of problems on n cells, each started from the one before."""
+    slower = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
+    alone = (slower or [problem])[0].alone()
+    shares = [min(1.0, EASY / max(alone.L, EASY))]
+    while shares[-1] < 1.0:
+        shares.append(min(1.0, STAGE * shares[-1]))
+    state: State | None = None
     solutions: list[Solution] = []
-    for stage in stages:
+    for stage in [alone.softened(share) for share in shares] + slower:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
@@ -248,6 +234,13 @@ def _follow(stages: list[Problem], n: int, max_steps: int, state: State | None =
         if not np.isfinite(solutions[-1].error):
             break
     return state, solutions
+
+
+def _faster(problem: Problem, factor: float) -> Problem:
+    """The same contact at ``factor`` times its speed, on the likelier seat there."""
+    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
+    faster = replace(problem, contact=contact)
+    return replace(faster, seat=find_seats(faster)[0])
 
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:

@@ -134,24 +134,8 @@ def true_pressure(lubricant: Lubricant):
                 return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
 
         return barus
-    p, q = _table(lubricant)
+    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
+    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
+    q = np.append(0.0, np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p)))
     ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small
     return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)
-
-
-def reduced_pressure(lubricant: Lubricant):
-    """q(p) = ∫ dp eta0/eta(p) [Pa] by the lubricant's law: the inverse of `true_pressure`."""
-    if lubricant.viscosity_law == "constant":
-        return np.positive
-    alpha = lubricant.pressure_viscosity_coefficient
-    if lubricant.viscosity_law == "barus":
-        return lambda pressure: -np.expm1(-alpha * pressure) / alpha
-    p, q = _table(lubricant)
-    return lambda pressure: np.interp(pressure, p, q)
-
-
-def _table(lubricant: Lubricant) -> tuple[np.ndarray, np.ndarray]:
-    """Pressures and reduced pressures [Pa]."""
-    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / lubricant.pressure_viscosity_coefficient
-    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
-    return p, np.concatenate([[0.0], np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p))])

@@ -67,14 +67,6 @@ def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     return State(problem, t.P[:-1], t.H, float(t.q), rupture, error)
 
 
-def from_alone(problem: Problem, state: State) -> State:
-    """A state of ``problem.alone()``, in the units of ``problem``, as a state of ``problem``."""
-    other = problem.alone()
-    pressure, film = other.pressure_unit / problem.pressure_unit, other.film_unit / problem.film_unit
-    rupture = state.rupture * (other.length_unit / problem.length_unit)
-    return State(problem, state.pressure * pressure, state.film * film, state.flux * film, rupture, state.grid_error)
-
-
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """(z, H) on a grid of twice the cells. The pressure is interpolated linearly, so that a sharp spike does not
     oscillate."""
@@ -85,7 +77,8 @@ def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H): pressure and film of ``state`` node by node, scaled to the load and by Moes' formula."""
+    """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
+    Moes' formula."""
     P, H = np.append(state.pressure, 0.0), state.film
     while H.size > grid.n + 1:
         P, H = P[::2], H[::2]

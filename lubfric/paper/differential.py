@@ -147,7 +147,7 @@ def _ascend(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) 
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, effort.bandwidth, problem.inlet_length is None)
-        P, H = _transferred(mesh, levels[-1]) if levels else _cold(mesh, problem)
+        P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
         levels.append(newton(mesh, problem, P, H, 1e-3 * effort.tolerance, effort.max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
@@ -158,7 +158,7 @@ def _ascend(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) 
     return levels
 
 
-def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """A first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))

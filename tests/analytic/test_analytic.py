@@ -199,10 +199,7 @@ def test_moes_formula_tends_to_its_asymptotes():
     assert film.moes_film(3.0, 0) == pytest.approx(film.moes_film(3.0, 1e-12), rel=1e-6)
 
 
-def test_moes_numbers_round_trip():
-    w, speed = film.load_and_speed(30.0, 8.0, **OIL)
-    contact = LineContact(w, OIL["radius"], OIL["e_prime"], speed, Lubricant(0.36, 25e-9))
-    assert (contact.M, contact.L) == pytest.approx((30.0, 8.0))
+def test_moes_numbers_out_of_range():
     for bad in [(0, 5), (5, 0), (-1, 5), (math.inf, 5)]:
         with pytest.raises(InputError):
             film.load_and_speed(*bad, **OIL)

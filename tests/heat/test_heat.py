@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
@@ -74,7 +74,7 @@ def test_nahmes_formula_solves_its_own_equation():
     assert formulas.nahme_stress(1e-6) == pytest.approx(1 - 1e-6 / 12, rel=1e-12)
 
 
-@pytest.mark.parametrize("sliding", [0.3, 3.0, 10.0])
+@pytest.mark.parametrize("sliding", [0.3, 10.0])
 def test_eyring_film_against_a_boundary_value_solver(sliding):
     """k T'' = -tau gamma(T), gamma = (tau_E/eta_w) exp(beta (T - T_w)) sinh(tau/tau_E), mean gamma = dU/h."""
     lubricant, film, pressure = exponential(viscosity=0.5, eyring_stress=4e6), 3e-7, 0.0
@@ -169,6 +169,7 @@ def test_half_the_nodes_change_the_force_little():
     assert forces[0] == pytest.approx(fine, rel=1e-3)
 
 
+@settings(max_examples=25)
 @given(st.floats(5e8, 1.5e9), st.floats(0.001, 2.0), st.floats(-2, 1))
 def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_speed):
     x, p, h, _ = contact(peak, 65)
@@ -189,7 +190,7 @@ def test_bodies_and_films_that_carry_heat_away_stay_cool():
 
 
 def test_traction_rises_peaks_and_falls_at_1_gpa():
-    x, p, h, load = contact(1e9)
+    x, p, h, load = contact(1e9, 65)
     ratios = np.geomspace(1e-3, 2, 12)
     f = [np.trapezoid(heated_film(OIL, x, p, h, around(x, 2.0, s)).stress, x) / load for s in ratios]
     top = int(np.argmax(f))

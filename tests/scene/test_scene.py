@@ -7,7 +7,8 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_map
-from lubfric.scene import builtin_scenes, scene_as_dict
+from lubfric.scene import builtin_scenes
+from lubfric.scene.scene import scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 

@@ -216,16 +216,6 @@ def reversal():
     wet = np.min(found.pressure[20] > 0)
     source = "pure squeeze has no cavity"
     yield Check("no entrainment: film pressurised on both sides", wet, 1.0, 0.0, source, AT_LEAST)
-    canvas, ax = plotting.axes(height=3.6)
-    cycles = found.time / period
-    ax.plot(cycles, found.central_film / problem.film_unit, label="H(0)")
-    ax.plot(cycles, found.min_film / problem.film_unit, label="H_min")
-    ax.plot(cycles, np.abs(np.cos(2 * np.pi * cycles)), ":", label="|U|/U_max")
-    ax.set(xlabel="cycles", ylabel="film (units of the largest speed)", ylim=(0, None))
-    ax.legend()
-    caption = "Reciprocating at M = 5, L = 5. At U = 0 squeeze keeps part of the film; the smallest film follows the "
-    caption += "reversal by the time the thin film takes to cross the contact."
-    yield plotting.finish("reversal", canvas, caption)
 
 
 def jumps(level: str):
