@@ -6,8 +6,10 @@ Scene files and `Scene.with_` share them. A field may be given, or one of the sh
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -71,12 +73,17 @@ def _of_radii(radii, *_) -> dict:
 
 
 def _of_materials(names, *_) -> dict:
-    """Fields of one or two named materials."""
+    """Fields of one or two named materials (materials.toml)."""
+    known = tomllib.loads((resources.files(__package__) / "materials.toml").read_text(encoding="utf-8"))
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
-    first, second = (MATERIALS[validate.choice("bodies.material", name, tuple(MATERIALS))] for name in both)
-    heat = {name: (getattr(first, name), getattr(second, name)) for name in ("conductivity", "volumetric_heat")}
-    moduli = (getattr(m, name) for m in (first, second) for name in ("young_modulus", "poisson_ratio"))
-    return {"e_prime": composite_modulus(*moduli), **heat}
+    first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
+    return {
+        "e_prime": composite_modulus(
+            *(m[name] for m in (first, second) for name in ("young_modulus", "poisson_ratio"))
+        ),
+        "conductivity": (first["conductivity"], second["conductivity"]),
+        "volumetric_heat": tuple(m["density"] * m["specific_heat"] for m in (first, second)),
+    }
 
 
 def _of_moduli(moduli, ratios, *_) -> dict:
@@ -146,38 +153,4 @@ FORMS = {
         ShortForm(("slip_percent",), ("slide_roll_ratio",), _of_slip),
         ShortForm(("speed_range",), ("speeds",), _of_range),
     ),
-}
-
-
-@dataclass(frozen=True)
-class Material:
-    """Typical handbook values at room temperature: young_modulus [Pa], poisson_ratio [-], conductivity [W/(m K)],
-    volumetric_heat rho c [J/(m³ K)].
-
-    Young's modulus and Poisson ratio are good to some 5 % within a family (ceramics and polymers 10 %), thermal data to
-    some 20 %; give the numbers themselves where they are known.
-    """
-
-    young_modulus: float
-    poisson_ratio: float
-    conductivity: float
-    volumetric_heat: float
-
-
-MATERIALS = {
-    "steel": Material(207e9, 0.30, 46.0, 7850 * 460.0),  # through-hardened bearing steel
-    "stainless steel": Material(200e9, 0.30, 25.0, 7750 * 460.0),  # martensitic
-    "cast iron": Material(110e9, 0.26, 50.0, 7200 * 500.0),  # grey
-    "bronze": Material(110e9, 0.34, 55.0, 8800 * 380.0),  # tin bronze
-    "brass": Material(105e9, 0.35, 115.0, 8500 * 380.0),
-    "aluminium": Material(70e9, 0.33, 150.0, 2700 * 900.0),  # alloys
-    "titanium": Material(114e9, 0.34, 7.0, 4430 * 530.0),  # Ti-6Al-4V
-    "silicon nitride": Material(310e9, 0.26, 28.0, 3230 * 700.0),
-    "alumina": Material(380e9, 0.23, 28.0, 3900 * 800.0),
-    "zirconia": Material(205e9, 0.31, 2.5, 6050 * 460.0),
-    "tungsten carbide": Material(600e9, 0.22, 85.0, 14900 * 200.0),  # 6 % cobalt
-    "glass": Material(82e9, 0.21, 1.1, 2510 * 860.0),  # BK7
-    "sapphire": Material(420e9, 0.27, 40.0, 3980 * 760.0),
-    "polyamide": Material(2.8e9, 0.40, 0.25, 1140 * 1700.0),  # dry, short loads: it creeps
-    "peek": Material(3.8e9, 0.40, 0.27, 1310 * 1300.0),  # creeps
 }

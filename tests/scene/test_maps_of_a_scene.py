@@ -5,13 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from lubfric.scene.contact import ContactDomain
 from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.contact import contact_map, whole_map
 from lubfric.output import main
-from lubfric.scene.roughness import Roughness
+from lubfric.scene import ContactDomain, Roughness
 
 BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
 MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
