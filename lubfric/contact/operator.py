@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, wraps
 
 import numpy as np
 from scipy import fft
@@ -17,6 +15,19 @@ from .transforms import Strip, even_transform, filtered, rounded, wavenumber
 
 KINDS = ("periodic", "free")
 NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
+
+
+def _once(method):
+    """Keep what a method of an operator makes, by its arguments: it depends on nothing else."""
+
+    @wraps(method)
+    def kept(self, *arguments):
+        key = (method.__name__, *arguments)
+        if key not in self._made:
+            self._made[key] = method(self, *arguments)
+        return self._made[key]
+
+    return kept
 
 
 @dataclass(frozen=True)
@@ -61,9 +72,9 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         with the same zero level. Made once for every count."""
         return self._strip(count, count, count - 1)
 
-    def _strip(self, *rows: int) -> Strip:
-        kept = self.symbol.dtype, self.workers
-        return self._once(("strip", *rows), lambda: Strip(self._kernel, self.shape[1], *rows, *kept))
+    @_once
+    def _strip(self, count: int, rows: int, farthest: int) -> Strip:
+        return Strip(self._kernel, self.shape[1], count, rows, farthest, self.symbol.dtype, self.workers)
 
     @cached_property
     def _kernel(self) -> np.ndarray:
@@ -72,13 +83,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @cached_property
     def _made(self) -> dict:
-        """Operators derived from this one, each made once: they depend on nothing else."""
+        """Operators derived from this one (`_once`)."""
         return {}
-
-    def _once(self, key: tuple, make: Callable[[], Any]):
-        if key not in self._made:
-            self._made[key] = make()
-        return self._made[key]
 
     @cached_property
     def single(self) -> HalfSpace:
@@ -88,17 +94,15 @@ class HalfSpace(FrozenArrays, FieldsOnly):
             fast.__dict__["_kernel"] = self._kernel
         return fast
 
-    def coarsened(self, factors) -> HalfSpace:
+    @_once
+    def coarsened(self, factors: tuple[int, int]) -> HalfSpace:
         """The operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once.
 
         From the low frequencies: exact if periodic, and close to it if free. With one free axis the kernel is made
         anew, because its waves end. ``padded`` must be even multiples of the factors.
         """
-        return self._once(("coarsened", *map(int, factors)), lambda: self._coarsened(factors))
-
-    def _coarsened(self, factors) -> HalfSpace:
-        shape, padded = (tuple(n // int(f) for n, f in zip(sizes, factors)) for sizes in (self.shape, self.padded))
-        spacing = tuple(d * int(f) for d, f in zip(self.spacing, factors))
+        shape, padded = (tuple(n // f for n, f in zip(sizes, factors)) for sizes in (self.shape, self.padded))
+        spacing = tuple(d * f for d, f in zip(self.spacing, factors))
         if self.boundary == ("free", "periodic"):
             kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
             own = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
@@ -108,6 +112,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
             symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
+    @_once
     def shortened(self, count: int) -> HalfSpace:
         """The same cells on the first ``count`` of a free axis x, made once.
 
@@ -119,9 +124,6 @@ class HalfSpace(FrozenArrays, FieldsOnly):
                 f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
                 "all cells of a free axis"
             )
-        return self._once(("shortened", int(count)), lambda: self._shortened(int(count)))
-
-    def _shortened(self, count: int) -> HalfSpace:
         padded = (_padded_length(count), self.padded[1])
         symbol = even_transform(self._kernel[:count], padded[0])
         return replace(self, shape=(count, self.shape[1]), padded=padded, symbol=symbol)

@@ -154,12 +154,13 @@ class Search:
         return max(self.overlap, misfit, excess)
 
     def _narrow(self) -> None:
-        """Leave out the cells that came nowhere near contact, if they are many: those that are not in contact, were
-        not, and did not come near it."""
+        """Leave out the cells that are not in contact and did not come near it, if they are many."""
         near = self.gap < self.level + NEAR * self.overlap
         near |= self.weight > 0
-        near |= np.abs(self.known - self.lower) > FORGOTTEN
         near |= self.change > self.lower
+        near |= (
+            np.abs(self.known - self.lower) > FORGOTTEN
+        )  # a part of the known pressure that is still to be taken off
         if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return
         kept = np.flatnonzero(near)

@@ -1,8 +1,6 @@
 """A stencil of nine points for |k|, the inverse of the half-space up to E'/4: exact enough for a search direction.
 
-It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. Those nine
-numbers are always a multiple of the identity less an outer product of three and three. So two passes of three points
-are enough. They run over values that are scaled by the middle of that product.
+It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours.
 
 The series is too stiff for waves much longer than a cell: unlike |k| it does not fall to zero with k. So spots of many
 cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference is smooth: a
@@ -43,16 +41,14 @@ class Stencil:
         self.shape, self.boundary = shape, boundary
         self.padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
         nearest = nearest_coefficients(shape, spacing)
-        middle = factor * nearest[1] * nearest[2] / nearest[3] if nearest[3] else 1.0  # of the outer product
-        self.middle = np.float32(middle)
-        self.coefficients = tuple(np.float32(factor * c / middle) for c in nearest)
-        self.long_waves = None  # the series less |k| in units of the middle, on cells FACTOR times as long
+        self.coefficients = tuple(np.float32(factor * c) for c in nearest)
+        self.long_waves = None  # the series less |k|, on cells FACTOR times as long
         if min(shape) >= LEAST:
             self.coarse = tuple(
                 (2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary)
             )  # free axes are padded to twice their length
             missed = _series(nearest, self.coarse) - wavenumber(self.coarse, tuple(FACTOR * d for d in spacing))
-            self.long_waves = (factor / middle / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
+            self.long_waves = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
         self.move(cells)
 
     def move(self, cells) -> None:
@@ -67,9 +63,9 @@ class Stencil:
         padded, width = self.padded, self.padded.shape[1]
         inner = padded[1:-1, 1:-1]
         if self.cells is None:
-            np.multiply(values.reshape(self.shape), self.middle, out=inner)
+            inner[:] = values.reshape(self.shape)
         else:
-            padded.ravel()[width + 1 :][self.corner] = values * self.middle
+            padded.ravel()[width + 1 :][self.corner] = values
         if self.boundary[0] == "periodic":
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
@@ -87,7 +83,7 @@ class Stencil:
         """The sums at the cells, one neighbour after the other."""
         flat, width = self.padded.ravel(), self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
-        np.multiply(values, own * self.middle, out=sums)
+        np.multiply(values, own, out=sums)
         for coefficient, offsets in (
             (along_x, (1, 2 * width + 1)),
             (along_y, (width, width + 2)),
@@ -100,18 +96,18 @@ class Stencil:
             sums += part
 
     def _sweep(self, sums) -> None:
-        """The sums for all cells by two passes of three points, some rows at a time, within the cache."""
-        own, along_x, along_y, _ = self.coefficients
+        """The sums for all cells, some rows at a time, within the cache."""
+        own, along_x, along_y, across = self.coefficients
         rows = max(1, BLOCK // self.padded.shape[1])
         for begin in range(0, self.shape[0], rows):
-            points = self.padded[begin : begin + rows + 2]
-            triple = points[:, :-2] + points[:, 2:]
-            triple *= along_y
-            triple += points[:, 1:-1]
-            nine = triple[:-2] + triple[2:]
-            nine *= along_x
-            nine += triple[1:-1]
-            np.add(nine, np.multiply(points[1:-1, 1:-1], own - 1, out=triple[1:-1]), out=sums[begin : begin + rows])
+            points, total = self.padded[begin : begin + rows + 2], sums[begin : begin + rows]
+            beside = points[:, :-2] + points[:, 2:]
+            np.multiply(points[1:-1, 1:-1], own, out=total)
+            total += along_y * beside[1:-1]
+            beside *= across
+            beside += along_x * points[:, 1:-1]
+            total += beside[:-2]
+            total += beside[2:]
 
 
 def _series(nearest, shape) -> np.ndarray:

@@ -9,8 +9,9 @@ from scipy.special import k0
 
 from lubfric import InputError
 from lubfric.contact import half_space, semiperiodic_coefficients
-from lubfric.contact.kernels import line_coefficients, love_coefficients
+from lubfric.contact.kernels import bessel_cells, line_coefficients, love_coefficients
 from lubfric.contact.operator import reciprocity_error
+from lubfric.contact.transforms import filtered
 
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
 
@@ -63,8 +64,6 @@ def test_semiperiodic_coefficients_match_quadrature():
 
 @pytest.mark.parametrize("cells_per_wavelength", [1e3, 40, 3, 0.2])
 def test_bessel_cells_over_all_scales(cells_per_wavelength):
-    from lubfric.contact.kernels import bessel_cells
-
     k = 2 * np.pi / cells_per_wavelength
     cells = bessel_cells(np.arange(12), np.full(12, k))
     for i in range(1, 12):
@@ -205,9 +204,6 @@ def test_coarsened_operator():
 def test_bad_input(arguments, word):
     with pytest.raises(InputError, match=word):
         half_space(**({"shape": (4, 4), "spacing": 1.0, "e_prime": 1.0} | arguments))
-
-
-def test_apply_rejects_another_shape():
     with pytest.raises(InputError, match="shape"):
         half_space((4, 5), 1.0, 1.0).apply(np.zeros((5, 4)))
 
@@ -222,8 +218,6 @@ def test_apply_rejects_another_shape():
 )
 def test_a_loaded_strip_deflects_as_in_the_whole_patch(nx, ny, spacing, first, count):
     """Waves cut off where they end: to rounding the same as transforms of the whole patch, in either precision."""
-    from lubfric.contact.transforms import filtered
-
     operator = half_space((nx, ny), spacing, 2.0, ("free", "periodic"))
     first = min(first, nx - 1)
     pressure = np.zeros((nx, ny))
