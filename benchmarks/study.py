@@ -1,11 +1,10 @@
-"""A study of many points: points per second, what two processes gain, memory, disk.
+"""A study of many points: points per second, what two processes cost, memory, disk.
 
     python benchmarks/study.py [--points 10000] [--workers 2] [--out FOLDER] [--docs docs]
 
-Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; every tenth of its
-batches is run in this process too, and its processor time is set beside the processor time that the same batches took
-there, so that a busy machine does not blur the comparison; idle is the share of the time in which a process held no
-batch. Cut at any moment, the same command goes on from there. Prints one table and draws study.png into FOLDER.
+Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; a tenth of its
+curves is run in this process too, and its processor time is set beside that of the processes. Cut at any moment, the
+same command goes on from there. Prints one table and draws study.png into FOLDER.
 """
 
 import os
@@ -14,12 +13,10 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 import argparse
-import json
 import resource
 import sys
 import tempfile
 import time
-from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -30,10 +27,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import lubfric
 from benchmarks import page
-from lubfric.studies import run
 
-FEW = 10  # every so many batches are run here too
-solve = run.rows_of
+FEW = 10  # every so many curves are run here too
 
 
 def plan(points: int):
@@ -47,35 +42,6 @@ def plan(points: int):
         "surface.seed": [1, 2, 3, 4],
     }
     return lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, max(points // 100, 1)))
-
-
-def timed(batch):
-    """`rows_of`, with a line in times.jsonl: who, what, when, processor time, memory [MiB]."""
-    began, used = time.time(), time.process_time()
-    rows = list(solve(batch))
-    told = {
-        "process": os.getpid(),
-        "batch": batch.name,
-        "whole": not batch.known,
-        "began": began,
-        "ended": time.time(),
-        "cpu": time.process_time() - used,
-        "memory": int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize() / 2**20,
-    }
-    with (Path(batch.folder) / "times.jsonl").open("a") as file:
-        file.write(json.dumps(told) + "\n")
-    return rows
-
-
-def idle(batches: list[dict]) -> float:
-    """Share of the time between first and last batch in which a process held none."""
-    by_process = defaultdict(list)
-    for batch in batches:
-        by_process[batch["process"]].append(batch)
-    held = sum(batch["ended"] - batch["began"] for batch in batches)
-    ends = [(min(p["began"] for p in own), max(p["ended"] for p in own)) for own in by_process.values()]
-    first, last = min(b for b, _ in ends), max(e for _, e in ends)
-    return 1 - held / ((last - first) * len(ends))
 
 
 def draw(folder: Path, result) -> None:
@@ -104,39 +70,32 @@ def main() -> None:
     arguments = parser.parse_args()
     folder = arguments.out or Path(tempfile.mkdtemp())
     whole = plan(arguments.points)
-    few = replace(whole, batches=whole.batches[::FEW])
-    run.rows_of = timed
+    few = replace(
+        whole,
+        axes=(lubfric.plan_study(whole.scene, {"surface.seed": list(range(len(whole.scenes[::FEW])))}).axes),
+        scenes=whole.scenes[::FEW],
+        keys=whole.keys[::FEW],
+    )
+    used = time.process_time()
     lubfric.study(few, store=folder / "few")
+    here = (time.process_time() - used) / few.points
+    begun = time.perf_counter()
     with ProcessPoolExecutor(arguments.workers) as executor:
         result = lubfric.study(whole, executor=executor, store=folder / "all")
+    wall = time.perf_counter() - begun
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    there = (children.ru_utime + children.ru_stime) / whole.points
     begun = time.perf_counter()
     again = lubfric.open_study(folder / "all")
     opened = time.perf_counter() - begun
     size = sum(path.stat().st_size for path in (folder / "all").rglob("*"))
-    alone, batches = (
-        [json.loads(line) for line in (folder / part / "times.jsonl").read_text().splitlines()]
-        for part in ("few", "all")
-    )
-    batches.sort(key=lambda batch: batch["ended"])
-    here = {b["batch"]: b["cpu"] for b in alone if b["whole"]}
-    there = {b["batch"]: b["cpu"] for b in batches if b["whole"]}
-    both = sorted(here.keys() & there.keys())
-    ratio = sum(here[name] for name in both) / sum(there[name] for name in both)
-    wall, used = batches[-1]["ended"] - min(b["began"] for b in batches), sum(b["cpu"] for b in batches)
-    tenth = max(len(batches) // 10, 1)
     rows = [
         ("points", f"{whole.points}, {result.failed} failed, {again.missing} missing"),
-        ("processes", str(len({b["process"] for b in batches}))),
+        ("processes", str(arguments.workers)),
         ("wall time", f"{wall:.1f} s, {whole.points / wall:.0f} points a second"),
-        ("processor time", f"{1e3 * used / whole.points:.2f} ms a point: {used / wall:.2f} cores' worth were had"),
-        ("processor time of the same batches, serial over there", f"{ratio:.1%} ({len(both)} batches)"),
-        ("idle", f"{idle(batches):.1%} of the time of a process"),
-        (
-            "memory of a process",
-            f"{np.median([p['memory'] for p in batches[:tenth]]):.0f} MiB in the first tenth, "
-            f"{np.median([p['memory'] for p in batches[-tenth:]]):.0f} MiB in the last, "
-            f"{max(p['memory'] for p in batches):.0f} MiB at most",
-        ),
+        ("processor time", f"{1e3 * there:.2f} ms a point: {there * whole.points / wall:.2f} cores' worth were had"),
+        ("processor time of a tenth of the curves, serial over there", f"{here / there:.1%}"),
+        ("memory of a process", f"{children.ru_maxrss / 1024:.0f} MiB at most"),
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),
     ]
     draw(folder, again)

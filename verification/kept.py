@@ -61,8 +61,7 @@ class _mapped:
     """``map`` in this process, or over fresh processes that end with it."""
 
     def __init__(self, workers: int):
-        parallel = {"mp_context": get_context("spawn"), "initializer": end_with_parent}
-        self.pool = ProcessPoolExecutor(workers, **parallel) if workers > 1 else None
+        self.pool = ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent) if workers > 1 else None
 
     def __enter__(self):
         return map if self.pool is None else self.pool.map

@@ -20,6 +20,39 @@ def times(factor: float) -> Callable:
     return lambda original: lambda *args, **kwargs: factor * original(*args, **kwargs)
 
 
+def argument(place: int, change: Callable) -> Callable:
+    """Replace a function by one whose argument at ``place`` (negative: from the last) is changed."""
+
+    def broken(original):
+        def call(*args, **options):
+            given = list(args)
+            given[place] = change(given[place])
+            return original(*given, **options)
+
+        return call
+
+    return broken
+
+
+def keywords(**changes: Callable) -> Callable:
+    """Replace a function by one of which these keywords are changed."""
+    return lambda original: (
+        lambda *args, **given: original(
+            *args, **given | {name: change(given[name]) for name, change in changes.items()}
+        )
+    )
+
+
+def oil_without(place: int, **lost) -> Callable:
+    """Replace a function by one whose lubricant at ``place`` has lost something."""
+    return argument(place, lambda oil: replace(oil, **lost))
+
+
+def line_without(**lost) -> Callable:
+    """Replace a film solver by one that gets the line contact with another oil."""
+    return argument(0, lambda line: replace(line, lubricant=replace(line.lubricant, **lost)))
+
+
 def reversed_couette(original):
     """Fluxes through faces with -rho H for the Couette flow."""
 
@@ -31,9 +64,9 @@ def reversed_couette(original):
     return residual
 
 
-def first_row_only(original):
+def first_row(gap: np.ndarray) -> np.ndarray:
     """Gap of the first row along y instead of the mean."""
-    return lambda patch, film, gap, contact: original(patch, film, np.broadcast_to(gap[:, :1], gap.shape), contact)
+    return np.broadcast_to(gap[:, :1], gap.shape)
 
 
 def decadic_exponent(original):
@@ -48,10 +81,9 @@ def decadic_exponent(original):
 def without_overlap(original):
     """A search that knows only cells under pressure, and takes the gap for open elsewhere."""
 
-    def look(descent):
-        fields = descent.fields
-        np.maximum(fields.gap, descent.level, out=fields.gap, where=fields.change <= fields.lower)
-        return original(descent)
+    def look(search):
+        np.maximum(search.gap, search.level, out=search.gap, where=search.change <= search.lower)
+        return original(search)
 
     return look
 
@@ -59,11 +91,6 @@ def without_overlap(original):
 def no_penetration(original):
     """Residuals that see no penetration."""
     return lambda *args: original(*args) | {"penetration": 0.0}
-
-
-def half_load(original):
-    """The contact pressed with half of what it should carry."""
-    return lambda *args, **options: original(*args, **options | {"mean_pressure": options["mean_pressure"] / 2})
 
 
 def lower_side(original):
@@ -105,36 +132,6 @@ def corner_axis(original):
     return lambda count, step: original(count, step) - step / 2
 
 
-def with_oil(**lost):
-    """A film solver that gets the line contact with another oil."""
-
-    def broken(original):
-        def solve(line, *args, **options):
-            return original(replace(line, lubricant=replace(line.lubricant, **lost)), *args, **options)
-
-        return solve
-
-    return broken
-
-
-def in_time_without(**lost):
-    """A contact in time with another oil."""
-
-    def broken(original):
-        def contact(*args):
-            *others, lubricant, duration, initial, width = args
-            return original(*others, replace(lubricant, **lost), duration, initial, width)
-
-        return contact
-
-    return broken
-
-
-def sheared_without(**lost):
-    """A shear law that leaves something out."""
-    return lambda original: lambda lubricant, *args: original(replace(lubricant, **lost), *args)
-
-
 def itself(original):
     """A function that hands a map back as it came."""
     return lambda surface, *args, **options: surface
@@ -155,16 +152,6 @@ def not_mirrored(original):
 def from_the_corner(original):
     """A map that is cut from its first point instead of its middle."""
     return lambda surface, shape, start=None: original(surface, shape, (0, 0))
-
-
-def swapped_cells(original):
-    """A file whose cell lengths are the wrong way round."""
-    return lambda path, **options: original(path, **options | {"spacing": options["spacing"][::-1]})
-
-
-def one_length(original):
-    """A generated map with one correlation length for both axes."""
-    return lambda *args, **asked: original(*args, **asked | {"correlation_length": np.max(asked["correlation_length"])})
 
 
 def subsampled(original):
@@ -190,16 +177,6 @@ def whole_patch(original):
     return lambda scene, x, step: np.ones(x.size)
 
 
-def of_unit_width(original):
-    """A contact in time whose load is not divided by the width."""
-    return lambda *args: original(*args[:-1], 1.0)
-
-
-def still(original):
-    """A history that stays at its first value."""
-    return lambda history, time: original(history, 0.0)
-
-
 FORMULAS = ("contact_grid", "ehl_grid", "friction", "load_sharing")
 # what is asked to catch them, the place, and (name, what it is, what is put there) of every mutant
 SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] = {
@@ -217,10 +194,10 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
             ("viscosity_exponent", "Roelands' exponent with the decadic logarithm", decadic_exponent),
         ),
         "lubfric.contact.half_space:HalfSpaceContact._state": (
-            ("missing_y_mean", "volume balance on one row instead of the mean along y", first_row_only),
+            ("missing_y_mean", "volume balance on one row instead of the mean along y", argument(2, first_row)),
         ),
         "lubfric.contact.half_space:solve_contact": (
-            ("half_the_load", "rough contact carries half of F_C", half_load),
+            ("half_the_load", "rough contact carries half of F_C", keywords(mean_pressure=lambda p: p / 2)),
             ("stale_warm_start", "contact of the neighbouring load returned for this one", stale),
         ),
         "lubfric.contact.half_space:centred_axis": (
@@ -229,14 +206,14 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.sharing.forces:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
     },
     ("wiring_film",): {
-        "lubfric.sharing.point:solve_line_contact": (
-            ("film_viscosity_law", "viscosity law not passed to the film", with_oil(viscosity_law="barus")),
-            ("film_density_law", "density law not passed to the film", with_oil(density_law="constant")),
-            ("film_alpha", "alpha of the film not that of the scene", with_oil(pressure_viscosity_coefficient=25e-9)),
+        "lubfric.film.levels:solve_line_contact": (
+            ("film_viscosity_law", "viscosity law not passed to the film", line_without(viscosity_law="barus")),
+            ("film_density_law", "density law not passed to the film", line_without(density_law="constant")),
+            ("film_alpha", "alpha not passed to the film", line_without(pressure_viscosity_coefficient=25e-9)),
         ),
         "lubfric.film.shear:shear_stress": (
-            ("steady_newtonian", "Eyring's law dropped in steady shear", sheared_without(eyring_stress=None)),
-            ("limit_offset", "limiting stress without its offset", sheared_without(limiting_stress_offset=0.0)),
+            ("steady_newtonian", "Eyring's law dropped in steady shear", oil_without(0, eyring_stress=None)),
+            ("limit_offset", "limiting stress without its offset", oil_without(0, limiting_stress_offset=0.0)),
         ),
         "lubfric.sharing.forces:shear_force": (
             ("slide_roll", "slide-roll ratio always 2", with_keywords(slide_roll_ratio=2.0)),
@@ -281,25 +258,27 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.contact.height_map:read_surface": (
             ("map_unit", "unit of a file ignored", with_keywords(unit=None)),
             ("map_form", "form of a file ignored", with_keywords(form="plane")),
-            ("map_cells", "cell lengths of a file swapped", swapped_cells),
+            ("map_cells", "cell lengths of a file swapped", keywords(spacing=lambda cells: cells[::-1])),
         ),
         "lubfric.contact.height_map:generate_surface": (
             ("seed", "seed of a generated map ignored", with_keywords(seed=1)),
             ("decay_level", "level at which a correlation length is read ignored", with_keywords(decay_level=0.3679)),
-            ("one_length", "one correlation length for both axes", one_length),
+            ("one_length", "one correlation length for both axes", keywords(correlation_length=np.max)),
         ),
     },
     ("wiring_time",): {
         "lubfric.time.film_shear:shear_stress": (
-            ("transient_newtonian", "Eyring's law dropped in a transient", sheared_without(eyring_stress=None)),
-            ("transient_no_limit", "limiting stress dropped", sheared_without(limiting_stress_coefficient=None)),
+            ("transient_newtonian", "Eyring's law dropped in a transient", oil_without(0, eyring_stress=None)),
+            ("transient_no_limit", "limiting stress dropped", oil_without(0, limiting_stress_coefficient=None)),
         ),
         "lubfric.time.setup:ContactHistory": (
-            ("transient_density", "density law dropped in a transient", in_time_without(density_law="constant")),
-            ("transient_viscosity_law", "always Roelands' law in time", in_time_without(viscosity_law="roelands")),
-            ("transient_load", "load of a transient taken as load per width", of_unit_width),
+            ("transient_density", "density law dropped in a transient", oil_without(-4, density_law="constant")),
+            ("transient_viscosity_law", "always Roelands' law in time", oil_without(-4, viscosity_law="roelands")),
+            ("transient_load", "load of a transient taken as load per width", argument(-1, lambda width: 1.0)),
         ),
-        "lubfric.scene.history:Ramp.at": (("ramp_ignored", "ramps of a transient stay at their start", still),),
+        "lubfric.scene.history:Ramp.at": (
+            ("ramp_ignored", "ramps of a transient stay at their start", argument(1, lambda time: 0.0)),
+        ),
     },
 }
 MUTANTS = (
@@ -313,8 +292,8 @@ MUTANTS = (
         "penetration_ignored",
         "contact set and stopping test look at p g only",
         {
-            "lubfric.contact.descent:Descent._look": without_overlap,
-            "lubfric.contact.looked:contact_residuals": no_penetration,
+            "lubfric.contact.search:Search._look": without_overlap,
+            "lubfric.contact.rounds:contact_residuals": no_penetration,
         },
         FORMULAS,
     ),

@@ -8,7 +8,7 @@ import json
 import math
 import os
 import platform
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from . import page
@@ -73,8 +73,9 @@ class Report:
 
 def outcome_dict(outcome: Outcome) -> dict:
     """One study for report.json."""
+    name = outcome.study.name
     return {
-        "name": outcome.study.name,
+        "name": name,
         "title": outcome.study.title,
         "description": outcome.description,
         "passed": outcome.passed,
@@ -83,13 +84,9 @@ def outcome_dict(outcome: Outcome) -> dict:
         "error": outcome.error,
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
-        "tables": [
-            {"name": t.name, "caption": t.caption, "columns": t.columns, "rows": t.rows} for t in outcome.tables
-        ],
-        "figures": [
-            {"file": file_of(outcome.study.name, f.name, f.format), "caption": f.caption} for f in outcome.figures
-        ],
-        "fields": [{"file": file_of(outcome.study.name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
+        "tables": [asdict(table) for table in outcome.tables],
+        "figures": [{"file": file_of(name, f.name, f.format), "caption": f.caption} for f in outcome.figures],
+        "fields": [{"file": file_of(name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
     }
 
 

@@ -64,7 +64,7 @@ def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progr
         now, kind = time.perf_counter(), type(item)
         if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
-        # two of one name would hide each other, or overwrite each other's file; where they were measured tells checks apart
+        # two of one name would hide each other, or their files; checks may also differ by where they were measured
         placed = isinstance(item, Check) and item.at
         if not placed and any(other.name == item.name for other in found[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
@@ -121,11 +121,12 @@ def run_one(study: Study, level: str, progress: Progress) -> Outcome:
         error, trace = explain(exc), traceback.format_exc()
         progress(raised(study, error))
         found[Check].append(raised(study, error))
-    items = (tuple(items) for items in found.values())
-    return Outcome(study, level, description, *items, time.perf_counter() - start, peak_memory(), error, trace)
+    checks, tables, figures, fields = (tuple(items) for items in found.values())
+    seconds, memory = time.perf_counter() - start, peak_memory()
+    return Outcome(study, level, description, checks, tables, figures, fields, seconds, memory, error, trace)
 
 
-def load(study: Study) -> Callable[[str], object]:
+def load(study: Study) -> Callable[..., Iterable[Item]]:
     """The function behind ``study.target``."""
     module, _, function = study.target.partition(":")
     return getattr(importlib.import_module(module), function)

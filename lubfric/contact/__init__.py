@@ -11,10 +11,10 @@ from .height_map import check_grid, contact_map, measured, rough_bodies, whole_m
 from .hertz_strip import weighted_mean
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, half_space
-from .problem import Problem, make_problem, starting_pressure
-from .refine import refine
+from .problem import Problem, make_problem
 from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact
+from .rounds import refine
 from .solve import solve_contact
 from .strips import Strips, correlation_lengths, length_or_half, one_patch, strips_of
 from .transforms import even_transform

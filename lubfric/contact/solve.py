@@ -11,8 +11,8 @@ from .._base import increasing_root, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from .cells import rescaled, shifted
 from .problem import Problem, make_problem, starting_pressure
-from .refine import Found, State, approximate, refine
 from .result import ContactResult
+from .rounds import Found, State, approximate, refine
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear

@@ -75,7 +75,7 @@ def shear_force(
     def isothermal(at, pressure, thickness):
         return shear_stress(lubricant, pressure, sliding / thickness)
 
-    stress = isothermal if warm is None else warm.stress
+    stress = isothermal if warm is None or warm.stress is None else warm.stress
     tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node

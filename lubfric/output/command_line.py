@@ -134,11 +134,11 @@ def _scene(arguments):
 def _run(arguments) -> None:
     scene = _scene(arguments)
     if arguments.sampling_tolerance is not None:
-        from ..sharing import takes_line
+        from ..sharing import takes_strips
 
-        if not takes_line(scene):
+        if not takes_strips(scene):
             raise InputError(
-                "--sampling-tolerance is for a rough cylinder on a line of its roughness (numerics.sampling = 'line'), "
+                "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
                 f"and {scene.name} is solved on one patch, as it is; leave it out"
             )
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})

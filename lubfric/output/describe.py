@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from ..contact import contact_map, measured
+from ..contact import Strips, contact_map, measured, strips_of
 from ..errors import InputError
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, key_unit
+from ..sampling import forecast
 from ..scene import Scene, told_doubts
-from ..sharing import first_line, gathered, lines_of, lines_outlook, takes_line
-from ..sharing.validity_outlook import foretold
+from ..sharing import expected, gathered, takes_strips
 from ..surface import Surface, correlation_length, rms_slope
 
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
@@ -21,7 +21,8 @@ def describe_scene(scene: Scene) -> str:
     """Inputs, regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text. Nothing is
     solved."""
     with told_doubts(scene):
-        first = first_line(lines_of(scene)) if takes_line(scene) else None
+        strips = strips_of(scene) if takes_strips(scene) else None
+        first = None if strips is None else strips.stack(strips.first)
         surface = contact_map(scene) if first is None or measured(scene) else first
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     return "\n".join(
@@ -35,7 +36,7 @@ def describe_scene(scene: Scene) -> str:
             *_film_rows(scene, surface.sq, sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})),
             *_section("contact", [f"{_plan(scene, surface)}; {len(speeds)} speeds"]),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
-            *_sample_rows(scene, surface.sq, speeds),
+            *_sample_rows(scene, strips, surface, speeds),
         ]
     )
 
@@ -50,27 +51,38 @@ def _plan(scene: Scene, surface: Surface) -> str:
         what = "one gap and one pressure, on grids of the map halved and doubled"
     elif scene.contact.geometry == "flat":
         what = f"periodic contact curve on {cells}, once, then read at every speed"
-    elif takes_line(scene):
-        what = "semi-periodic contact on a line of the roughness (below) under the film at every speed"
+    elif takes_strips(scene):
+        what = "semi-periodic contact on strips of the roughness (below) under the film at every speed"
     else:
         what = f"semi-periodic contact on {cells} under the film at every speed"
-    return f"{what}; the coarsest grid that gives f within {100 * scene.numerics.tolerance:g} %"
+    return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
 
 
 def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
     """What is known before the solve: of bodies and map, and of the speeds."""
-    known = foretold(scene, surface, speeds)
+    known = expected(scene, surface, speeds)
     of_speeds = gathered([(speed, (entry,)) for speed, entry in known if speed is not None])
     found = [entry.text for speed, entry in known if speed is None] + [*of_speeds]
     return found or ["no assumption of the model fails by what is known before the solve"]
 
 
-def _sample_rows(scene: Scene, sq: float, speeds) -> list[str]:
-    """Length of the line and its cost at some speeds of the scene."""
-    if not takes_line(scene):
-        return []
+def _sample_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """Whether the summits touch, and what the sample costs, at some speeds of the scene."""
     some = sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]})
-    return [f"  {row}" for row in lines_outlook.table(scene, lines_of(scene), sq, some)]
+    summit = float(surface.heights.max() - surface.heights.mean())
+    expected = [forecast(scene, strips, surface.sq, summit, speed) for speed in some]
+    rows = [f"  {'U (m/s)':<12} {'summits':<22} {'clearance (Sq)':>14}"]
+    if strips is not None:
+        dx, dy = strips.cells.coarse
+        asked = 100 * scene.numerics.sampling_tolerance
+        head = f"strips of the roughness for f within {asked:g} %, on cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
+        rows = [f"  {head} (orders of magnitude)", f"{rows[0]} {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"]
+    for one in expected:
+        row = f"  {one.speed:<12.4g} {one.touching:<22} {one.clearance:>14.2g}"
+        if strips is not None:
+            row += f" {one.strips:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
+        rows.append(row)
+    return rows
 
 
 def _film_rows(scene: Scene, sq: float, speeds: list[float]) -> list[str]:

@@ -58,14 +58,14 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
     x, y = (_numbers(key, coords[key][1]) for key in (across, up))
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
+    known = np.ma.masked_invalid(values)
     figure = new_figure(figsize=(7, 5))
     ax = figure.subplots()
-    shown = ax.contourf(x, y, np.ma.masked_invalid(values), levels=16, cmap="viridis")
-    ax.contour(x, y, np.ma.masked_invalid(values), levels=16, colors="w", linewidths=0.4)
-    bad = ~np.isfinite(values)
-    if bad.any():
-        grid = np.meshgrid(x, y)
-        ax.plot(grid[0][bad], grid[1][bad], "x", color=RED, label="no answer")
+    shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
+    ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
+    rows, places = np.nonzero(~np.isfinite(values))
+    if rows.size:
+        ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
         ax.legend(frameon=False)
     for key, values_of, scale, label in (
         (across, x, ax.set_xscale, ax.set_xlabel),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..sampling import FrictionResult
-from ..sharing import Prepared, on_cells_of
+from ..sharing import Prepared
 from .record import npz_bytes
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
@@ -14,7 +14,7 @@ OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spot
 def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``; SI units.
 
-    A speed whose contact was solved on other cells than those of ``prepared`` has their map and x under its index too.
+    A speed whose contact has other cells than the first one has their map and x under its index too.
     """
     arrays = {"speed": np.array([p.speed for p in points])}
     if points[0].deterministic is not None:
@@ -23,18 +23,21 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
         for i, result in enumerate(results):
             arrays |= {f"{name}_{i}": getattr(result, name) for name in OF_ONE_GAP}
         return npz_bytes(arrays)
-    arrays |= _map_of(prepared)
+    arrays |= _map_of(prepared, points[0])
     for i, point in enumerate(points):
-        found, cells = _film_and_contact(point), on_cells_of(prepared, point.line)
-        if cells is not prepared:
-            found |= _map_of(cells)
+        found = _film_and_contact(point)
+        if point.heights is not None and point.heights.shape != arrays["heights"].shape:
+            found |= _map_of(prepared, point)
         arrays |= {f"{name}_{i}": array for name, array in found.items()}
     return npz_bytes(arrays)
 
 
-def _map_of(prepared: Prepared) -> dict[str, np.ndarray]:
-    spacing = np.array(prepared.surface.spacing)
-    return {"heights": prepared.surface.heights, "spacing": spacing, "contact_x": prepared.contact.x}
+def _map_of(prepared: Prepared, point: FrictionResult) -> dict[str, np.ndarray]:
+    if point.heights is None or not point.shows_contact:
+        surface = prepared.surface
+        return {"heights": surface.heights, "spacing": np.array(surface.spacing), "contact_x": prepared.contact.x}
+    spacing = np.array([point.x[1] - point.x[0], point.y[1] - point.y[0]])
+    return {"heights": point.heights, "spacing": spacing, "contact_x": point.x}
 
 
 def _film_and_contact(point: FrictionResult) -> dict[str, np.ndarray]:
@@ -52,8 +55,9 @@ def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
     (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
     """
     x, y, fields = point.x, point.y, {}
-    if prepared.surface.shape == (x.size, y.size):
-        fields["height"] = prepared.surface.heights - np.nanmean(prepared.surface.heights)
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    if heights.shape == (x.size, y.size):
+        fields["height"] = heights - np.nanmean(heights)
     fields |= {"contact_pressure": point.pressure, "gap": point.gap}
     film = point.balance.film if point.balance else None
     if film is not None:

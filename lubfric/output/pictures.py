@@ -113,7 +113,8 @@ def _two_pressures(prepared, point):
     surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant. It is chosen so that u has
     zero mean over the section.
     """
-    heights, x = prepared.surface.heights - prepared.surface.heights.mean(), prepared.contact.x
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    heights, x = heights - heights.mean(), point.balance.contact.x
     contact, film = point.balance.contact.fields, point.balance.film
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     in_section = film is not None and heights.shape[0] == x.size
@@ -130,24 +131,23 @@ def _two_pressures(prepared, point):
     axes[0].set_title(loads if panels[0] else f"{loads}: no contact")
     if in_section:
         _section(axes[-1], x * 1e6, heights[:, row], film.film_at(x), contact, row)
-        place = f"section at y = {row * prepared.surface.spacing[1] * 1e6:.1f} µm"
+        place = "" if contact is None else f"section at y = {point.y[row] * 1e6:.1f} µm"
         axes[-1].set_title(place if panels[0] else f"{loads}: no contact\n{place}")
     return figure
 
 
 def _pressure_map(axes, prepared, point, row: int) -> None:
-    """The pressure, with the section. Of a long line, only the part around the section, about twice as long as wide."""
-    pressure, (across, along) = point.balance.contact.fields.pressure, prepared.surface.size
-    step = prepared.surface.spacing[1]
-    y = np.arange(pressure.shape[1]) * step
-    field_image(axes, prepared.contact.x, y, pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+    """The pressure, with the section. Of long strips, only the part around the section, about twice as long as wide."""
+    pressure, x, y = point.pressure, point.x, point.y
+    across, along, at = x[-1] - x[0], y[-1], y[row]
+    field_image(axes, x, y, pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
     _hertz_strip(axes, prepared.scene.bodies.half_width)
-    axes.axhline(row * step * 1e6, color=GREEN, lw=0.8, ls=":")
+    axes.axhline(at * 1e6, color=GREEN, lw=0.8, ls=":")
     axes.set_ylabel("y (µm); dotted: section")
-    if prepared.lines is not None and along >= WHOLE * across:
-        first = min(max(row * step - across, 0.0), along - 2 * across)
+    if along >= WHOLE * across:
+        first = min(max(at - across, 0.0), along - 2 * across)
         axes.set_ylim(first * 1e6, (first + 2 * across) * 1e6)
-        axes.set_ylabel(f"y (µm) on a line of {1e3 * point.uncertainty.length:.3g} mm; dotted: section")
+        axes.set_ylabel(f"y (µm) on strips of {1e3 * point.uncertainty.length:.3g} mm; dotted: section")
 
 
 def _hertz_strip(axes, half_width: float) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from .._base import FolderLock, new_figure, plain, shown, write_whole
 from ..errors import InputError
 from ..scene import load_scene
-from ..studies import FitResult, explain_fit, fit, plot_fit, plot_residuals, read_measured
+from ..studies import FitResult, explain_fit, fit, read_measured
 from .console import Pace, say, say_written
 from .run_folder import drawn
 
@@ -59,15 +59,9 @@ def _progress(begun: float) -> Callable[[int, int, int], None]:
 
 
 def _write(found: FitResult, folder: Path) -> list[str]:
-    record = {
+    names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
+    record = {name: getattr(found, name) for name in names} | {
         "parameters": list(found.parameters.keys),
-        "values": found.values,
-        "intervals": found.intervals,
-        "covariance": found.covariance,
-        "moved_by_surface": found.moved_by_surface,
-        "undetermined": found.undetermined,
-        "at_bounds": found.at_bounds,
-        "validity": found.validity,
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,
@@ -87,6 +81,6 @@ def _write(found: FitResult, folder: Path) -> list[str]:
 def _draw(file, found: FitResult) -> None:
     figure = new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
-    plot_fit(found, top).set_xlabel("")
-    plot_residuals(found, bottom)
+    found.plot(top).set_xlabel("")
+    found.plot_residuals(bottom)
     figure.savefig(file, dpi=150)

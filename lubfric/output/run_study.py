@@ -11,14 +11,12 @@ from ..studies import (
     CONVERGED,
     MOST_WORKERS,
     UNUSED,
-    StudyResult,
     check_tools,
     in_words,
     load_study,
     open_study,
     pool,
     study,
-    to_netcdf,
 )
 from .console import Pace, keeping, put, say, say_written
 
@@ -37,28 +35,19 @@ def run_study(arguments) -> int:
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
-    written = write_tables(result, arguments.out, arguments.netcdf, arguments.parquet)
+    tables = {"study.csv": result.to_csv}
+    tables |= {"study.nc": result.to_netcdf} if arguments.netcdf else {}
+    tables |= {"study.parquet": result.to_parquet} if arguments.parquet else {}
+    for name, write in tables.items():
+        write(arguments.out / name)
     if result.cautioned:
         say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
-    say_written(written, arguments.out, begun)
+    say_written(tables, arguments.out, begun)
     if result.failed:
         first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
         raise ConvergenceError(f"{result.failed} of {result.solved} points failed; first: {first}", report, result)
     return 0
-
-
-def write_tables(result: StudyResult, folder: Path, netcdf: bool, parquet: bool) -> list[str]:
-    """Write study.csv, and what else is asked for. Returns the names of the files."""
-    result.to_csv(folder / "study.csv")
-    written = ["study.csv"]
-    if netcdf:
-        to_netcdf(result, folder / "study.nc")
-        written.append("study.nc")
-    if parquet:
-        result.to_parquet(folder / "study.parquet")
-        written.append("study.parquet")
-    return written
 
 
 def _kept(folder) -> str:

@@ -15,7 +15,7 @@ from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import in_words
 from ..sampling import percent
 from ..scene import FASTEST, MOST_SPEEDS, Scene
-from ..sharing import Validity, on_cells_of, prepare, takes_line
+from ..sharing import Validity, prepare, takes_strips
 from ..studies import AUTO, MOST_WORKERS, csv_bytes, fingerprint, pool, processors, read_measured, stribeck
 from .console import keeping, say, say_written
 from .fields import fields_bytes, vtk_bytes
@@ -79,10 +79,10 @@ def run_sweep(scene: Scene, arguments) -> int:
 
 def _workers(scene: Scene, speeds, given: int | None) -> int:
     """Processes that share the ``speeds``: as ``given``, else two if there are as many processors, enough speeds, and
-    each is solved on a long line. The numbers do not depend on it."""
+    each is solved on strips. The numbers do not depend on it."""
     if given is not None:
         return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
-    return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_line(scene) and processors() > 1 else 1
+    return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
 
 
 def _write(folder: RunFolder, prepared, curve, chosen) -> None:
@@ -96,7 +96,7 @@ def _write(folder: RunFolder, prepared, curve, chosen) -> None:
     if points:
         points.sort(key=lambda p: chosen.index(p.speed))
         folder.write("fields.npz", fields_bytes(prepared, points))
-        folder.draw(CONTACT, plot_contact, on_cells_of(prepared, points[0].line), points[0])
+        folder.draw(CONTACT, plot_contact, prepared, points[0])
 
 
 def _write_vtk(folder: RunFolder, prepared, curve) -> None:

@@ -11,8 +11,8 @@ import numpy as np
 from .._base import plain, read_table, whole_file
 from ..errors import ConvergenceError, InputError
 from ..scene import LARGEST_RATIO, Scene
-from ..sharing import Prepared, prepare
-from ..studies import QUANTITIES, TractionResult, curve_table, fingerprint, traction, uncertainty_columns
+from ..sharing import prepare
+from ..studies import QUANTITIES, curve_table, fingerprint, traction, uncertainty_columns
 from .console import say, say_written
 from .draw_curves import plot_traction
 from .record import made_of
@@ -28,13 +28,22 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     say(prepared.surface.describe())
     with run_folder(out, fingerprint(prepared, asked, "traction")) as folder:
         found = traction(prepared, asked, on_point=_progress, raise_on_failure=False)
+        columns = {"ratio": found.ratio} | {name: found[name] for name in QUANTITIES}
         folder.clear()
-        folder.write("traction.csv", curve_table(found, {"ratio": found.ratio} | _numbers(found)))
+        folder.write("traction.csv", curve_table(found, columns))
+        columns |= uncertainty_columns(found.uncertainty)
         if len(found.errors) < found.ratio.size:
-            columns = {"ratio": found.ratio, "validity": found.told} | _numbers(found)
-            title = _title(scene.name, found.speed)
-            folder.draw("traction.png", plot_traction, columns, title, scene.bodies.load)
-        folder.finish(plain(_record(prepared, found, time.perf_counter() - begun)))
+            marked = columns | {"validity": found.told}
+            folder.draw("traction.png", plot_traction, marked, _title(scene.name, found.speed), scene.bodies.load)
+        record = made_of(scene, prepared.surface, sq=prepared.surface.sq) | {
+            "seconds": time.perf_counter() - begun,
+            "report": found.report.as_dict(),
+            "validity": list(found.validity),
+            "ratio": found.ratio,
+            "columns": columns,
+            "entries": [[asdict(entry) for entry in found.entries(i)] for i in range(found.ratio.size)],
+        }
+        folder.finish(plain(record))
     for text in found.validity:
         say(text)
     say_written(folder.written, out, begun)
@@ -70,19 +79,3 @@ def _progress(done, total, ratio, outcome) -> None:
     failed = isinstance(outcome, Exception)
     text = f"failed: {outcome}" if failed else outcome.uncertainty.short(outcome.coefficient)
     say(f"[{done:>{len(str(total))}}/{total}] slide-roll ratio {ratio:<9.4g}: {text}")
-
-
-def _numbers(found: TractionResult) -> dict[str, np.ndarray]:
-    """Every quantity, and how sure f is, by name."""
-    return {name: found[name] for name in QUANTITIES} | uncertainty_columns(found.uncertainty)
-
-
-def _record(prepared: Prepared, found: TractionResult, seconds: float) -> dict:
-    return made_of(prepared.scene, prepared.surface, sq=prepared.surface.sq) | {
-        "seconds": seconds,
-        "report": found.report.as_dict(),
-        "validity": list(found.validity),
-        "ratio": found.ratio,
-        "columns": _numbers(found),
-        "entries": [[asdict(entry) for entry in found.entries(i)] for i in range(found.ratio.size)],
-    }

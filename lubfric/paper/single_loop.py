@@ -63,7 +63,7 @@ def single_loop(
     Returns
     -------
     ContactResult : its ``approach`` is epsilon. ``report.residuals`` come from the returned pressure alone, and are
-        measured by the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
+        measured by the length L of `lubfric.contact.length_scale`: complementarity and penetration as in
         `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve has converged when the
         largest is <= tolerance, *also* when it was stopped by Eq. (23). The notes say when Eq. (23) was met first.
 

@@ -8,6 +8,7 @@ cells; `scatter` reads the standard error off one solved contact; `errors_of` an
 from .cite import together
 from .friction import friction
 from .missed import missed_share
+from .moment_error import moment_error
 from .outlook import Forecast, forecast
 from .result import FrictionResult
 from .sample import Found, sampled

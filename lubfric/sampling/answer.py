@@ -46,6 +46,8 @@ def _numbers(prepared: Prepared, speed: float, found: Found, begun: float) -> Fr
     separated = balance.contact_load == 0
     factors = (1, 1) if found.strips is None else found.strips.cells.factors
     ends = found.contact.on_the_ends(found.solved.contact) / factors[0]
+    if found.strips is not None and found.strips.whole and factors != (1, 1):
+        ends = found.effect.ends
     passed = judged(prepared, speed, balance, ends)
     change = found.change("gap")
     decision = decided(
@@ -77,7 +79,8 @@ def _numbers(prepared: Prepared, speed: float, found: Found, begun: float) -> Fr
         volume_residual=0.0 if film is None or separated else found.solved.contact.volume_residual,
         seconds=time.perf_counter() - begun,
         report=replace(balance.report, notes=notes),
-        balance=balance,
+        balance=replace(balance, contact=replace(contact, fields=found.solved.contact.fields)),
+        heights=getattr(found.contact, "heights", None),
         decision=decision,
         validity=passed,
         steepness=_steepness(prepared, speed, found.response, balance),

@@ -34,7 +34,7 @@ class CellStep:
     - ``beyond`` [m]: estimated change on cells half as long as the scene's own (NaN: own cells not reached).
     - ``film`` [m]: change of the mean film.
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
-    - ``plastic``: to be added to the plastic area fraction.
+    - ``plastic``: to be added to the plastic area fraction; ``ends``: share of the load on the edge columns.
     """
 
     gap: float
@@ -45,6 +45,7 @@ class CellStep:
     area: float
     area_error: float
     plastic: float
+    ends: float
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class CellEffect:
     area: float = 1.0
     area_error: float = 0.0
     plastic: float = 0.0
+    ends: float = 0.0
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
@@ -86,7 +88,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
 
-    names = ("gap", "rest", "beyond", "film", "area", "plastic")
+    names = ("gap", "rest", "beyond", "film", "area", "plastic", "ends")
     spread = mean("area_error") / math.sqrt(len(steps))
     values = {name: mean(name) for name in names}
     return CellEffect(error=error, area_error=spread, contact_load=balance.contact_load, **values)
@@ -130,6 +132,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
         area=area,
         area_error=area_error,
         plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
+        ends=contact.on_the_ends(states[-1]),
     )
 
 

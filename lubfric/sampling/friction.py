@@ -40,7 +40,7 @@ def friction(
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "load-sharing", or "deterministic": one gap and one pressure; None: the scene's
-    fields : True: ``result.balance`` has film and contact on the scene's own cells
+    fields : True: ``result.balance`` has film and contact on the cells of the map (on strips: on theirs)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
 
     Returns a `FrictionResult`.

@@ -49,6 +49,7 @@ class FrictionResult(Shown):
         (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
+    heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
     steepness : d ln(F_H/F_C)/d ln U [-]; NaN where film and contact do not share the load
     """
 
@@ -75,6 +76,7 @@ class FrictionResult(Shown):
     seconds: float
     report: Report
     balance: Balance | None = None
+    heights: np.ndarray | None = None
     decision: Decision | None = None
     validity: tuple[Validity, ...] = ()
     deterministic: Refined | None = None
@@ -85,7 +87,7 @@ class FrictionResult(Shown):
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""
-        return replace(self, balance=None, deterministic=None)
+        return replace(self, balance=None, heights=None, deterministic=None)
 
     def _facts(self) -> dict[str, str]:
         facts = {

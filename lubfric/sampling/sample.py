@@ -84,8 +84,16 @@ class Found:
 
     @property
     def corrected(self) -> float:
-        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left."""
-        return self.effect.gap + self.solved.contact.mean_gap - self.solved.contact.mean_film
+        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On the
+        scene's own cells nothing is corrected, so that loads and fields belong together."""
+        if self.strips is None or self.strips.cells.own:
+            return 0.0
+        return self.effect.gap + self.left_by_root
+
+    @property
+    def left_by_root(self) -> float:
+        """Mean gap less mean film [m], as the balance was solved."""
+        return self.solved.contact.mean_gap - self.solved.contact.mean_film
 
     @property
     def second_order(self) -> float:
@@ -101,11 +109,11 @@ class Found:
 def sampled(prepared: Prepared, speed: float, *, own_cells: bool = False) -> Found:
     """Solve ``prepared`` at ``speed`` [m/s]: on more strips until the standard error of f is within
     ``numerics.sampling_tolerance``, on cells so fine that their effect can be corrected for. ``own_cells``: on those of
-    the scene. Raises `ConvergenceError`."""
+    the scene, where one patch is all that there is. Raises `ConvergenceError`."""
     strips = prepared.strips
     if strips is None:
         return _without_cells(prepared, speed)
-    while own_cells and not strips.cells.own:
+    while own_cells and strips.whole and not strips.cells.own:
         strips = strips.halved()
     while True:
         found = _on_cells(prepared, speed, strips)
@@ -128,7 +136,8 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
     effect: CellEffect | None = None
     while True:
         contact = on_stack(prepared, strips, count)
-        solved = solve_balance(scene, speed, contact, prepared.surface.sq, start)
+        coarse = not strips.cells.own
+        solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
         found = Found(solved, solved, contact, Scatter(_length(contact)), strips=strips, count=count)
         if solved.response is None:
             found = replace(found, missed=_missed(prepared, found, strips))
@@ -232,7 +241,7 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     """``found`` with the load divided as its own cells and the end of the root demand: film and friction are those of
     that division, areas follow its load."""
     solved, response, scene, effect = found.solved, found.response, prepared.scene, found.effect
-    if response is None or solved.film is None:
+    if response is None or solved.film is None or not found.corrected:
         return found
     loads = divided(scene.bodies.load, solved.split + response.split * found.corrected)
     film = _point(prepared, speed, found).film(loads[0], solved.film, solved.film.cells)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact import ContactState, HalfSpaceContact, Strips
+from ..contact import HalfSpaceContact, Strips
 from ..film import EHLResult
 from ..oil import shear_stress
 from ..scene import Scene

@@ -43,6 +43,11 @@ class History:
         """Smallest and largest value from 0 to ``duration`` [s]."""
         raise NotImplementedError
 
+    def _check_numbers(self, **units: str) -> None:
+        """Make the named fields floats, checked to be finite."""
+        for name, unit in units.items():
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+
 
 @dataclass(frozen=True)
 class Constant(History):
@@ -51,7 +56,7 @@ class Constant(History):
     value: float
 
     def __post_init__(self):
-        object.__setattr__(self, "value", validate.number("history value", self.value, "(SI)"))
+        self._check_numbers(value="(SI)")
 
     def at(self, time: float) -> float:
         return self.value
@@ -70,8 +75,7 @@ class Harmonic(History):
     mean: float = 0.0
 
     def __post_init__(self):
-        for name, unit in (("amplitude", "(SI)"), ("mean", "(SI)"), ("phase", "rad")):
-            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+        self._check_numbers(amplitude="(SI)", mean="(SI)", phase="rad")
         object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
 
     def at(self, time: float) -> float:
@@ -81,8 +85,7 @@ class Harmonic(History):
         if self.frequency * duration >= 1.0:
             return self.mean - abs(self.amplitude), self.mean + abs(self.amplitude)
         turns = (np.pi * (np.arange(-2, 6) + 0.5) - self.phase % (2 * np.pi)) / (2 * np.pi * self.frequency)
-        times = np.concatenate([[0.0, duration], turns[(turns > 0.0) & (turns < duration)]])
-        values = [self.at(t) for t in times]
+        values = [self.at(t) for t in (0.0, duration, *turns[(turns > 0.0) & (turns < duration)])]
         return min(values), max(values)
 
 
@@ -184,8 +187,7 @@ class Ramp(History):
     begin: float = 0.0
 
     def __post_init__(self):
-        for name in ("start", "end"):
-            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), "(SI)"))
+        self._check_numbers(start="(SI)", end="(SI)")
         object.__setattr__(self, "begin", validate.nonnegative("history begin", self.begin, "s"))
         object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))
 

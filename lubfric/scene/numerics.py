@@ -14,7 +14,7 @@ OPTIONS = {
     "model": ("auto", "load-sharing", "deterministic"),
     "film_deflection": ("hydrodynamic", "scaled", "total"),
     "grid": ("auto", "given"),
-    "sampling": ("line", "patch"),
+    "sampling": ("strips", "patch"),
     "heat": ("auto", "on", "off"),
     "cavitated_shear": ("none", "striated"),
 }
@@ -27,6 +27,7 @@ DROPPED = {  # keys, and values of keys, that there were before: what to do inst
     "ehl_tolerance": "its name is numerics.film_tolerance",
     "model = 'full'": "leave it out, and give numerics.tolerance a smaller value",
     "film_deflection = 'auto'": "leave it out, or give 'hydrodynamic', 'scaled' or 'total'",
+    "sampling = 'line'": "leave it out, or give 'strips'",
 }
 
 
@@ -49,9 +50,9 @@ class Numerics(Brief):
     tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
         out (`tolerances`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
-    sampling : the surface that is solved: "line", a line of the scene's roughness as long as ``sampling_tolerance``
+    sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
-    sampling_tolerance : standard error of f that a finite line may leave
+    sampling_tolerance : standard error of f that a finite surface may leave
     film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
         scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total")
     model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure
@@ -73,7 +74,7 @@ class Numerics(Brief):
     film_deflection: str = "scaled"
     model: str = "auto"
     grid: str = "auto"
-    sampling: str = "line"
+    sampling: str = "strips"
     sampling_tolerance: float = 0.02
     heat: str = "auto"
     accept: bool = False

@@ -75,14 +75,13 @@ class Scene(Shown):
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
         once, in any order: a Hertz pressure is that with the radius given beside it."""
-        whole = {key: value for key, value in values.items() if "." not in key}
-        sections = {key: dict(value) for key, value in whole.items() if isinstance(value, dict)}
+        whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
+        parts: dict[str, dict] = {}
         for key, value in values.items():
-            section, dot, field = key.partition(".")
-            if dot:
-                sections.setdefault(section, {})[field] = value
-        ready = {key: value for key, value in whole.items() if not isinstance(value, dict)}
-        return (self.with_(**ready) if ready else self).with_(**sections)
+            section, dot, name = key.partition(".")
+            if key not in whole:
+                parts.setdefault(section, {}).update({name: value} if dot else value)
+        return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
         """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""

@@ -53,7 +53,13 @@ class Balance:
 
 
 def solve_balance(
-    scene: Scene, speed: float, contact: RoughContact, sq: float, start: Balance | None = None
+    scene: Scene,
+    speed: float,
+    contact: RoughContact,
+    sq: float,
+    start: Balance | None = None,
+    *,
+    correctable: bool = False,
 ) -> Balance:
     """The balance of ``scene`` at ``speed`` [m/s] on ``contact``, whose heights have the standard deviation ``sq`` [m].
 
@@ -62,7 +68,8 @@ def solve_balance(
     film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
     contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
     balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
-    contact at this one. Raises `ConvergenceError`.
+    contact at this one; ``correctable``: what the root leaves open of the volume will be corrected to first order.
+    Raises `ConvergenceError`.
     """
     if speed == 0:
         return _dry(scene, contact)
@@ -77,7 +84,7 @@ def solve_balance(
             if found.contact.volume_residual <= 0:
                 return found
             alone = found.film
-    settings = _first_settings(scene)
+    settings = replace(_first_settings(scene), correctable=correctable)
     if start is not None and start.film is not None and start.film.entrainment_speed == speed:
         settings = start.settings or settings
     return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
@@ -229,15 +236,16 @@ def _needed(point: Point, balance: Balance, sq: float) -> Settings:
         share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
     if numerics.balance_tolerance is None:
-        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance) / budget.SLOPE
-        if response.split:
+        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance)
+        if now.correctable and response.split:
+            allowed /= budget.SLOPE
             allowed = min(allowed, budget.MOST_MOVED / abs(response.split))
         volume = _tightened(volume, max(min(0.5 * allowed / mean_film, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME))
     own = point.contact.adjustable_tolerance
     if own is not None and sq > 0 and numerics.contact_tolerance is None:
         enough = max(volume * balance.contact.mean_gap / sq, budget.TIGHTEST_CONTACT)
         contact = contact if (contact or own) <= budget.SLACK * enough else 0.5 * enough
-    return Settings(film, volume, _cells(point, balance.film, balance.forces), contact)
+    return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
 
 
 def _tightened(now: float, needed: float) -> float:

@@ -20,12 +20,13 @@ NUDGE = 1e-3  # of a load or a speed, for exponents of Moes' film
 @dataclass(frozen=True)
 class Settings:
     """Relative tolerances of the film and of the volume balance; the least number of cells of the film; tolerance of
-    the contact (None: its own)."""
+    the contact (None: its own). ``correctable``: what the root leaves open is corrected to first order afterwards."""
 
     film_tolerance: float
     balance_tolerance: float
     film_cells: int = 0
     contact_tolerance: float | None = None
+    correctable: bool = False
 
 
 @dataclass(frozen=True)

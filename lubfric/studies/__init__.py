@@ -1,25 +1,21 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
-from .codec import decode, encode
-from .cost import in_words
-from .file import load_study
-from .fingerprint import fingerprint
-from .fit import fit
-from .fit_outlook import explain_fit
-from .fit_plot import plot_fit, plot_residuals
+from .choose import AUTO
+from .codec import classes_of, decode, encode
+from .curve import QUANTITIES, csv_bytes, curve_table, uncertainty_columns
+from .executor import MOST_WORKERS, pool, processors
+from .explain import in_words
+from .fit import explain_fit, fit
 from .fit_result import FitResult
 from .measured import Measured, read_measured
 from .plan import StudyPlan, plan_study
-from .pool import MOST_WORKERS, pool, processors
-from .records import Records
 from .result import StudyResult, open_study
+from .rows import CONVERGED, UNUSED
 from .run import study
-from .sweep import AUTO, stribeck
-from .sweep_points import QUANTITIES
-from .sweep_result import StribeckResult
-from .sweep_table import csv_bytes, curve_table, uncertainty_columns
-from .table_row import CONVERGED, UNUSED
-from .tables import check_tools, to_netcdf
+from .store import fingerprint
+from .study_file import load_study
+from .sweep import StribeckResult, stribeck
+from .tables import check_tools
 from .traction import TractionResult, traction
 from .vary import Between, sample
 
@@ -31,13 +27,13 @@ __all__ = [
     "MOST_WORKERS",
     "Measured",
     "QUANTITIES",
-    "Records",
     "StribeckResult",
     "StudyPlan",
     "StudyResult",
     "TractionResult",
     "UNUSED",
     "check_tools",
+    "classes_of",
     "csv_bytes",
     "curve_table",
     "decode",
@@ -49,15 +45,12 @@ __all__ = [
     "load_study",
     "open_study",
     "plan_study",
-    "plot_fit",
-    "plot_residuals",
     "pool",
     "processors",
     "read_measured",
     "sample",
     "stribeck",
     "study",
-    "to_netcdf",
     "traction",
     "uncertainty_columns",
 ]

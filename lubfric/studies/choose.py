@@ -1,12 +1,27 @@
-"""The next speed to solve, so that few points determine a Stribeck curve everywhere."""
+"""The speeds that a Stribeck curve chooses, so that few points determine it everywhere."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
 import numpy as np
 
-from .interpolate import Interpolant, Samples, knee_of
+from ..errors import InputError
+from ..sampling import FrictionResult
+from ..scene import Scene
+from ..sharing import Prepared
+from .interpolate import FEWEST, Interpolant, Samples, numbers_of, through
 
-CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to look
+AUTO = "auto"
+CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
+THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends of a curve
+MIXED = (0.5, 1.5, 4.5)  # the same where the contact carries about 0.9, 0.5 and nothing of the load
+BEGIN = 5  # speeds to begin with
+SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are searched
+
+CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to solve one
 TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
 WIDE = 12.0  # ratio of neighbouring speeds without contact from which one between them is solved
 ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
@@ -15,7 +30,36 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
-def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | None, float]:
+def chosen(prepared: Prepared, kept: Iterable[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+    """(speed [m/s], outcome) of a curve that chooses its speeds, beside those that are to be ``kept``.
+    ``solve(speeds)`` yields these pairs. Raises `InputError` at once if there is no range of speeds."""
+    first = sorted({*first_speeds(prepared.scene, prepared.surface.sq), *kept}, reverse=True)
+    return _one_by_one(prepared, first, solve)
+
+
+def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+    outcomes: dict[float, Any] = {}
+    while ahead and len(outcomes) < MOST:
+        for speed, outcome in solve(ahead):
+            outcomes[speed] = outcome
+            yield speed, outcome
+        good = [outcome for outcome in outcomes.values() if isinstance(outcome, FrictionResult)]
+        failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
+        wanted = None
+        if len(good) >= FEWEST:
+            wanted = next_speed(through(numbers_of(good)), tolerance_between(prepared), failed)[0]
+        ahead = [] if wanted is None else [wanted]
+
+
+def tolerance_between(prepared: Prepared) -> float:
+    """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
+    points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
+    sampling tolerance."""
+    numerics = prepared.scene.numerics
+    return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+
+
+def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:
     """The speed [m/s] to solve next, or None if the curve is known; and the largest estimated relative error of f now.
 
     ``tried``: speeds that failed and are left alone.
@@ -24,14 +68,15 @@ def next_speed(samples: Samples, tolerance: float, tried=()) -> tuple[float | No
     just before tells how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
     largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
-    speeds, knee = samples.speed, knee_of(samples)
-    curve = Interpolant(samples, knee)
+    samples, knee = curve.samples, curve.lift_off
+    speeds = samples.speed
     at = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
-    taken = np.append(speeds, np.asarray(tried, dtype=float))
+    taken = np.append(speeds, np.array([*tried], dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
     for wanted in (*_about_the_knee(samples, knee), *_between_films(samples)):
-        if _about(wanted, taken) < ENOUGH and _free(np.array([wanted]), taken)[0]:
+        about = np.count_nonzero(np.abs(np.log(taken / wanted)) < 0.1)
+        if about < ENOUGH and _free(np.array([wanted]), taken)[0]:
             return wanted, largest
     if largest <= (tolerance if speeds.size >= MANY else SHARE * tolerance):
         return None, largest
@@ -53,12 +98,58 @@ def _between_films(samples: Samples) -> list[float]:
     return [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]
 
 
-def _about(speed: float, taken: np.ndarray) -> int:
-    """Number of speeds within a tenth of one."""
-    return int(np.count_nonzero(np.abs(np.log(taken / speed)) < 0.1))
-
-
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """The speeds of ``at`` that are not too close to a solved one."""
-    ratio = np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1)
-    return ratio > np.log(APART)
+    return np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1) > np.log(APART)
+
+
+def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
+    """The first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the whole load
+    is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to full film."""
+    low, high = span(scene, sq)
+    found = [low, high]
+    if sq > 0:
+        least, most = film_ratio(scene, sq, low) / 0.9, film_ratio(scene, sq, high) / 1.1
+        found += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED if least < ratio < most]
+    while len(found) < BEGIN:
+        found.sort()
+        _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(found, found[1:])))
+        found.append(math.sqrt(found[at] * found[at + 1]))
+    return tuple(sorted(found, reverse=True))
+
+
+def span(scene: Scene, sq: float) -> tuple[float, float]:
+    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
+    which Moes' film of the whole load is 0.02 and 10 times Sq.
+
+    Raises `InputError` for negative speeds, and for a smooth surface without speeds, which has no such range.
+    """
+    if any(u < 0 for u in scene.motion.speeds):
+        raise InputError(
+            "speeds = 'auto' runs forwards, and motion.speeds backwards; give motion.speed_range, or speeds in m/s"
+        )
+    speeds = sorted({u for u in scene.motion.speeds if u != 0})
+    if len(speeds) > 1:
+        return speeds[0], speeds[-1]
+    if sq <= 0:
+        raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
+    if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
+        raise InputError(
+            "speeds = 'auto' finds no range from boundary lubrication to a full film; give motion.speed_range"
+        )
+    return _speed_of(scene, sq, THIN, SLOWEST, FASTEST), _speed_of(scene, sq, THICK, SLOWEST, FASTEST)
+
+
+def film_ratio(scene: Scene, sq: float, speed: float) -> float:
+    """Moes' film of the whole load over Sq."""
+    return scene.line_contact(speed).moes_film / sq
+
+
+def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:
+    """The speed [m/s] between ``low`` and ``high`` at which `film_ratio` is ``ratio``."""
+    from scipy.optimize import brentq
+
+    def excess(log_speed: float) -> float:
+        return math.log(film_ratio(scene, sq, math.exp(log_speed)) / ratio)
+
+    return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-6))

@@ -1,9 +1,9 @@
-"""Frozen dataclasses as plain data and arrays, and back, without pickle: nothing in a file can run code.
+"""Dataclasses of this package as bytes, and back. Reading builds the classes of a given table and nothing else, so a
+file can run no code.
 
-A dataclass becomes ``{"class": "lubfric.module.Name", field: ...}``, an array
-``{"array": [dtype, shape, order, place]}``, a number that is not finite ``{"float": "nan"}``. Tuples become lists,
-lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats keep every bit. The file begins with the length of this
-tree; then come the tree and the arrays. Each array is stored once, however often the tree names it.
+A dataclass becomes ``{"class": name, field: ...}``, an array ``{"array": [dtype, shape, order, place]}``, a number that
+is not finite ``{"float": "nan"}``. Tuples become lists, lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats
+keep every bit. The bytes begin with the length of this tree in JSON; then come the tree and the arrays.
 """
 
 from __future__ import annotations
@@ -11,120 +11,113 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import fields, is_dataclass
-from importlib import import_module
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
+
+from .._base import Shown
 
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
 LENGTH = 8  # bytes of the length of the tree
 
 
-class Arrays:
-    """The arrays of one value, one after the other. ``parts``: their bytes, not copied."""
-
-    def __init__(self) -> None:
-        self.parts: list[bytes | memoryview] = []
-        self._places: dict[int, list] = {}
-        self._kept: list[np.ndarray] = []  # so that no other array takes the identity of one of these
-        self._end = 0
-
-    def put(self, array: np.ndarray) -> list:
-        """Add ``array`` unless it is there already. Returns [dtype, shape, order, place in bytes]."""
-        if id(array) not in self._places:
-            if array.dtype.hasobject:
-                raise TypeError(f"an array of {array.dtype} cannot be stored")
-            order = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
-            flat = np.ascontiguousarray(array.T if order == "F" else array).reshape(-1)
-            self._places[id(array)] = [array.dtype.str, array.shape, order, self._end]
-            self._kept.append(array)
-            self.parts.append(flat.view(np.uint8).data)
-            self._end += flat.nbytes
-        return self._places[id(array)]
+def classes_of(*roots) -> dict[str, type]:
+    """A table of classes by name: the dataclasses of this package among ``roots``, and all that these lead to by the
+    types of their fields and by inheritance."""
+    seen: set[type] = set()
+    waiting = list(roots)
+    while waiting:
+        kind = waiting.pop()
+        waiting += get_args(kind)
+        if isinstance(kind, type) and kind.__module__.startswith(HOME) and kind not in (*seen, Shown):
+            seen.add(kind)
+            waiting += [*kind.__bases__, *kind.__subclasses__()]
+            waiting += get_type_hints(kind).values() if is_dataclass(kind) else ()
+    return {_name(kind): kind for kind in seen if is_dataclass(kind)}
 
 
-def encode(value) -> list:
-    """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses of this package,
-    numbers, texts and arrays."""
-    arrays = Arrays()
-    tree = json.dumps(to_plain(value, arrays), allow_nan=False).encode()
-    return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays.parts]
+def _name(kind: type) -> str:
+    return f"{kind.__module__}.{kind.__name__}"
 
 
-def decode(content: bytes):
-    """What `encode` was given, from its pieces joined. Raises `ValueError` for what another version stored."""
+def encode(value, field=getattr) -> list:
+    """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
+    arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
+    arrays: list[bytes | memoryview] = []
+    tree = json.dumps(_plain(value, arrays, field), allow_nan=False).encode()
+    return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays]
+
+
+def decode(content: bytes, classes: dict[str, type]):
+    """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`). Raises
+    `ValueError` for anything else, such as what another version stored."""
     end = LENGTH + int.from_bytes(content[:LENGTH], "little")
     try:
-        return from_plain(json.loads(content[LENGTH:end]), memoryview(content)[end:])
-    except (KeyError, AttributeError, ImportError) as error:
+        return _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
+    except (KeyError, TypeError, AttributeError, RecursionError) as error:
         raise ValueError(f"stored by another version ({error})") from None
 
 
-def _array(placed, content: memoryview) -> np.ndarray:
-    kind, shape, order, place = placed
-    count = math.prod(shape)
-    flat = np.frombuffer(content, np.dtype(kind), count, place) if count else np.empty(0, np.dtype(kind))
-    return flat.copy().reshape(shape, order=order)
-
-
-def to_plain(value, arrays: Arrays | None = None):
-    """JSON types for ``value``; its arrays are put into ``arrays``."""
+def _plain(value, arrays: list, field) -> Any:
+    """JSON types for ``value``. Its arrays are added to ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value
     if isinstance(value, np.generic):
-        return {value.dtype.name: to_plain(value.item())}
+        return {value.dtype.name: _plain(value.item(), arrays, field)}
     if isinstance(value, float):
         return value if math.isfinite(value) else {"float": str(value)}
     if isinstance(value, tuple):
-        return [to_plain(item, arrays) for item in value]
+        return [_plain(item, arrays, field) for item in value]
     if isinstance(value, list):
-        return {"list": [to_plain(item, arrays) for item in value]}
-    if isinstance(value, dict):
-        return {"dict": {_text(key): to_plain(item, arrays) for key, item in value.items()}}
-    if isinstance(value, np.ndarray) and arrays is not None:
-        return {"array": arrays.put(value)}
-    kind = type(value)
-    if is_dataclass(kind) and kind.__module__.startswith(HOME):
-        parts = {f.name: to_plain(getattr(value, f.name), arrays) for f in fields(value)}
-        return {"class": f"{kind.__module__}.{kind.__name__}", **parts}
-    raise TypeError(f"a {kind.__name__} cannot be stored")
+        return {"list": [_plain(item, arrays, field) for item in value]}
+    if isinstance(value, dict) and all(isinstance(key, str) for key in value):
+        return {"dict": {key: _plain(item, arrays, field) for key, item in value.items()}}
+    if isinstance(value, np.ndarray) and not value.dtype.hasobject:
+        return {"array": _placed(value, arrays)}
+    if is_dataclass(value) and not isinstance(value, type):
+        parts = {f.name: _plain(field(value, f.name), arrays, field) for f in fields(value)}
+        return {"class": _name(type(value))} | parts
+    raise TypeError(f"a {type(value).__name__} cannot be stored: {value!r}")
 
 
-def from_plain(value, arrays=None):
-    """What `to_plain` was given."""
-    if isinstance(value, list):
-        return tuple(from_plain(item, arrays) for item in value)
-    if not isinstance(value, dict):
-        return value
-    if "class" in value:
-        return _rebuilt(value, arrays)
-    ((mark, content),) = value.items()
+def _placed(array: np.ndarray, arrays: list) -> list:
+    """[dtype, shape, order, place in bytes] of ``array``, whose bytes are added to ``arrays``."""
+    place = sum(len(part) for part in arrays)
+    order = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
+    flat = np.ascontiguousarray(array.T if order == "F" else array).reshape(-1)
+    arrays.append(flat.view(np.uint8).data)
+    return [array.dtype.str, array.shape, order, place]
+
+
+def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
+    """What `_plain` was given. ``content``: the bytes of the arrays."""
+    if isinstance(plain, list):
+        return tuple(_value(item, classes, content) for item in plain)
+    if not isinstance(plain, dict):
+        return plain
+    if "class" in plain:
+        return _rebuilt(classes[plain["class"]], plain, classes, content)
+    ((mark, inner),) = plain.items()
     if mark == "float":
-        return float(content)
+        return float(inner)
     if mark == "array":
-        return _array(content, arrays)
+        kind, shape, order, place = inner
+        flat = np.frombuffer(content, kind, math.prod(shape), place) if math.prod(shape) else np.empty(0, kind)
+        return flat.copy().reshape(shape, order=order)
     if mark == "list":
-        return list(from_plain(content, arrays))
+        return list(_value(inner, classes, content))
     if mark == "dict":
-        return {key: from_plain(item, arrays) for key, item in content.items()}
-    return SCALARS[mark](from_plain(content))
+        return {key: _value(item, classes, content) for key, item in inner.items()}
+    return SCALARS[mark](_value(inner, classes, content))
 
 
-def _rebuilt(value, arrays):
-    module, name = value["class"].rsplit(".", 1)
-    kind = getattr(import_module(module), name) if module.startswith(HOME) else None
-    if not (isinstance(kind, type) and is_dataclass(kind)):
-        raise ValueError(f"{value['class']} is no dataclass of this package")
-    new = object.__new__(kind)  # as it was: checks and conversions of the constructor had their turn
+def _rebuilt(kind: type, plain: dict, classes, content):
+    """An object of ``kind`` as it was: checks and conversions of its constructor had their turn."""
+    new = object.__new__(kind)
     for field in fields(kind):
-        part = from_plain(value[field.name], arrays)
+        part = _value(plain[field.name], classes, content)
         if isinstance(part, np.ndarray):
             part.flags.writeable = False
         object.__setattr__(new, field.name, part)
     return new
-
-
-def _text(key) -> str:
-    if not isinstance(key, str):
-        raise TypeError(f"a dict with the key {key!r} cannot be stored: not a text")
-    return key

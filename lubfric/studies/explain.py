@@ -1,143 +1,101 @@
-"""What a study will cost, before any of its points is solved."""
+"""What a study or a fit will take, before a point is solved: its points, and the time of one by the work counted on the
+scene."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from numbers import Real
-from typing import Any
+from textwrap import shorten
 
 import numpy as np
 
 from ..errors import InputError
 from ..scene import Scene
-from .adaptive import CHOSEN
-from .cost import Ground, by_curve, film_clock, ground_of, in_words, mean_speed, point_seconds
-from .journal import Journal
-from .span import first_speeds
-from .walk import Batch
+from ..sharing import prepare
+from ..surface import Surface
+from .choose import CHOSEN, film_ratio, first_speeds
+from .rows import stored_rows
+from .store import Store
 
-SAMPLED = 2000  # points at most whose cost is foretold one by one
-RECORD = 4000  # bytes of a point on disk
-FIELD = 8 * 4  # bytes a cell of the state of a chain under way
+FILM = 0.01  # processor seconds of the films of a point, about
+CELL = 8e-6  # processor seconds of a cell of a point in contact, about
+FINE = 6  # cells along a correlation length on which a contact is solved, about
+LIFTED = 4.0  # Moes' film of the whole load over Sq beyond which the surfaces hardly touch
+SAMPLED = 8  # scenes of a study that are made ready to count their cells
 LISTED = 4  # values of a key that are named one by one
 
 
-def explain(plan, store=None) -> str:
-    """The points of a `StudyPlan`, what they share, how many of them the folder ``store`` has already, and the
-    predicted cost and disk of the rest, in words.
+def curve_seconds(scene: Scene, speeds: Sequence[float]) -> float:
+    """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), to an order of
+    magnitude. The map is made. Raises `InputError` if that is not possible."""
+    surface = prepare(scene).surface
+    at = speeds or first_speeds(scene, surface.sq)
+    touching = [u for u in at if surface.sq > 0 and (u == 0 or film_ratio(scene, surface.sq, abs(u)) < LIFTED)]
+    seconds = FILM * len(at) + CELL * _cells(scene, surface) * len(touching)
+    return seconds if speeds else seconds * CHOSEN / len(at)
 
-    The maps are made, and one film is solved to time this machine. No point is solved.
-    """
-    maps = {repr((batch.leader.surface, batch.leader.counterface)): batch.leader for batch in plan.batches}
-    about = "" if plan.speeds else "about "
-    lines = [f"study of {plan.scene.name}: {about}{plan.points} points"]
+
+def _cells(scene: Scene, surface: Surface) -> float:
+    """Cells on which a contact is solved: those of the map, or fewer where its correlation length is known."""
+    given = scene.surface.correlation_length
+    if given is None:
+        return surface.heights.size
+    steps = [FINE * step / length for step, length in zip(surface.spacing, np.broadcast_to(given, 2))]
+    return surface.heights.size * min(1.0, steps[0]) * min(1.0, steps[1])
+
+
+def in_words(seconds: float) -> str:
+    """A time in a suitable unit."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds > 2 * size:
+            return f"{float(f'{seconds / size:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
+
+
+def explain(plan, store=None) -> str:
+    """The points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the rest will
+    take, in words. Some of the maps are made. No point is solved."""
+    lines = [f"study of {plan.scene.name}: {'' if plan.speeds else 'about '}{plan.points} points"]
     for axis in plan.axes:
         shown = ", ".join(f"{key} {_range(column)}" for key, column in zip(axis.keys, zip(*axis.values)))
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
-        longest = max(len(walk.speeds) for walk in plan.walks)
-        started = f"{_count(plan.walks, 'chain')} of up to {longest} speeds, each started from its neighbour"
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
-        started = "each point started from the nearest of its curve"
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
-    known = {} if store is None else Journal(store).records()
-    cells, seconds, failed = _costs(plan, known)
-    lines += [
-        f"  shared   {_count(maps, 'height map')}, the largest of {cells} cells; "
-        f"{_count(plan.batches, 'batch')}, each of one map",
-        f"  order    {started}",
-        *_kept(plan, known, store),
-        f"  time     {_foretold(plan, seconds)}",
-        f"  disk     about {_size(plan.points * RECORD)}, and {_size(FIELD * cells)} for each process while it runs",
-        *(f"  cannot be solved: {reason}" for reason in failed),
+    rows = stored_rows(Store(store), plan.keys, plan.speeds)
+    left = [
+        (scene, tuple(u for u in plan.speeds if u not in rows.points[key]))
+        for key, scene in dict(zip(plan.keys, plan.scenes)).items()
+        if key not in rows.ended and not (plan.speeds and len(rows.points[key]) == len(plan.speeds))
     ]
-    return "\n".join(lines)
+    held = sum(map(len, rows.points.values())) if plan.speeds else len(rows.ended)
+    if held:
+        total, what = len(rows.points) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
+        lines.append(f"  kept     {held} of {total} {what} are in {store} already")
+    return "\n".join([*lines, *_time(left)])
 
 
-def _kept(plan, known, store) -> list[str]:
-    """How much of the plan the store has, if any."""
-    keys = set(plan.keys().flat)
-    held = len(keys & known.keys())
-    what = "points" if plan.speeds else "curves"
-    return [f"  kept     {held} of {len(keys)} {what} are in {store} already"] if held else []
-
-
-def _foretold(plan, seconds: float) -> str:
-    if plan.scene.numerics.model == "deterministic" or plan.scene.numerics.closure == "one-way":
-        return "not foretold where the fluid between the asperities is solved for"
-    if not seconds:
-        return "nothing is left to solve"
-    most = len(plan.batches)
-    shared = f"; up to {most} processes share it" if most > 1 else ""
-    return f"about {in_words(seconds)} on one core (within a factor of 3){shared}"
-
-
-def _left(batch: Batch, known) -> list[tuple[Scene, tuple[float, ...]]]:
-    """Scene and remaining speeds [m/s] of the walks of a batch; no speeds if a walk chooses them."""
-    left = [(walk, tuple(u for u, key in zip(walk.speeds, walk.keys) if key not in known)) for walk in batch.walks]
-    return [(walk.scene, speeds) for walk, speeds in left if not walk.ended(known)]
-
-
-def _costs(plan, known: dict[str, Any] | None = None) -> tuple[int, float, list[str]]:
-    """(cells of the largest grid, processor seconds, reasons of maps that cannot be made) of what is not ``known``."""
-    grounds: dict[str, Ground | None] = {}
-    failed: list[str] = []
-    walks, seconds = [], 0.0
-    for batch in plan.batches:
-        leader = batch.leader
-        name = repr((leader.surface, leader.counterface, leader.contact, leader.numerics, leader.bodies))
-        if name not in grounds:
-            try:
-                grounds[name] = ground_of(leader, by_curve(leader))
-            except InputError as error:
-                grounds[name] = None
-                failed.append(str(error))
-        ground = grounds[name]
-        left = _left(batch, known or {})
-        if left and ground is not None:
-            seconds += ground.making
-            walks += [(scene, ground, speeds) for scene, speeds in left]
-    some = walks[:: max(1, sum(len(speeds) for *_, speeds in walks) // SAMPLED)]
-    if some:
-        seconds += len(walks) / len(some) * _points(some)
-    largest = max((int(np.prod(ground.shape)) for ground in grounds.values() if ground is not None), default=0)
-    return largest, seconds, failed
-
-
-def _points(walks: list[tuple[Scene, Ground, tuple[float, ...]]]) -> float:
-    """Processor seconds of the points of some walks, at their speeds [m/s]; no speeds if each chooses its own."""
-    scene, ground, speeds = walks[len(walks) // 2]
-    film = film_clock(scene, mean_speed(speeds or first_speeds(scene, ground.sq)))
-    found = 0.0
-    for scene, ground, speeds in walks:
-        at = speeds or first_speeds(scene, ground.sq)
-        found += sum(point_seconds(scene, ground, u, film) for u in at) * (1.0 if speeds else CHOSEN / len(at))
-    return found
-
-
-def _count(things, name: str) -> str:
-    plural = "" if len(things) == 1 else "es" if name.endswith("ch") else "s"
-    return f"{len(things)} {name}{plural}"
+def _time(left: list[tuple[Scene, tuple[float, ...]]]) -> list[str]:
+    """About how long the scenes that are ``left`` will take at their speeds, and why some of them cannot be solved."""
+    if not left:
+        return ["  time     nothing is left to solve"]
+    some = left[:: -(-len(left) // SAMPLED)]
+    seconds, failed = 0.0, []
+    for scene, speeds in some:
+        try:
+            seconds += curve_seconds(scene, speeds) * len(left) / len(some)
+        except InputError as error:
+            failed.append(f"  cannot be solved: {error}")
+    return [f"  time     about {in_words(seconds)} on one core (an order of magnitude)", *dict.fromkeys(failed)]
 
 
 def _range(values: tuple) -> str:
     """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
-    if len(values) <= LISTED:
-        return ", ".join(map(_short, values))
-    if all(isinstance(value, Real) for value in values):
-        return f"{_short(min(values))} to {_short(max(values))}"
-    return f"{_short(values[0])} ... {_short(values[-1])}"
-
-
-def _short(value) -> str:
-    text = f"{value:.4g}" if isinstance(value, float) else str(value)
-    return text if len(text) < 50 else text[:47] + "..."
-
-
-def _size(count: float) -> str:
-    for unit, size in (("GB", 1e9), ("MB", 1e6)):
-        if count >= size:
-            return f"{count / size:.2g} {unit}"
-    return f"{max(round(count / 1e3), 1)} kB"
+    if len(values) > LISTED:
+        ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
+        return " to ".join(_range((end,)) for end in ends)
+    words = (f"{value:.4g}" if isinstance(value, float) else str(value) for value in values)
+    return ", ".join(shorten(text, 50, placeholder="...") for text in words)

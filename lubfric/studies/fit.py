@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from .._base import instance, number
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, Report
+from ..sampling import FrictionResult, friction
 from ..scene import Scene
-from ..sharing import scene_of
-from .fit_parameters import Parameters, parameters_of
-from .fit_predict import Curve, Predictor, jacobian, predictor
+from ..sharing import Prepared, prepare
+from .executor import checked_executor, spread
+from .explain import curve_seconds, in_words
 from .fit_result import FitResult
-from .measured import SLIP, Measured
-from .spread import checked_executor
+from .measured import SLIP, SPEED, Measured
+from .parameters import Parameters, parameters_of
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
-LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative: that may be told; and by a parameter, over its bounds
+LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative, that may be stated; and by a parameter, over its bounds
 MOST = 30  # curves on the way, beside those of the differences
+STEPS = 3  # curves of a search, about, beside those of the differences
 
 
 def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None, on_progress=None) -> FitResult:
@@ -30,8 +34,8 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     trust region within the bounds (`scipy.optimize.least_squares`, "trf"). Its derivatives are differences over 4 % of
     the bounds, which stay above the tolerance on f. They are computed anew when the parameters have moved by more than
     4 % of their bounds. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
-    sum by <= 1e-4 of it. Each point starts from the same point of an earlier curve. `FitResult` says how sure the
-    values are, and `lubfric.explain_fit` says beforehand how long a fit will take.
+    sum by <= 1e-4 of it. `FitResult` says how sure the values are, and `lubfric.explain_fit` says beforehand how long a
+    fit will take.
 
     Parameters
     ----------
@@ -53,8 +57,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     """
     from scipy.optimize import least_squares
 
-    if scene_of(scene) is not scene:
-        raise InputError("a fit changes a scene; give what lubfric.load_scene returned, not what lubfric.prepare did")
+    instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
     instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     found = parameters_of(scene, parameters)
     if measured.over == SLIP and (given := RATIO.intersection(found.keys)):
@@ -62,23 +65,45 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     if measured.x.size <= len(found.keys):
         raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; give more points")
     begin = _begin(scene, found, {} if start is None else start)
-    told = None if on_progress is None else _told(on_progress, measured.x.size)
-    predict = predictor(scene, measured, found, checked_executor(executor), told)
+    search = Search(scene, measured, found, checked_executor(executor), on_progress)
     scale = measured.coefficient if measured.deviation is None else measured.deviation
-    walk = Walk(predict)
-    search = least_squares(
-        lambda unit: (walk.at(unit).coefficient - measured.coefficient) / scale,
+    end = least_squares(
+        lambda unit: (search.at(unit).coefficient - measured.coefficient) / scale,
         begin,
-        lambda unit: walk.slopes(unit) / scale[:, None],
+        lambda unit: search.slopes(unit) / scale[:, None],
         bounds=(0.0, 1.0),
         xtol=CLOSE,
         ftol=1e-4,
         gtol=1e-12,
         max_nfev=MOST,
     )
-    result = _result(predict, scale, search, walk.at(search.x))
+    result = _result(search, scale, end)
     result.report.raise_if_failed(result)
     return result
+
+
+def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
+    """What a fit will do and about how long it will take, in words. The map is made, and no point is solved.
+
+    Parameters
+    ----------
+    scene, measured, parameters : as for `lubfric.fit`
+
+    Raises
+    ------
+    InputError : a parameter is not one
+    """
+    found = parameters_of(scene, parameters)
+    count = f"{len(found.keys)} parameter{'s' if len(found.keys) > 1 else ''}"
+    lines = [f"fit of {count} of {scene.name} to {measured.x.size} points of {measured.source}"]
+    for key, low, high, logarithmic in zip(found.keys, found.low, found.high, found.logarithmic):
+        lines.append(f"  {key}: {low:g} to {high:g}{', sought in its logarithm' if logarithmic else ''}")
+    speeds = measured.x.tolist() if measured.over == SPEED else [scene.motion.entrainment_speed] * measured.x.size
+    curves = len(found.keys) + STEPS
+    seconds = curves * curve_seconds(scene, speeds)
+    return "\n".join(
+        [*lines, f"  time: about {in_words(seconds)} on one core (an order of magnitude): {curves} curves"]
+    )
 
 
 def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
@@ -98,67 +123,124 @@ def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
     return np.clip(found.unit(np.where(np.isnan(values), middle, values)), 0.02, 0.98)
 
 
-def _told(on_progress: Callable, total: int) -> Callable[[int], None]:
-    """``on_progress`` with the number of the curve, for the points of one curve after the other."""
-    curves = [1]
+@dataclass(frozen=True)
+class Curve:
+    """The computed curve at a position ``unit`` of the parameters: f (n,), and its points."""
 
-    def on_points(done: int) -> None:
-        on_progress(curves[0], done, total)
-        curves[0] += done == total
-
-    return on_points
+    unit: np.ndarray
+    coefficient: np.ndarray
+    points: tuple[FrictionResult, ...]
 
 
-class Walk:
-    """The curves of a search. Two are kept: the one with the last derivatives, from which the others start, and the
-    last."""
+class Search:
+    """f of ``scene`` at the points of ``measured``, and its slopes, for any values of ``parameters``. Two curves are
+    kept: the last, and that of the last slopes."""
 
-    def __init__(self, predict: Predictor):
-        self._predict = predict
-        self._base: Curve | None = None
+    def __init__(self, scene: Scene, measured: Measured, parameters: Parameters, executor=None, on_progress=None):
+        self.scene, self.measured, self.parameters = scene, measured, parameters
+        self.tolerance = tolerance_of(scene, measured)
+        self._executor, self._on_progress = executor, on_progress
+        self._curves = 0
         self._last: Curve | None = None
+        self._base: Curve | None = None
         self._slopes = np.empty((0, 0))
 
     def at(self, unit: np.ndarray) -> Curve:
-        """The curve at positions between the bounds."""
+        """The curve at positions of the parameters between their bounds. Raises `ConvergenceError` when a point
+        fails."""
         if self._last is None or not np.array_equal(self._last.unit, unit):
-            self._last = self._predict.at(unit, self._base)
+            self._last = self._curve(unit)
         return self._last
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
         """df/d(unit), (n, p), by differences at the curve there, or the last ones if these were computed near by."""
         if self._base is None or np.abs(unit - self._base.unit).max() > STEP:
             self._base = self.at(unit)
-            self._slopes = jacobian(self._predict, self._base, STEP)
+            self._slopes = self.differences(self._base, STEP)
         return self._slopes
 
+    def differences(self, here: Curve, step: float) -> np.ndarray:
+        """df/d(unit), (n, p), at the curve ``here``, by differences of ``step`` that stay within the bounds."""
+        columns = []
+        for i, key in enumerate(self.parameters.keys):
+            moved = here.unit.copy()
+            moved[i] += step if moved[i] + step <= 1.0 else -step
+            try:
+                away = self._curve(moved).coefficient
+            except ConvergenceError as error:
+                raise ConvergenceError(
+                    f"{key} moved by {step:g} of its range: {error}", error.report, error.result
+                ) from error
+            columns.append((away - here.coefficient) / (moved[i] - here.unit[i]))
+        return np.stack(columns, axis=1)
 
-def _numerical_variance(predict: Predictor, curve: Curve, relative: np.ndarray) -> float:
+    def _curve(self, unit: np.ndarray) -> Curve:
+        scene = self.parameters.into(self.scene, self.parameters.values(np.clip(unit, 0.0, 1.0)))
+        prepared = prepare(scene.with_(numerics={"tolerance": self.tolerance}))
+        work = partial(_point, prepared, self.measured.over == SPEED)
+        self._curves += 1
+        found: dict[int, FrictionResult] = {}
+        for index, point in spread(self._executor, work, list(enumerate(self.measured.x.tolist()))):
+            found[index] = point
+            if self._on_progress:
+                self._on_progress(self._curves, len(found), self.measured.x.size)
+        points = tuple(found[i] for i in range(self.measured.x.size))
+        return Curve(unit.copy(), np.array([point.coefficient for point in points]), points)
+
+
+def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterator[tuple[int, FrictionResult]]:
+    """A point of a curve, with its number: ``place`` has that, and a speed [m/s] or a slide-roll ratio."""
+    index, x = place
+    if speeds:
+        yield index, friction(prepared, x).without_fields()
+    else:
+        moved = prepared.scene.with_(motion={"slide_roll_ratio": x})
+        yield index, friction(prepare(moved, like=prepared)).without_fields()
+
+
+def tolerance_of(scene: Scene, measured: Measured) -> float:
+    """The tolerance on f of a fit: as tight as the scatter of the measurement requires."""
+    shares = 0.05 if measured.deviation is None else float(np.median(measured.deviation / np.abs(measured.coefficient)))
+    return min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
+
+
+def _numerical_variance(points, tolerance: float, relative: np.ndarray) -> float:
     """Mean square of the numerical error of f, which hides from the data what changes f by less. ``relative``: f over
     the scale of the residuals. Where the error of a point is not known it is the tolerance."""
-    told = np.array([point.uncertainty.numerical for point in curve.points])
-    known = np.maximum(np.where(np.isfinite(told), told, predict.tolerance), LEAST_ERROR)
+    stated = np.array([point.uncertainty.numerical for point in points])
+    known = np.maximum(np.where(np.isfinite(stated), stated, tolerance), LEAST_ERROR)
     return float(np.mean((known * relative) ** 2))
 
 
-def _result(predict: Predictor, scale, search, curve: Curve) -> FitResult:
-    """The result of a ``search`` whose derivatives were computed where it ended, or near by. ``curve``: where it
-    ended."""
-    residuals, slopes = search.fun, search.jac * scale[:, None]
-    f, unit = residuals * scale + predict.measured.coefficient, np.clip(search.x, 0.0, 1.0)
-    n, p = slopes.shape
-    squares = float(residuals @ residuals)
-    variance = squares / (n - p) if predict.measured.deviation is None else 1.0
-    variance += _numerical_variance(predict, curve, f / scale)
-    _, singular, axes = np.linalg.svd(slopes / scale[:, None], full_matrices=False)
+def _result(search: Search, scale: np.ndarray, end) -> FitResult:
+    """The result of a ``search`` whose derivatives were computed where it ended (``end``, of SciPy), or near by."""
+    measured, curve = search.measured, search.at(end.x)
+    n, p = end.jac.shape
+    squares = float(end.fun @ end.fun)
+    variance = squares / (n - p) if measured.deviation is None else 1.0
+    variance += _numerical_variance(curve.points, search.tolerance, curve.coefficient / scale)
+    _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
     known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
-    covariance = variance * (axes.T / known**2) @ axes
-    status = CONVERGED if search.status > 0 else ITERATION_LIMIT
-    move = 0.0 if status == CONVERGED else 1.0
-    advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
-    squared = {"sum of squares": squares}
-    report = Report("fit, trust region", status, int(search.nfev), move, CLOSE, squared, advice=advice)
-    known, entries = predict.parameters, tuple(point.validity for point in curve.points)
-    sampling = np.array([point.uncertainty.sampling for point in curve.points])
-    measured = predict.measured
-    return FitResult(predict.scene, measured, known, unit, covariance, f, slopes, scale, report, entries, sampling)
+    status = CONVERGED if end.status > 0 else ITERATION_LIMIT
+    report = Report(
+        "fit, trust region",
+        status,
+        int(end.nfev),
+        0.0 if status == CONVERGED else 1.0,
+        CLOSE,
+        {"sum of squares": squares},
+        advice="give start = {...} closer to the answer, narrower bounds, or fewer parameters",
+    )
+    return FitResult(
+        base=search.scene,
+        measured=measured,
+        parameters=search.parameters,
+        unit=np.clip(end.x, 0.0, 1.0),
+        unit_covariance=variance * (axes.T / known**2) @ axes,
+        predicted=curve.coefficient,
+        slopes=end.jac * scale[:, None],
+        scale=scale,
+        report=report,
+        entries=tuple(point.validity for point in curve.points),
+        sampling=np.array([point.uncertainty.sampling for point in curve.points]),
+    )

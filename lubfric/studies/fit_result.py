@@ -7,20 +7,20 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import table
+from .._base import BLUE, GREY, RED, Shown, axes_or_new, plain_ticks, speed_label
 from ..errors import Report
 from ..sampling import percent
 from ..scene import Scene
 from ..sharing import Validity, gathered
-from .fit_parameters import Parameters
 from .measured import SPEED, Measured
+from .parameters import Parameters
 
 LEVEL = 0.95
 AT_BOUND = 5e-3  # of the bounds
 
 
-@dataclass(frozen=True, eq=False)
-class FitResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class FitResult(Shown):
     """Parameters found by `lubfric.fit`, and how well the data determine them.
 
     The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
@@ -79,16 +79,14 @@ class FitResult:
     @property
     def intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the parameters, cut at their bounds."""
-        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
-        low = self.parameters.values(np.clip(self.unit - reach, 0.0, 1.0))
-        high = self.parameters.values(np.clip(self.unit + reach, 0.0, 1.0))
+        low = self.parameters.values(np.clip(self.unit - self._reach, 0.0, 1.0))
+        high = self.parameters.values(np.clip(self.unit + self._reach, 0.0, 1.0))
         return dict(zip(self.parameters.keys, zip(low.tolist(), high.tolist())))
 
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Parameters that the data cannot determine: their 95 % interval is as wide as their bounds."""
-        reach = self._student * np.sqrt(np.diag(self.unit_covariance))
-        return tuple(key for key, r in zip(self.parameters.keys, reach) if not 2 * r < 1.0)
+        return tuple(key for key, reach in zip(self.parameters.keys, self._reach) if not 2 * reach < 1.0)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -140,12 +138,9 @@ class FitResult:
     def _of_surface(self) -> str:
         """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
         if not np.isfinite(self.sampling).any():
-            known = self.base.surface.sq != 0 and self.sampling.size
-            return (
-                "not in the intervals: what another piece of the surface would give, which is not known"
-                if known
-                else ""
-            )
+            if self.base.surface.sq == 0 or not self.sampling.size:
+                return ""
+            return "not in the intervals: what another piece of the surface would give, which is not known"
         if np.nanmax(self.sampling) == 0:
             return ""
         moved = ", ".join(f"{key} by {move:.2g}" for key, move in self.moved_by_surface.items())
@@ -168,9 +163,9 @@ class FitResult:
         not hold."""
         lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
         for key, (low, high) in self.intervals.items():
-            told = " - the data cannot tell it" if key in self.undetermined else ""
-            told += " - on its bound" if key in self.at_bounds else ""
-            lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{told}")
+            note = " - the data do not determine it" if key in self.undetermined else ""
+            note += " - on its bound" if key in self.at_bounds else ""
+            lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{note}")
         keys, correlation = self.parameters.keys, self.correlation
         for i in range(len(keys)):
             for j in range(i):
@@ -180,26 +175,49 @@ class FitResult:
         cautions = [f"  {text}" for text in (self._misfit(), self._of_surface(), *self.validity) if text]
         return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
 
-    def __repr__(self) -> str:
-        found = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
-        return f"<FitResult: {found}; cannot tell: {', '.join(self.undetermined) or 'none'}>"
-
-    def _repr_html_(self) -> str:
-        found, known = self.values, self.intervals
-        words = {key: f"{found[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}" for key, (low, high) in known.items()}
-        return table(words | {"cannot tell": ", ".join(self.undetermined) or "none"}, "FitResult")
+    def _facts(self) -> dict[str, str]:
+        facts = {
+            key: f"{self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}"
+            for key, (low, high) in self.intervals.items()
+        }
+        return facts | {"undetermined": ", ".join(self.undetermined) or "none"}
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""
-        from .fit_plot import plot_fit
-
-        return plot_fit(self, ax)
+        axes = axes_or_new(ax)
+        x, (low, high) = np.abs(self.measured.x), self.band
+        order = np.argsort(x)
+        error = None if self.measured.deviation is None else 1.96 * self.measured.deviation
+        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=RED, lw=1, label=self.measured.source)
+        axes.plot(x[order], self.predicted[order], color=BLUE, label="fit")
+        axes.fill_between(x[order], low[order], high[order], color=BLUE, alpha=0.2, lw=0, label="95 % band")
+        self._label(axes, "friction coefficient (-)")
+        axes.set_ylim(bottom=0)
+        axes.legend(frameon=False)
+        return axes
 
     def plot_residuals(self, ax=None):
         """Deviation of the points from the fitted curve, relative; returns the axes."""
-        from .fit_plot import plot_residuals
+        axes = axes_or_new(ax)
+        miss = 100 * (self.measured.coefficient / self.predicted - 1)
+        axes.axhline(0, color=GREY, lw=0.8)
+        axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=RED)
+        reach = 1.15 * max(np.abs(miss).max(), 1e-3)
+        axes.set_ylim(-reach, reach)
+        self._label(axes, "measured - fit (%)")
+        return axes
 
-        return plot_residuals(self, ax)
+    def _label(self, axes, label: str) -> None:
+        over_speed = self.measured.over == SPEED
+        if over_speed:
+            axes.set_xscale("log")
+            plain_ticks(axes.xaxis)
+        axes.set(xlabel=speed_label(self.measured.x) if over_speed else "slide-roll ratio (-)", ylabel=label)
+
+    @property
+    def _reach(self) -> np.ndarray:
+        """Half of the 95 % intervals of ``unit``."""
+        return self._student * np.sqrt(np.diag(self.unit_covariance))
 
     @property
     def _student(self) -> float:

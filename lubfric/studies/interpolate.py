@@ -17,6 +17,11 @@ from functools import cached_property
 
 import numpy as np
 
+from ..errors import InputError
+
+NEEDED = ("speed", "contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
+DECIDED = ("clearance", "steepness")  # what is needed of the decision of a point
+FEWEST = 3  # solved speeds
 EXPONENT = 0.6
 HERTZ, OTHERS = 1.5, (1.0, 2.0)  # powers of the remaining speed with which a contact ends: expected, and in question
 FILM = 0.8  # power of the speed of a film, where one alone is known
@@ -58,11 +63,28 @@ class Samples:
 @dataclass(frozen=True)
 class Interpolant:
     """f between the speeds of ``samples``. ``lift_off`` [m/s]: where the contact ends (None: not in the range); its
-    share falls there as the power ``end`` of 1 - U/lift_off."""
+    share falls there as the power ``end`` of 1 - U/lift_off. ``sense``: the sign of the speeds that were solved."""
 
     samples: Samples
     lift_off: float | None
     end: float = HERTZ
+    sense: float = 1.0
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """(lowest, highest) speed [m/s] in the direction of the curve."""
+        low, high = sorted((self.sense * self.samples.speed[0], self.sense * self.samples.speed[-1]))
+        return low, high
+
+    def within(self, speeds: np.ndarray) -> np.ndarray:
+        """Which ``speeds`` [m/s] lie in the range."""
+        low, high = self.samples.speed[[0, -1]]
+        return (self.sense * speeds >= low * (1 - 1e-9)) & (self.sense * speeds <= high * (1 + 1e-9))
+
+    @property
+    def lifted(self) -> float:
+        """Lift-off [m/s] in the direction of the curve; NaN without one."""
+        return np.nan if self.lift_off is None else self.sense * self.lift_off
 
     def at(self, speed, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
@@ -145,6 +167,38 @@ class Interpolant:
         alone = _film_alone(y[~touching], t[~touching], np.append(at, knee), smooth)
         slow = _of_logarithms(np.append(y[touching], knee), np.append(t[touching], alone[-1]), at, smooth=False)
         return np.where(at < knee, slow, alone[:-1])
+
+
+def numbers_of(points) -> dict[str, np.ndarray]:
+    """What an interpolation needs of ``points``, arrays by name; NaN where one is None."""
+    found = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NEEDED}
+    decided = {n: [getattr(getattr(p, "decision", None), n, None) for p in points] for n in DECIDED}
+    return found | {name: np.array(values, dtype=float) for name, values in decided.items()}
+
+
+def through(numbers: dict[str, np.ndarray]) -> Interpolant:
+    """The curve through points with these ``numbers`` (`numbers_of`). Raises `InputError` for speeds of both directions
+    and for fewer than three different ones."""
+    speed = numbers["speed"]
+    if (speed > 0).any() and (speed < 0).any():
+        raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")
+    good = np.flatnonzero(np.isfinite(numbers["coefficient"]) & (speed != 0))
+    good = good[np.argsort(np.abs(speed[good]))]
+    if good.size < FEWEST or np.unique(speed[good]).size < good.size:
+        raise InputError(f"{good.size} speeds are solved; a curve between them needs {FEWEST} different ones")
+    at = {name: values[good] for name, values in numbers.items()}
+    total = at["contact_load"] + at["film_load"]
+    boundary = at["boundary_force"] / total
+    samples = Samples(
+        speed=np.abs(at["speed"]),
+        share=at["contact_load"] / total,
+        boundary=boundary,
+        film=at["coefficient"] - boundary,
+        thickness=at["film_to_roughness_ratio"],
+        clearance=at["clearance"],
+        steepness=at["steepness"],
+    )
+    return Interpolant(samples, knee_of(samples), sense=float(np.sign(at["speed"][0])))
 
 
 def knee_of(samples: Samples) -> float | None:

@@ -9,13 +9,14 @@ import numpy as np
 
 from .._base import Shown, __version__, plain, validate
 from ..errors import InputError
-from ..quantities import QUANTITIES
+from ..quantities import NUMBERS
 from ..scene import scene_as_dict
-from .adaptive import AUTO, FEWEST, samples_at
-from .interpolate import Interpolant, knee_of
-from .journal import SPEED, Journal
-from .table_row import CONVERGED, MISSING, STATUS, UNUSED, VALIDITY, row_of
-from .walk import chosen_keys
+from .choose import AUTO
+from .interpolate import DECIDED, Interpolant, through
+from .plan import StudyPlan
+from .rows import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, stored_rows
+from .store import Store
+from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "study.json"
 POINT = "point"  # the last dimension where speeds are chosen
@@ -45,29 +46,32 @@ class StudyResult(Shown):
     status: np.ndarray
     validity: np.ndarray
 
+    plot = plot
+    to_csv, to_frame, to_parquet = to_csv, to_frame, to_parquet
+    to_xarray, to_netcdf = to_xarray, to_netcdf
+
     @classmethod
-    def of_rows(cls, plan: dict, rows: dict[str, dict]) -> StudyResult:
-        """The result of the ``rows`` (`row_of`) by key, as a plan puts them in order."""
-        shape = tuple(plan["shape"])
-        size = int(np.prod(shape))
-        columns = {name: np.full(size, np.nan) for name in QUANTITIES}
-        chosen = plan["speeds"] == AUTO
-        if chosen:
-            columns = {SPEED: np.full(size, np.nan), **columns}
-        validity = np.full(size, "", dtype=object)
-        placed, status = (_on_curves if chosen else _on_speeds)(plan, rows)
-        for at, row in placed:
-            for name, value in row.items():
-                if name == STATUS:
-                    status[at] = value
-                elif name == VALIDITY:
-                    validity[at] = value
-                elif chosen or name != SPEED:
-                    columns.setdefault(name, np.full(size, np.nan))[at] = value
-        status = status.reshape(shape)
-        most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=tuple(range(status.ndim - 1)))).max(initial=0))
-        cut = {name: column.reshape(shape)[..., :most] for name, column in columns.items()}
-        return cls(plan, cut, status[..., :most], validity.reshape(shape)[..., :most])
+    def of_rows(cls, plan: dict, rows: Rows) -> StudyResult:
+        """The result of the ``rows``, in the order of a plan (`plan_as_dict`)."""
+        chosen, shape = plan["speeds"] == AUTO, tuple(plan["shape"])
+        table = (len(plan["keys"]), shape[-1])
+        columns = {name: np.full(table, np.nan) for name in (*NUMBERS, *DECIDED) if chosen or name != SPEED}
+        status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
+        validity = np.full(table, "", dtype=object)
+        words = {STATUS: status, VALIDITY: validity}
+        for curve, key in enumerate(plan["keys"]):
+            own = rows.points[key]
+            for at, speed in enumerate(own if chosen else plan["speeds"]):
+                for name, value in own.get(speed, {}).items():
+                    if name in words:
+                        words[name][curve, at] = value
+                    elif chosen or name != SPEED:
+                        columns.setdefault(name, np.full(table, np.nan))[curve, at] = value
+            if chosen and key not in rows.ended:
+                status[curve, min(len(own), shape[-1] - 1)] = MISSING
+        most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=0)).max(initial=0))
+        cut = {name: column.reshape(shape)[..., :most] for name, column in (columns | words).items()}
+        return cls(plan, {name: cut[name] for name in columns}, cut[STATUS], cut[VALIDITY])
 
     @property
     def chosen(self) -> bool:
@@ -122,26 +126,17 @@ class StudyResult(Shown):
         counts = {"failed": self.failed, "not computed": self.missing, "with cautions": self.cautioned}
         return facts | {name: str(count) for name, count in counts.items()}
 
-    def plot(self, ax=None, **style):
-        """f over speed, a line for each curve (at most 50 of them, evenly picked), on ``ax`` or new axes, which are
-        returned; ``style``: of the lines."""
-        from .draw import curves_axes
-
-        return curves_axes(self, ax, **style)
-
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""
         speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
-        sense = self._sense
         found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
         for index in np.ndindex(*found.shape[:-1]):
             curve = self.curve(index)
             if curve is not None:
-                known, at = curve.samples.speed, sense * speeds
-                inside = (at >= known[0] * (1 - 1e-9)) & (at <= known[-1] * (1 + 1e-9))
-                found[index][inside] = curve.at(at[inside])
+                inside = curve.within(speeds)
+                found[index][inside] = curve.at(curve.sense * speeds[inside])
         return found[..., 0] if np.ndim(speed) == 0 else found
 
     @property
@@ -151,54 +146,17 @@ class StudyResult(Shown):
         found = np.full(self.status.shape[:-1], np.nan)
         for index in np.ndindex(*found.shape):
             curve = self.curve(index)
-            if curve is not None and curve.lift_off is not None:
-                found[index] = self._sense * curve.lift_off
+            found[index] = np.nan if curve is None else curve.lifted
         return found
-
-    @property
-    def _sense(self) -> float:
-        """The sign of the speeds, where they run one way."""
-        return -1.0 if not self.chosen and self.coords[SPEED][1].min() < 0 else 1.0
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, or if they
         run both ways."""
-        columns = {name: values[index] for name, values in self.columns.items()}
-        signed = columns[SPEED] if self.chosen else self.coords[SPEED][1]
-        speed = np.abs(signed)
-        if (signed < 0).any() and (signed > 0).any():
+        numbers = {name: values[index] for name, values in self.columns.items()}
+        try:
+            return through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
+        except InputError:
             return None
-        good = np.flatnonzero(np.isfinite(columns["coefficient"]) & (speed > 0))
-        good = good[np.argsort(speed[good])]
-        if good.size < FEWEST or np.unique(speed[good]).size < good.size:
-            return None
-        samples = samples_at(speed[good], {name: values[good] for name, values in columns.items()})
-        return Interpolant(samples, knee_of(samples))
-
-    def to_xarray(self):
-        """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
-        extra."""
-        from .tables import to_xarray
-
-        return to_xarray(self)
-
-    def to_frame(self):
-        """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
-        from .tables import to_frame
-
-        return to_frame(self)
-
-    def to_csv(self, path) -> None:
-        """One row a point, the unit in the heading; nothing beyond the standard library needed."""
-        from .tables import to_csv
-
-        to_csv(self, path)
-
-    def to_parquet(self, path) -> None:
-        """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
-        from .tables import to_parquet
-
-        to_parquet(self, path)
 
 
 def open_study(folder) -> StudyResult:
@@ -221,37 +179,16 @@ def open_study(folder) -> StudyResult:
         raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
     try:
         plan = json.loads(path.read_text(encoding="utf-8"))
-        keys = plan["keys"]
-    except (ValueError, KeyError, TypeError, UnicodeDecodeError):
+        keys, speeds = plan["keys"], plan["speeds"]
+    except (ValueError, KeyError, TypeError):
         raise InputError(f"{path} is damaged; run the study again in this folder, which writes it anew") from None
-    if plan["speeds"] == AUTO:
-        keys = [key for mark in keys for key in (mark, *chosen_keys(mark))]
-    records = Journal(folder).records()
-    return StudyResult.of_rows(plan, {key: row_of(records[key]) for key in keys if key in records})
+    return StudyResult.of_rows(plan, stored_rows(Store(path.parent), keys, () if speeds == AUTO else speeds))
 
 
-def _on_speeds(plan: dict, rows: dict[str, dict]):
-    """(place in the flat arrays, row) of the known points, and the status of all points before these are filled in."""
-    status = np.full(len(plan["keys"]), MISSING, dtype=object)
-    return [(at, rows[key]) for at, key in enumerate(plan["keys"]) if key in rows], status
-
-
-def _on_curves(plan: dict, rows: dict[str, dict]):
-    """The same for curves that chose their speeds. The first free place of an unfinished curve is "not computed"."""
-    placed, most = [], plan["shape"][-1]
-    status = np.full(most * len(plan["keys"]), UNUSED, dtype=object)
-    for curve, mark in enumerate(plan["keys"]):
-        keys = dict(enumerate(chosen_keys(mark), most * curve))
-        placed += [(at, rows[key]) for at, key in keys.items() if key in rows]
-        if mark not in rows:
-            status[next(at for at, key in keys.items() if key not in rows)] = MISSING
-    return placed, status
-
-
-def plan_as_dict(plan) -> dict:
+def plan_as_dict(plan: StudyPlan) -> dict:
     """A `StudyPlan` in plain JSON types."""
     return {
-        "format": 1,
+        "format": 2,
         "lubfric": __version__,
         "name": plan.scene.name,
         "scene": plain(scene_as_dict(plan.scene)),
@@ -260,7 +197,7 @@ def plan_as_dict(plan) -> dict:
         ],
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
-        "keys": list(plan.keys().flat),
+        "keys": list(plan.keys),
     }
 
 

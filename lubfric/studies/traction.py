@@ -8,10 +8,11 @@ import numpy as np
 
 from .._base import validate
 from ..errors import LubfricError, Report
-from ..sampling import FrictionResult, UncertaintyCurve, curve_of, friction
-from ..scene import FASTEST, LARGEST_RATIO, Scene, check_resolved_gap, resolves_gap
-from ..sharing import Prepared, at_tolerance, prepare, scene_of
-from .sweep_points import CurveResult, Swept, columns_of, judged, report_of
+from ..sampling import FrictionResult, friction
+from ..scene import FASTEST, LARGEST_RATIO, Scene
+from ..sharing import Prepared, prepare
+from .curve import CurveResult, judged, report_of
+from .points import made_ready
 
 
 @dataclass(frozen=True, repr=False)
@@ -22,35 +23,23 @@ class TractionResult(CurveResult):
     ----------
     ratio : slide-roll ratios [-], (n,)
     speed : entrainment speed [m/s]
-    columns : every number of `FrictionResult` by name, each (n,). ``result["contact_load"]`` gives one of them
-    points : the results, without fields (None where failed)
+    points : the results, without fields (None where failed). ``result["contact_load"]`` gives one of their numbers
     errors : {index: exception}
     report : the largest residual of the points over its tolerance
     """
 
+    SWEPT = "ratio", "S", "(slide-roll ratio)", "ratios"
+
     ratio: np.ndarray
     speed: float
-    columns: dict[str, np.ndarray]
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.columns[validate.choice("column", name, tuple(self.columns))]
-
     @property
     def coefficient(self) -> np.ndarray:
         """Friction coefficient [-]."""
-        return self.columns["coefficient"]
-
-    @property
-    def uncertainty(self) -> UncertaintyCurve:
-        """How sure f is at every ratio: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
-        return curve_of([None if point is None else point.uncertainty for point in self.points])
-
-    @property
-    def _swept(self) -> Swept:
-        return _over(self.ratio)
+        return self["coefficient"]
 
 
 def traction(
@@ -65,9 +54,8 @@ def traction(
 ) -> TractionResult:
     """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
-    The ratio changes the shear of the film, its heat, and the heat of the inlet. Otherwise film and contact stay the
-    same, so each point starts from the one before. A point that fails leaves NaN, and its exception in ``errors``; the
-    others are still solved.
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. A point that fails leaves NaN, and its
+    exception in ``errors``; the others are still solved.
 
     Parameters
     ----------
@@ -89,29 +77,20 @@ def traction(
     ValidityError : the same, if all points that failed were refused as invalid
     """
     ratios = validate.numbers("ratios", ratios, "(slide-roll ratio)", LARGEST_RATIO)
-    own = scene_of(scene).motion.entrainment_speed
-    speed = own if speed is None else validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    prepared = at_tolerance(scene, tolerance, model)
-    scenes = [prepared.scene.with_(motion={"slide_roll_ratio": ratio}) for ratio in ratios.tolist()]
-    for asked in scenes if resolves_gap(prepared.scene) else ():
-        check_resolved_gap(asked)
+    if speed is not None:
+        speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    base = made_ready(scene, tolerance, model)
+    speed = base.scene.motion.entrainment_speed if speed is None else speed
+    models = [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios.tolist()]
     points: list[FrictionResult | None] = [None] * ratios.size
     errors: dict[int, Exception] = {}
-    start = None
-    for done, i in enumerate(np.argsort(np.abs(ratios), kind="stable"), start=1):
+    for i, prepared in enumerate(models):
         try:
-            found = friction(prepare(scenes[i], like=prepared), speed, start=start)
+            points[i] = friction(prepared, speed).without_fields()
         except LubfricError as error:
-            errors[int(i)] = error
-        else:
-            start = found if found.starts else None
-            points[i] = found.without_fields()
+            errors[i] = error
         if on_point:
-            on_point(done, ratios.size, float(ratios[i]), points[i] or errors[int(i)])
-    report = report_of("traction", "slide-roll ratio {:g}", _over(ratios), points, errors)
-    result = TractionResult(ratios, float(speed), columns_of(points), tuple(points), errors, report)
-    return judged(result, raise_on_failure)
-
-
-def _over(ratios: np.ndarray) -> Swept:
-    return Swept("S", ratios, "(slide-roll ratio)", "ratios")
+            on_point(i + 1, ratios.size, float(ratios[i]), points[i] or errors[i])
+    names = [f"slide-roll ratio {ratio:g}" for ratio in ratios]
+    report = report_of("traction", names, "ratios", points, errors)
+    return judged(TractionResult(ratios, float(speed), tuple(points), errors, report), raise_on_failure)

@@ -129,7 +129,7 @@ class Surface(FrozenArrays, Shown):
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
         note = f"{count or 'no'} outliers masked (over {prepare.LIMIT:g} deviations off {around})"
-        return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
+        return self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
         """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this
@@ -166,14 +166,9 @@ class Surface(FrozenArrays, Shown):
 
     def transposed(self) -> Surface:
         """x and y exchanged: run across the lay instead of along it."""
-        return replace(
-            self,
-            heights=self.heights.T,
-            spacing=self.spacing[::-1],
-            mask=None if self.mask is None else self.mask.T,
-            periodic_axes=self.periodic_axes[::-1],
-            notes=(*self.notes, "x and y exchanged"),
-        )
+        mask = None if self.mask is None else self.mask.T
+        turned = {"spacing": self.spacing[::-1], "mask": mask, "periodic_axes": self.periodic_axes[::-1]}
+        return self._with(self.heights.T, "x and y exchanged", **turned)
 
     def periodic(self, edge: str = "mirror", *, axes: tuple[bool, bool] = (True, True)) -> Surface:
         """Make the map periodic along the chosen axes; see `regrid.close_axis`.
@@ -198,14 +193,9 @@ class Surface(FrozenArrays, Shown):
                 said = f" = {shape[axis]} points from {start[axis]} is outside the map"
                 raise InputError(said, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
         cut = tuple(slice(s, s + n) for s, n in zip(start, shape))
-        along_x, along_y = (bool(p and n == m) for p, n, m in zip(self.periodic_axes, self.shape, shape))
-        return replace(
-            self,
-            heights=self.heights[cut],
-            mask=None if self.mask is None else self.mask[cut],
-            periodic_axes=(along_x, along_y),
-            notes=(*self.notes, f"cropped to {shape} from {start}"),
-        )
+        mask = None if self.mask is None else self.mask[cut]
+        closed = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
+        return self._with(self.heights[cut], f"cropped to {shape} from {start}", mask=mask, periodic_axes=closed)
 
     def resampled(self, *, shape=None, spacing=None) -> Surface:
         """The same area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
@@ -234,8 +224,8 @@ class Surface(FrozenArrays, Shown):
             new = regrid.fitted(new, axis, shape[axis], edge[axis])
         return new
 
-    def _with(self, heights, note) -> Surface:
-        return replace(self, heights=heights, notes=(*self.notes, note))
+    def _with(self, heights, note: str, **changed) -> Surface:
+        return replace(self, heights=heights, notes=(*self.notes, note), **changed)
 
     def _filled(self, purpose) -> Surface:
         if not np.isfinite(self.heights).all():

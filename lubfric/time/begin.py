@@ -17,14 +17,7 @@ from .scene_now import changes, inlet_viscosity
 from .sharing import Contact, Sharing, make_sharing
 from .steady import steady_balance, strip_for
 
-DONE = {  # what a run in time does of the options of the steady model
-    "model": ("auto", "full"),
-    "closure": ("load",),
-    "film_level": ("auto", "ehl"),
-    "contact_level": ("auto", "flat", "semi-periodic"),
-    "film_deflection": ("auto", "hydrodynamic"),
-    "cavitated_shear": ("none",),
-}
+DONE = {"model": ("auto", "load-sharing"), "cavitated_shear": ("none",)}  # what a run does of the steady options
 SOFT = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
@@ -131,15 +124,15 @@ def _steady(sharing: Sharing) -> tuple[FilmStep, float]:
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    prepared = replace(sharing.strip.prepared, scene=values)
-    film_load, load, state, gap = steady_balance(prepared, c.speed.before(0.0))
-    film = steady_start(setting, film_load)
+    balance = steady_balance(sharing.strip, values, c.speed.before(0.0))
+    film = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
     error = discretisation(setting, film)
-    if state is None:
+    if balance.contact_load == 0.0:
         return _untouched(sharing, film), error
-    found = sharing.solve(0.0, None, film.z, Contact(load, state, SOFT * gap))
+    state = balance.contact
+    found = sharing.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error

@@ -11,9 +11,14 @@ from typing import Any
 
 from .._base import PART, read_checked, validate, write_checked
 from ..errors import InputError
-from ..studies import decode, encode, fingerprint
+from ..sharing import Validity
+from ..studies import classes_of, decode, encode, fingerprint
+from .film_newton import FilmStep
+from .march import Progress
+from .sharing import Contact
 
 STATE, OUTPUTS = "state.bin", "output_*.bin"
+CLASSES = classes_of(Progress, FilmStep, Contact, Validity)  # that a state or an output may hold
 
 
 class Checkpoint:
@@ -35,8 +40,9 @@ class Checkpoint:
         """
         if not (self.folder / STATE).is_file():
             return None
+        content = _content(self.folder / STATE)
         try:
-            kept = _read(self.folder / STATE)
+            kept = decode(content, CLASSES)
         except ValueError:  # of another version
             kept = {"fingerprint": None}
         if kept["fingerprint"] != self.fingerprint:
@@ -45,7 +51,7 @@ class Checkpoint:
                 "run the same scene, or give an empty folder"
             )
         self._count = kept["outputs"]
-        return kept["state"], [_read(self._output(number)) for number in range(self._count)]
+        return kept["state"], [decode(_content(self._output(number)), CLASSES) for number in range(self._count)]
 
     def append(self, output) -> None:
         """Add one output: like the state, of dataclasses of this package, dicts, numbers and arrays."""
@@ -69,8 +75,8 @@ class Checkpoint:
         return self.folder / OUTPUTS.replace("*", f"{number:07d}")
 
 
-def _read(path: Path):
+def _content(path: Path) -> bytes:
     content = read_checked(path) if path.is_file() else None
     if content is None:
         raise InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
-    return decode(content)
+    return content

@@ -85,7 +85,7 @@ def inlet_viscosity(scene: Scene) -> History:
     cold = changes(scene).viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
-    if scene.numerics.heat == "auto" and scene.numerics.model != "full":
+    if scene.numerics.heat == "auto":
         moments = (scene_at(scene, time) for time in _looks(scene))
         if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
             return cold

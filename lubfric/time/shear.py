@@ -33,9 +33,8 @@ def film_shear(
     isothermal = _summed(sharing, time, solution, cold, lubricant.viscosity * sliding)
     if film is None:
         return isothermal, Heat()
-    balance = SimpleNamespace(film=film, contact=contact.state, contact_load=contact.load)
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
-    heat, warm = point_heat(scene, balance, abs(boundary + isothermal.total), isothermal)
+    heat, warm = point_heat(scene, film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal)
     if warm is None or warm.stress is None:
         return isothermal, heat
     along, heated = math.copysign(1.0, film.entrainment_speed), warm.stress

@@ -8,22 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import ContactState
+from ..contact import ContactState, Strips, length_or_half
 from ..errors import LubfricError
-from ..sampling import (
-    UncertaintyCurve,
-    correlation_along_y,
-    friction,
-    line_friction,
-    lines_of_model,
-    mean_of,
-    moment_error,
-    of_line,
-    percent,
-    student,
-)
+from ..sampling import UncertaintyCurve, moment_error, percent, sampled, student
 from ..scene import Constant, Scene
-from ..sharing import MOST_CELLS, Prepared, line_contact, on_halved_cells
+from ..sharing import Balance, Prepared, on_stack, solve_balance
 from .scene_now import changes
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
@@ -47,28 +36,32 @@ class Strip:
 
 
 def strip_for(prepared: Prepared) -> Strip:
-    """A strip as long as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of
-    the run, or as memory and map allow. Its cells change f by no more than ``numerics.tolerance`` at any of these
-    speeds, or are the scene's own: a run in time is not corrected for them.
-
-    ``prepared`` itself if it is on one patch, or long enough. The factors of areas are means over the speeds.
+    """Strips as many as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of the
+    run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these speeds,
+    or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the speeds.
     """
-    lines, speeds = prepared.lines, _speeds(prepared)
-    if lines is None:
-        return Strip(prepared, correlation_along_y(prepared))
+    strips, speeds = prepared.strips, _speeds(prepared)
+    if strips is None:
+        return Strip(prepared, length_or_half(prepared.surface, 1))
+    if strips.whole:
+        while not strips.cells.own:
+            strips = strips.halved()
+        return Strip(_made(prepared, strips, 1), strips.lengths[1])
     if not speeds:
-        known = 1.0 if lines.cells.factors == (1, 1) else math.nan
-        return Strip(prepared, correlation_along_y(prepared), known, known)
-    lengths, by_cells, area, plastic = _needs(prepared, speeds)
-    while lines.cells.factors != (1, 1) and max(by_cells) > prepared.scene.numerics.tolerance:
-        prepared = on_halved_cells(prepared)
-        lines = lines_of_model(prepared)
-        lengths, by_cells, area, plastic = _needs(prepared, speeds)
-    if max(lengths) > prepared.surface.size[1] * 1.05:
-        held = MOST_CELLS / lines.cells.count * lines.cells.coarse[1]
-        surface = lines.line(0, min(max(lengths), held, lines.available))
-        prepared = replace(prepared, surface=surface, contact=line_contact(prepared.scene, surface))
-    return Strip(prepared, correlation_along_y(prepared), _mean(area), _mean(plastic))
+        known = 1.0 if strips.cells.own else math.nan
+        return Strip(prepared, strips.lengths[1], known, known)
+    needs = _needs(prepared, strips, speeds)
+    while not strips.cells.own and max(needs[1]) > prepared.scene.numerics.tolerance:
+        strips = strips.halved()
+        needs = _needs(prepared, strips, speeds)
+    made = _made(prepared, strips, min(int(max(needs[0])), strips.available))
+    return Strip(made, strips.lengths[1], _mean(needs[2]), _mean(needs[3]))
+
+
+def _made(prepared: Prepared, strips: Strips, count: int) -> Prepared:
+    contact = on_stack(prepared, strips, count)
+    surface = replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
+    return replace(prepared, surface=surface, contact=contact, strips=strips)
 
 
 def _speeds(prepared: Prepared) -> list[float]:
@@ -82,23 +75,23 @@ def _speeds(prepared: Prepared) -> list[float]:
     return np.unique(np.geomspace(fastest, slowest, SPEEDS)).tolist() if slowest < fastest else [fastest]
 
 
-def _needs(prepared: Prepared, speeds: list[float]) -> np.ndarray:
-    """What each steady speed needs, in rows: the length [m] of the strip, the relative change of f by its cells, and
-    the factors of `Strip`. A speed without a steady solution needs nothing."""
-    own, found = lines_of_model(prepared).cells.factors, []
+def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarray:
+    """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
+    finer ones were needed), and the factors of `Strip`. A speed without a steady solution needs the first strips."""
+    found = []
     for speed in speeds:
         try:
-            chosen, line = line_friction(prepared, speed)
+            one = sampled(replace(prepared, strips=strips), speed)
         except LubfricError:
-            found.append((0.0, 0.0, math.nan, math.nan))
+            found.append((strips.first, 0.0, math.nan, math.nan))
             continue
-        factors = 1.0, 1.0
-        if own != (1, 1):
-            plastic, corrected = line.together.plastic_fraction, line.point.balance.contact.plastic_area_fraction
-            factors = mean_of(line.grid, "area", math.nan), corrected / plastic if plastic else math.nan
-        by_cells = line.by_cells if line.cells.factors == own else math.inf
-        found.append((of_line(chosen.scene, line)[0].length, by_cells, *factors))
-    return np.array(found).T
+        assert one.strips is not None
+        plastic, corrected = one.solved.contact.plastic_area_fraction, one.balance.contact.plastic_area_fraction
+        area = one.effect.area if one.response is not None else math.nan
+        same = one.strips.cells.factors == strips.cells.factors
+        by_cells = one.change("gap") if same else math.inf
+        found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
+    return np.array(found, dtype=float).T
 
 
 def _mean(factors: np.ndarray) -> float:
@@ -106,12 +99,9 @@ def _mean(factors: np.ndarray) -> float:
     return float(known.mean()) if known.size else math.nan
 
 
-def steady_balance(prepared: Prepared, speed: float) -> tuple[float, float, ContactState | None, float]:
-    """Loads of film and contact [N] in steady motion, the state of the contact (None: it does not touch), and the mean
-    gap [m]."""
-    point = friction(prepared, speed, fields=True)
-    balance = point.balance if point.contact_load > 0.0 else None
-    return point.film_load, point.contact_load, balance and balance.contact, point.mean_gap
+def steady_balance(strip: Strip, scene: Scene, speed: float) -> Balance:
+    """The balance of ``scene`` in steady motion at ``speed`` [m/s], on the contact of the strip."""
+    return solve_balance(scene, speed, strip.prepared.contact, strip.prepared.surface.sq)
 
 
 def friction_error(
@@ -144,8 +134,8 @@ def strip_facts(prepared: Prepared) -> dict[str, float]:
     """Length, width and renewal of a `lubfric.TransientResult` [m]. The renewal is the Hertz strip and a correlation
     length along the motion; NaN if not known."""
     bodies, renewal = prepared.scene.bodies, math.nan
-    if prepared.lines is not None:
-        renewal = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.lines.lengths[0]
+    if prepared.strips is not None and not prepared.strips.whole:
+        renewal = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return {"line_length": prepared.surface.size[1], "width": bodies.width, "renewal": renewal}
 
 

@@ -9,10 +9,10 @@ import pytest
 import skfem
 
 from verification.cases import case_of
-from verification.fem import contact, ehl, layer3d, reynolds, rough, sharing
+from verification.fem import contact, ehl, layer3d, reynolds, sharing
 from verification.fem.compliance import Elastic
 from verification.fem.fluid import Fluid
-from verification.fem.harmonic import Strip, compliance
+from verification.fem.harmonic import Strip, compliance, press
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.report import InputError, SolveError
 from verification.studies.reynolds import PARABOLA, parabola_mesh
@@ -118,7 +118,7 @@ def strip():
 )
 def test_an_impossible_load_on_the_strip_is_refused(strip, shape, load, limit):
     with pytest.raises(InputError, match="load_per_width"):
-        rough.press(strip, np.zeros(shape), load, hardness=limit)
+        press(strip, np.zeros(shape), load, hardness=limit)
 
 
 def cut_short(name, strip):
@@ -134,7 +134,7 @@ def cut_short(name, strip):
             layer3d.multigrid(BRICKS), BRICKS.weights * BRICKS.x[0], max_iterations=1, **o
         ),
         "ehl": lambda **o: ehl.solve_ehl(LINE, refinements=0, max_iterations=1, **o),
-        "strip": lambda **o: rough.press(strip, heights, 100.0, max_iterations=0, **o),
+        "strip": lambda **o: press(strip, heights, 100.0, max_iterations=1, **o),
         "sharing": lambda **o: sharing.share_load(FLAT, refinements=0, max_evaluations=1, guess=3.0, **o),
     }[name]
 

@@ -7,13 +7,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.output import main
-from lubfric.studies.fit import _numerical_variance
-from lubfric.studies.fit_parameters import parameters_of
-from lubfric.studies.fit_predict import jacobian, predictor, shares_contact
+from lubfric.studies.fit import Search, _numerical_variance
+from lubfric.studies.parameters import parameters_of
 
 SCENE = (
     lubfric.load_scene("paper")
@@ -52,7 +50,7 @@ def test_the_true_values_are_in_the_region(fitted):
 
 def test_a_fit_prints_as_one_line_and_a_table(fitted):
     (low, high), value = fitted.intervals["lubricant.viscosity"], fitted.values["lubricant.viscosity"]
-    assert "\n" not in repr(fitted) and f"lubricant.viscosity = {value:.4g}" in repr(fitted)
+    assert "\n" not in repr(fitted) and f"lubricant.viscosity {value:.4g}" in repr(fitted)
     assert f"<td>{value:.4g}, 95 % interval {low:.4g} to {high:.4g}</td>" in fitted._repr_html_()
 
 
@@ -80,7 +78,7 @@ def test_measured_arrays_belong_together(arguments, words):
 def test_a_fit_takes_a_scene_a_measured_curve_and_known_starts():
     measured = lubfric.Measured(np.array([0.1, 0.2, 0.3]), np.array([0.1, 0.1, 0.1]))
     for call, words in (
-        (lambda: lubfric.fit(lubfric.prepare(SCENE), measured, BOUNDS), "not what lubfric.prepare did"),
+        (lambda: lubfric.fit(lubfric.prepare(SCENE), measured, BOUNDS), "not lubfric.prepare"),
         (lambda: lubfric.fit(SCENE, 0.1, BOUNDS), "measured = 0.1"),
         (lambda: lubfric.fit(SCENE, measured, BOUNDS, start={"bodies.load": 3.0}), "no parameter"),
         (lambda: lubfric.fit(SCENE, measured, BOUNDS, executor=1), "executor = 1"),
@@ -131,7 +129,7 @@ def test_what_the_data_cannot_tell_is_said():
     found = lubfric.fit(
         SCENE, made_up(2), {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.eyring_stress": (4e7, 4e8)}
     )
-    assert "lubricant.eyring_stress" in found.undetermined and "the data cannot tell it" in found.explain()
+    assert "lubricant.eyring_stress" in found.undetermined and "the data do not determine it" in found.explain()
     assert "bodies.boundary_friction_coefficient" not in found.undetermined
 
 
@@ -150,31 +148,11 @@ def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise)
     assert low < 0.09 < high and high / low - 1 < 0.02
 
 
-def test_curves_that_start_from_others_are_those_that_start_alone():
-    """Within the tolerance."""
-    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, BOUNDS), None)
-    base = predict.at(np.array([0.4, 0.5]))
-    for unit in ([0.44, 0.5], [0.4, 0.54], [0.6, 0.3]):
-        warm, alone = predict.at(np.array(unit), base), predict.at(np.array(unit))
-        np.testing.assert_allclose(warm.coefficient, alone.coefficient, rtol=predict.tolerance)
-
-
 def test_an_executor_gives_the_same_fit(fitted):
     with ThreadPoolExecutor(2) as executor:
         again = lubfric.fit(SCENE, fitted.measured, BOUNDS, executor=executor)
     assert again.values == fitted.values
     np.testing.assert_array_equal(again.covariance, fitted.covariance)
-
-
-@pytest.mark.parametrize("key", ["bodies.width", "bodies.hardness", "surface.sq"])
-def test_contacts_of_other_values_are_not_taken_over(key):
-    """Where the contact is made of a parameter, each curve starts alone."""
-    low, high = {"bodies.width": (4e-3, 8e-3), "bodies.hardness": (4e9, 8e9), "surface.sq": (5e-8, 2e-7)}[key]
-    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, {key: (low, high)}), None)
-    near = predict.at(np.array([0.2]))
-    np.testing.assert_array_equal(
-        predict.at(np.array([0.9]), near).coefficient, predict.at(np.array([0.9])).coefficient
-    )
 
 
 def test_progress_is_told_point_by_point(fitted):
@@ -186,31 +164,13 @@ def test_progress_is_told_point_by_point(fitted):
     assert again.values == fitted.values and curves >= 1 + len(BOUNDS)
 
 
-def test_a_measured_map_is_made_once_for_all_boundary_friction_coefficients(tmp_path):
-    """All of a map is cut to the Hertz width, which the load changes and f_b does not. Each curve is that of a scene
-    solved alone."""
-    surface = lubfric.generate_surface((80, 40), 1e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=2)
-    np.save(tmp_path / "map.npy", surface.heights)
-    (tmp_path / "scene.toml").write_text(
-        BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\n[surface]\nfile = 'map.npy'\nspacing = 1e-6\n"
-        "[numerics]\nsampling = 'patch'\n"
-    )
-    scene, speeds = lubfric.load_scene(tmp_path / "scene.toml"), np.array([0.001, 0.01, 0.03])
-    measured, key = lubfric.Measured(speeds, np.full(3, 0.08)), "bodies.boundary_friction_coefficient"
-    predict = predictor(scene, measured, parameters_of(scene, {key: (0.05, 0.2)}), None)
-    assert predict.warm and not shares_contact(scene, parameters_of(scene, {"bodies.load": (3.0, 6.0)}))
-    found = predict.at(np.array([0.9]), predict.at(np.array([0.2])))
-    alone = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.185}), speeds, tolerance=1e-3)
-    np.testing.assert_allclose(found.coefficient, alone.coefficient, rtol=predict.tolerance)
-
-
 def test_the_boundary_friction_coefficient_acts_by_the_share_of_the_contact():
     """Without heat df/df_b is F_C/F_T, whatever was solved for it."""
     key = "bodies.boundary_friction_coefficient"
-    predict = predictor(SCENE, made_up(1), parameters_of(SCENE, {key: (0.05, 0.2)}), None)
-    base = predict.at(np.array([0.4]))
+    search = Search(SCENE, made_up(1), parameters_of(SCENE, {key: (0.05, 0.2)}))
+    base = search.at(np.array([0.4]))
     share = np.array([point.contact_load for point in base.points]) / SCENE.bodies.load
-    np.testing.assert_allclose(jacobian(predict, base, 0.2)[:, 0], 0.15 * share, atol=2e-3)
+    np.testing.assert_allclose(search.differences(base, 0.2)[:, 0], 0.15 * share, atol=2e-3)
 
 
 @pytest.mark.slow
@@ -377,15 +337,14 @@ def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
 
 
 def test_the_time_of_a_fit_is_foretold():
-    """Within a factor of four, on a machine that others use."""
+    """To an order of magnitude, on a machine that others use."""
     measured = made_up(1)
     words = lubfric.explain_fit(SCENE, measured, BOUNDS)
     number, unit = words.split("time: about ")[1].split()[:2]
     begun = time.process_time()
     lubfric.fit(SCENE, measured, BOUNDS)
-    assert unit == "s" and 1 / 4 < float(number) / (time.process_time() - begun) < 4
+    assert unit == "s" and 0.1 < float(number) / (time.process_time() - begun) < 10
     assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "sought in its logarithm" in words
-    assert "depend on a parameter" in lubfric.explain_fit(SCENE, measured, {"surface.sq": (5e-8, 2e-7)})
     with pytest.raises(lubfric.InputError, match="a number of"):
         lubfric.explain_fit(SCENE, measured, {"numerics.tolerance": (0.01, 0.1)})
 
@@ -401,10 +360,8 @@ def test_one_parameter_without_effect_is_not_determined_and_no_error():
 
 
 def test_an_error_of_f_that_is_not_known_is_taken_to_be_the_tolerance():
-    curve = SimpleNamespace(
-        points=[SimpleNamespace(uncertainty=SimpleNamespace(numerical=told)) for told in (0.02, np.nan, np.inf)]
-    )
-    found = _numerical_variance(SimpleNamespace(tolerance=0.01), curve, np.array([1.0, 3.0, 4.0]))
+    points = [SimpleNamespace(uncertainty=SimpleNamespace(numerical=error)) for error in (0.02, np.nan, np.inf)]
+    found = _numerical_variance(points, 0.01, np.array([1.0, 3.0, 4.0]))
     assert found == pytest.approx((0.02**2 + 0.03**2 + 0.04**2) / 3, rel=1e-12)
 
 

@@ -9,15 +9,7 @@ from lubfric import InputError
 from lubfric.film import step_length
 from lubfric.film.newton import FILM_STEP, VISCOSITY_STEP
 from lubfric.scene import Table, checked_history
-from lubfric.time import Level, Progress, checked_times, plan_of, report_of, steps
-
-
-@dataclass(frozen=True)
-class State:
-    status: str
-    film: np.ndarray
-    z: np.ndarray
-    payload: object = None
+from lubfric.time import Level, Progress, Step, checked_times, plan_of, report_of, steps
 
 
 @dataclass
@@ -26,13 +18,11 @@ class Relaxation:
 
     target: Table
     fails_after: float = 1e9
-    calls: int = 0
 
     def solve(self, time, memory, z, payload):
-        self.calls += 1
         y = (memory.rate * memory.film + self.target.before(time)) / (memory.rate + 1.0)
         status = "converged" if time < self.fails_after else "diverged"
-        return State(status, y, np.append(y, -1.0), (payload or 0) + 1)
+        return Step(status=status, film=y, z=np.append(y, -1.0), payload=(payload or 0) + 1)
 
     def error_of(self, solution, difference):
         return float(np.max(np.abs(difference / solution.film)))

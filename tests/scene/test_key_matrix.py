@@ -471,7 +471,7 @@ SOLVED_OTHERWISE = [
     {"balance_tolerance": 1e-5},
     {"tolerance": 1e-3},
     {"heat": "auto"},
-    {"sampling": "line"},
+    {"sampling": "strips"},
     {"sampling_tolerance": 0.1},
     {"accept": False},
 ]
@@ -543,7 +543,7 @@ def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
     line = CYLINDER.with_(
         bodies={"load": 20.0},
         motion={"entrainment_speed": 0.05},
-        numerics={"sampling": "line", "sampling_tolerance": 0.2},
+        numerics={"sampling": "strips", "sampling_tolerance": 0.2},
         contact={"region": "hertz"},
         surface={"oversize": 1},
     )

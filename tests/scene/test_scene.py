@@ -7,7 +7,8 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_map
-from lubfric.scene import builtin_scenes, scene_as_dict
+from lubfric.scene import builtin_scenes
+from lubfric.scene.scene import scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 
@@ -276,6 +277,7 @@ def test_the_resolved_scene_is_plain_data():
         ({"model": "full"}, "numerics.tolerance a smaller value"),
         ({"film_deflection": "auto"}, "'scaled'"),
         ({"ehl_tolerance": 1e-3}, "numerics.film_tolerance"),
+        ({"sampling": "line"}, "'strips'"),
     ],
 )
 def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, way_out):

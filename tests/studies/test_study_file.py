@@ -5,10 +5,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.errors import Report
-from lubfric.sharing import Validity
 from lubfric.studies import load_study
-from lubfric.studies.journal import outcome_of, record_of
 
 SCENE = (
     BODIES_AND_OIL
@@ -32,7 +29,7 @@ def test_several_sampled_keys_go_together(tmp_path):
     assert axis.name == "case" and axis.keys == ("bodies.load", "lubricant.viscosity") and plan.points == 8
     ranges = [lubfric.Between(2.0, 4.0), lubfric.Between(0.1, 1.0, "log")]
     assert list(axis.values) == lubfric.sample(ranges, 4, seed=3)
-    assert [walk.scene.bodies.load for walk in plan.walks] == [load for load, _ in axis.values]
+    assert [scene.bodies.load for scene in plan.scenes] == [load for load, _ in axis.values]
 
 
 def test_maps_are_found_beside_the_file(tmp_path):
@@ -40,17 +37,17 @@ def test_maps_are_found_beside_the_file(tmp_path):
         np.save(tmp_path / name, np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
     measured = SCENE.replace("sq = 1e-7\ncorrelation_length = 4e-6", 'file = "one.npy"\nspacing = 1e-6')
     plan = read(tmp_path, '[vary]\nsurface.file = ["one.npy", "two.npy"]\n', measured.split("[contact]")[0])
-    files = [walk.scene.surface.file for walk in plan.walks]
+    files = [scene.surface.file for scene in plan.scenes]
     assert files == [str(tmp_path / "one.npy"), str(tmp_path / "two.npy")] and plan.speeds == (0.01,)
 
 
 def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
     np.save(tmp_path / "one.npy", np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
     plan = read(tmp_path, '[vary]\ncounterface = [{ file = "one.npy", spacing = 1e-6 }]\n')
-    assert [walk.scene.counterface.file for walk in plan.walks] == [str(tmp_path / "one.npy")]
+    assert [scene.counterface.file for scene in plan.scenes] == [str(tmp_path / "one.npy")]
     facing = SCENE + '[counterface]\nfile = "one.npy"\nspacing = 1e-6\n'
     plan = read(tmp_path, '[vary]\ncounterface.file = ["one.npy"]\n', facing)
-    assert [walk.scene.counterface.file for walk in plan.walks] == [str(tmp_path / "one.npy")]
+    assert [scene.counterface.file for scene in plan.scenes] == [str(tmp_path / "one.npy")]
     with pytest.raises(lubfric.InputError, match="counterface.file = 'none.npy': no such file"):
         read(tmp_path, '[vary]\ncounterface.file = ["none.npy"]\n', facing)
 
@@ -93,18 +90,3 @@ def test_a_plan_has_its_values_and_an_executor_can_submit(tmp_path):
     for call in (lambda: lubfric.study(plan, executor=3), lambda: lubfric.stribeck(plan.scene, [0.1], executor=3)):
         with pytest.raises(lubfric.InputError, match="executor = 3; allowed: None or a concurrent"):
             call()
-
-
-def test_every_outcome_comes_back_from_its_record():
-    entry = Validity("f", 2.0, 1.0, "", "too much", "less", True)
-    report = Report("a solver", "diverged", 3, float("inf"), 1e-3)
-    for error in (
-        lubfric.ValidityError("beyond", (entry,)),
-        lubfric.ConvergenceError("lost", report),
-        lubfric.InputError("wrong"),
-        lubfric.LubfricError("other"),
-    ):
-        back = outcome_of(record_of(error))
-        assert type(back) is type(error) and str(back) == str(error)
-        assert getattr(back, "entries", ()) == getattr(error, "entries", ())
-        assert getattr(back, "report", None) == getattr(error, "report", None)

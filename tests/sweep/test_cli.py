@@ -184,16 +184,16 @@ def test_speeds_and_fields_can_be_chosen(tmp_path):
 
 
 def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
-    from lubfric.studies import trail
+    from lubfric.studies import points
 
-    real = trail.friction
+    real = points.friction
 
     def failing(model, speed, **kw):
         if speed == 0.01:
             raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
         return real(model, speed, **kw)
 
-    monkeypatch.setattr(trail, "friction", failing)
+    monkeypatch.setattr(points, "friction", failing)
     (tmp_path / "small.toml").write_text(SCENE)
     assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "o")]) == 1
     assert "1 of 3 speeds failed" in capsys.readouterr().err

@@ -26,32 +26,32 @@ speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
     + SMALL_PATCH
 )
 HISTORY = (
-    "[transient]\nduration = 0.01\noutputs = 10\n"
-    'speed = { kind = "harmonic", amplitude = 0.05, frequency = 100.0, phase = 1.0 }\n'
+    "[transient]\nduration = 0.0005\noutputs = 3\n"
+    'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
 COUNTED = """
 import sys
-from lubfric.studies import trail
-real = trail.friction
+from lubfric.studies import points
+real = points.friction
 def counted(*arguments, **options):
     found = real(*arguments, **options)
     print("solved", flush=True)
     return found
-trail.friction = counted
+points.friction = counted
 from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
 SHARED = """
 import os, signal, sys, time
-from lubfric.studies import trail
-real, command = trail.friction, os.getpid()
+from lubfric.studies import points
+real, command = points.friction, os.getpid()
 def dying(model, speed, **options):
     if os.getpid() != command and speed in (0.003, 0.3):
         if sys.argv[3] == "worker":
             os.kill(os.getpid(), signal.SIGKILL)
         time.sleep(60)
     return real(model, speed, **options)
-trail.friction = dying
+points.friction = dying
 from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", sys.argv[2], "--workers", "2"]))
 """
@@ -192,12 +192,12 @@ def signalling(sent, after):
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkeypatch, capsys, sent, code):
     out = tmp_path / "out"
-    monkeypatch.setattr("lubfric.studies.trail.friction", signalling(sent, 4))
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 4))
     assert main(["run", written(tmp_path), "--out", str(out)]) == code
     said = capsys.readouterr().err.splitlines()
     assert said[-1] == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there"
     assert not (out / "result.json").exists()
-    monkeypatch.setattr("lubfric.studies.trail.friction", signalling(sent, 3))
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0  # two points were left
     same(out, whole)
 
@@ -315,7 +315,7 @@ def test_a_full_disk_is_one_line_and_the_points_are_kept(tmp_path, whole, monkey
     assert said[-1].endswith(f"{name} was not written: No space left on device") and "Traceback" not in "".join(said)
     assert not (tmp_path / "out" / "result.json").exists()
     monkeypatch.setattr(os, "replace", real)
-    monkeypatch.setattr("lubfric.studies.trail.friction", None)  # every point is there
+    monkeypatch.setattr("lubfric.studies.points.friction", None)  # every point is there
     assert main(["run", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
     same(tmp_path / "out", whole)
 
@@ -329,7 +329,7 @@ def test_a_folder_that_cannot_be_written_is_one_line(tmp_path, capsys):
 
 def test_another_unfinished_run_in_the_folder_is_kept(tmp_path, whole, monkeypatch):
     out = tmp_path / "out"
-    monkeypatch.setattr("lubfric.studies.trail.friction", signalling(signal.SIGINT, 3))
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 130
     assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
     assert json.loads((out / "result.json").read_text())["points"][0]["speed"] == 0.3

@@ -6,10 +6,10 @@ from itertools import product
 
 import numpy as np
 import pytest
+from lubfric.contact.residual import deflection_scale
 
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
 from lubfric.contact import half_space
-from lubfric.contact.residual import deflection_scale
 from lubfric.deterministic.solve import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer

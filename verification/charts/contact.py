@@ -17,11 +17,7 @@ from .measure import interleaved, point
 SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
 DEFAULT = 1e-6
 LONG = 5.0  # CPU seconds: a method that took longer is not asked for a tighter tolerance
-BOUNDARIES = {
-    "periodic": ("periodic", "periodic"),
-    "periodic along y": ("free", "periodic"),
-    "free": ("free", "free"),
-}
+BOUNDARIES = {"periodic": ("periodic", "periodic"), "periodic along y": ("free", "periodic"), "free": ("free", "free")}
 
 
 def heights(n: int, acf: str) -> np.ndarray:

@@ -89,8 +89,8 @@ def differential(nodes: int):
     lubfric.solve_differential_deflection(**case)
 
     def solve():
-        asked = {"nodes": nodes, "tolerance": 0.1, "raise_on_failure": False}
-        return lubfric.solve_differential_deflection(**case, **asked).report.iterations, nodes
+        film = lubfric.solve_differential_deflection(**case, nodes=nodes, tolerance=0.1, raise_on_failure=False)
+        return film.report.iterations, nodes
 
     return solve, 5
 

@@ -45,7 +45,7 @@ def coefficients(n: int, tolerance: float, speeds) -> np.ndarray:
     heights = np.ascontiguousarray(full[:: FINEST // n, :: FINEST // n][:n, :n])
     contact = {"shape": (n, n), "spacing": 90e-6 / n}
     scene = lubfric.load_scene("paper").with_(numerics={"tolerance": tolerance}, contact=contact)
-    model = lubfric.prepare(scene, lubfric.Surface(heights, 90e-6 / n))
+    model = lubfric.prepare(scene, lubfric.Surface(heights, (90e-6 / n, 90e-6 / n)))
     return lubfric.stribeck(model, speeds, raise_on_failure=False).coefficient
 
 

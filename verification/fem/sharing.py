@@ -16,9 +16,9 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from . import ehl
-from .harmonic import Compliance
+from .contact import Contact
+from .harmonic import Compliance, press
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport
-from .rough import Pressed, press
 
 POINTS = 16  # of the film in a cell of the contact
 PARTS = 10  # of a cell of the film, to integrate shear on
@@ -59,11 +59,9 @@ class Bodies:
         inside = np.clip(self.edges, -self.contact.half_width, self.contact.half_width)
         return np.diff(inside) / np.diff(self.edges)
 
-    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+    def under(self, shape: np.ndarray, load: float) -> Under:
         """The strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
-        found = press(
-            self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness, start=start
-        )
+        found = press(self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness)
         return Under(np.maximum(found.gap, 0).mean(axis=1), (found.pressure > 0).mean(axis=1), found)
 
 
@@ -96,7 +94,7 @@ class FlatBodies:
         """Weights of the cells: all of them count."""
         return np.ones(self.cells)
 
-    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+    def under(self, shape: np.ndarray, load: float) -> Under:
         """The strip pressed with ``load`` (N), whatever the shape of the film."""
         gap, touching = self.pressed(load / (2 * self.contact.half_width * self.width))
         return Under(np.full(self.cells, gap), np.full(self.cells, touching), None)
@@ -109,7 +107,7 @@ class Under:
 
     gap: np.ndarray
     touching: np.ndarray
-    pressed: Pressed | None
+    pressed: Contact | None
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ class Shared:
     mean_film: float
     area: float
     film: ehl.Solution
-    pressed: Pressed | None
+    pressed: Contact | None
     report: SolveReport
 
     @property
@@ -165,7 +163,7 @@ def share_load(
     tried: dict[float, Shared] = {}
 
     def at(split: float) -> float:
-        tried[split] = divided(bodies, split, refinements, tried)
+        tried[split] = divided(bodies, split, refinements)
         return tried[split].residual
 
     def done() -> bool:
@@ -212,15 +210,14 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         b, fb = c, fc
 
 
-def divided(bodies: Bodies | FlatBodies, split: float, refinements: int, tried: dict) -> Shared:
+def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shared:
     """Film, contact and friction at ln(F_H/F_C) = ``split``."""
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
     contact = replace(bodies.contact, load_per_width=film_load / bodies.width)
     film = ehl.solve_ehl(contact, refinements=refinements)[-1]
     shape = cell_means(film, bodies.edges)
-    near = min(tried, key=lambda s: abs(s - split), default=None)
-    under = bodies.under(shape, contact_load, None if near is None else tried[near].pressed)
+    under = bodies.under(shape, contact_load)
     weight = bodies.weight / bodies.weight.sum()
     couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - under.touching))
     boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)

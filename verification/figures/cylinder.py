@@ -191,8 +191,8 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
     reached = (
         f"The pressure reaches the hardness of 6 GPa at some spots, as in the paper{yields}." if top2 >= 6e9 else ""
     )
-    headings = ("acf", "F_C [N]", "F_H [N]", "contact area fraction of the strip", "plastic area fraction")
-    headings += ("highest pressure [Pa]", "contact spots in 90 um")
+    fractions = ("contact area fraction of the strip", "plastic area fraction")
+    headings = ("acf", "F_C [N]", "F_H [N]", *fractions, "highest pressure [Pa]", "contact spots in 90 um")
     hardness = parts.the(PAPER.bodies.hardness, "hardness")
     return PaperFigure(
         "fig9",

@@ -67,7 +67,7 @@ def film_rows(case: tuple) -> list[list[dict]]:
 def films(loads, speeds, run: Run, johnson: bool) -> dict[tuple[float, str], list[FilmTable]]:
     """{(load, law): a `FilmTable` for each speed}; with ``johnson`` also of the limited film with that modulus."""
     cases = {f"films {p} {s} at {len(speeds)}": (p, speeds, s) for p in loads for s in (False, True)[: 1 + johnson]}
-    found = {}
+    found: dict[tuple[float, str], list[FilmTable]] = {}
     for (load, _, scaled), row in run.solved(cases, film_rows):
         tables = [[_array(FilmTable, values) for values in of_law] for of_law in row]
         names = {"Johnson": tables[1]} if scaled else dict(zip(LAWS, tables))
@@ -150,7 +150,7 @@ def deviation_map(quick: bool, run: Run) -> PaperFigure:
                 elif law == BASE["law"]:
                     scatter.append((seed, length, load, 100 * d))
     canvas = _draw(rows, loads, scatter)
-    headings = ("acf", "level at which L is read", "asperity", "separation", "film and shear", "L [m]")
+    headings: tuple[str, ...] = ("acf", "level at which L is read", "asperity", "separation", "film and shear", "L [m]")
     headings += ("mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]", "d [%], + asperity model higher")
     headings += ("at speed [m/s]",)
     agrees, differs = _verdict(rows, loads, scatter)
@@ -160,10 +160,7 @@ def deviation_map(quick: bool, run: Run) -> PaperFigure:
         agrees,
         differs,
         canvas,
-        {
-            "fig6": (headings, rows),
-            "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter),
-        },
+        {"fig6": (headings, rows), "fig6_seeds": (("seed", "L [m]", "mean Hertz pressure [Pa]", "d [%]"), scatter)},
         (
             Check(
                 "largest d of summits on an exponential surface, %",

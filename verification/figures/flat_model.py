@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -18,6 +19,8 @@ from scipy.optimize import brentq
 from lubfric.contact import ContactCurve
 from lubfric.film import shear_force, solve_ehl
 from lubfric.scene.scene import Scene
+
+from ..cases import case_of_scene
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128
@@ -99,12 +102,10 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
     b, lubricant = scene.bodies, scene.lubricant
     half = b.half_width
     x = (np.arange(POINTS) + 0.5 - POINTS / 2) * 2 * half / POINTS
-    names = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law")
-    oil = {name: getattr(lubricant, name) for name in names}
     films, start = [], None
     for share in SHARES[::-1]:
-        pressed = {"load_per_width": b.load * share / b.width, "e_prime": b.e_prime * (share if scaled else 1.0)}
-        start = solve_ehl(**pressed, **oil, radius=b.radius, entrainment_speed=speed, tolerance=3e-3, start=start)
+        case = case_of_scene(scene, b.load * share, speed) | {"e_prime": b.e_prime * (share if scaled else 1.0)}
+        start = solve_ehl(**case, tolerance=3e-3, start=start)
         films.append(start)
     films = films[::-1]
     thickness = np.array([film.film_at(x).mean() for film in films])
@@ -117,7 +118,7 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
         return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
     for law in laws:
-        keys = {"slide_roll_ratio": scene.motion.slide_roll_ratio, "width": b.width}
+        keys: dict[str, Any] = {"slide_roll_ratio": scene.motion.slide_roll_ratio, "width": b.width}
         forces = [
             [
                 shear_force(film, replace(lubricant, **law), contact_fraction=part, **keys).total

@@ -83,8 +83,9 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
         ax.set(title=title, xlabel="approach below first touch, 500 nm - $h_s$ (nm)", ylabel="load per asperity (mN)")
         ax.set_ylim(0, 21)
         ax.legend(title="spacing")
-    headings = ("spacing [m]", "load per asperity [N]", "approach, mean left out [m]", "approach, mean kept [m]")
-    headings += ("asperity model at the approach with the mean left out [N]",)
+    both = ("approach, mean left out [m]", "approach, mean kept [m]")
+    last = "asperity model at the approach with the mean left out [N]"
+    headings = ("spacing [m]", "load per asperity [N]", *both, last)
     return PaperFigure(
         "fig4",
         "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",

@@ -17,7 +17,8 @@ from .case import Case
 
 HEIGHTS = 1e-8 * np.random.default_rng(0).standard_normal((16, 12))
 ANY = ("x", b"1", 1j, float("nan"), float("inf"), object(), [[1]], datetime.date(2020, 1, 1), np.ma.masked, 10**400)
-NUMBER = (*ANY, True, -1.0, 1e308, 5e-324, [1.0, 2.0, 3.0], np.array([1.0]), np.datetime64("2020"), {})
+LISTS: tuple[object, ...] = ([1.0, 2.0, 3.0], np.array([1.0]), np.datetime64("2020"), {})
+NUMBER: tuple[object, ...] = (*ANY, True, -1.0, 1e308, 5e-324, *LISTS)
 SIGNED_NUMBER = tuple(v for v in NUMBER if not (isinstance(v, float) and v in (-1.0, 5e-324)))
 COUNT = (*ANY, True, -1, 1.5, "2")
 WORD: tuple[object, ...] = (*ANY, "nonsense", 3, None, True, [])
@@ -26,7 +27,7 @@ FIELD += (HEIGHTS[:, :, None], np.full((4, 4), np.nan), np.full((4, 4), 1e308), 
 FIELD += (HEIGHTS.astype("M8[s]"), HEIGHTS.astype(str), np.array([[None, 1.0]]), {})
 GRID = (*ANY, (0, 4), (4,), (4, 4, 4), (1.5, 4), (-4, 4), (10**7, 10**7), "44", None)
 SCENES: tuple[object, ...] = (3, "paper", None, {}, HEIGHTS, object())
-SPEEDS = ([], "0.1", [True], ["0.1"], [1j], [None], [[0.1]], [float("nan")], [10**400], {}, object())
+SPEEDS: tuple[object, ...] = ([], "0.1", [True], ["0.1"], [1j], [None], [[0.1]], [float("nan")], [10**400], {})
 MASKS = (HEIGHTS, "no", np.zeros(HEIGHTS.shape, bool), np.ones((3, 3), bool), [[1]])
 MAP = {"shape": (32, 32), "spacing": 1e-6, "sq": 1e-7, "correlation_length": 4e-6, "seed": 1}
 CONTACT = {"gap0": HEIGHTS, "spacing": 1e-6, "e_prime": 2e11, "mean_pressure": 1e7}
@@ -59,7 +60,8 @@ def targets() -> tuple[Target, ...]:
     map_keys = dict.fromkeys(("spacing", "correlation_length", "decay_level", "cutoff"), NUMBER)
     contact_keys = dict.fromkeys(("spacing", "mean_pressure", "tolerance", "hardness"), NUMBER)
     in_time = dict.fromkeys(("duration", "load", "radius", "viscosity", "tolerance", "initial_film"), NUMBER)
-    section = {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},), "motion": ({"speeds": [True]},)}
+    section: dict[str, tuple] = {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},)}
+    section["motion"] = ({"speeds": [True]},)
     table = {"times": (0.0, 1.0), "values": (1.0, 2.0)}
     return (
         Target(
@@ -91,7 +93,7 @@ def targets() -> tuple[Target, ...]:
             "stribeck",
             lubfric.stribeck,
             {"scene": scene(), "speeds": [0.1]},
-            {"scene": SCENES, "speeds": SPEEDS, "executor": ("process", 2, object()), "tolerance": NUMBER},
+            {"scene": SCENES, "speeds": (*SPEEDS, object()), "executor": ("process", 2, object()), "tolerance": NUMBER},
         ),
         Target(
             "prepare",

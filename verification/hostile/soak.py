@@ -42,7 +42,8 @@ def judged(chunks: list[dict]) -> Iterator[Item]:
     scenes = [one for row in chunks for one in row["scenes"]]
     ended = Counter(one["ended"] for one in scenes)
     closed = [one for one in scenes if one["ratio"] is not None]
-    worst = max(closed, key=lambda one: one["ratio"], default={"ratio": math.inf, "words": "nothing was judged"})
+    none: dict = {"ratio": math.inf, "words": "nothing was judged"}
+    worst = max(closed, key=lambda one: one["ratio"], default=none)
     wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
     raw = [one["words"] for one in scenes if one["ended"] == RAW]
     yield Check("raw errors", len(raw), 0, 0, "none is allowed", AT_MOST, note="; ".join(raw[:3]))
@@ -61,12 +62,7 @@ def judged(chunks: list[dict]) -> Iterator[Item]:
 def chunk(seed: int, numbers: range) -> dict:
     """What became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
     scenes = [scene_row(seed, number) for number in numbers]
-    return {
-        "first": numbers[0],
-        "scenes": scenes,
-        "process": os.getpid(),
-        "memory": resident_memory() / 2**20,
-    }
+    return {"first": numbers[0], "scenes": scenes, "process": os.getpid(), "memory": resident_memory() / 2**20}
 
 
 def scene_row(seed: int, number: int) -> dict:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -19,6 +18,7 @@ from lubfric import LubfricError, solve_contact, solve_differential_deflection, 
 from lubfric.sampling.sample import PAIR
 from lubfric.sharing.prepared import Prepared, on_cells_of
 
+from ..cases import case_of_scene
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
@@ -82,17 +82,9 @@ class Judge:
 
     def film(self, film_load: float, modulus: float):
         """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
-        bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
-        case: dict[str, Any] = {
-            "load_per_width": film_load / bodies.width,
-            "radius": bodies.radius,
-            "e_prime": bodies.e_prime * modulus,
-            "entrainment_speed": self.speed,
-            "viscosity": inlet_viscosity(self.prepared.scene, self.speed),
-            "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
-            "viscosity_law": oil.viscosity_law,
-            "density_law": oil.density_law,
-        }
+        scene = self.prepared.scene
+        case = case_of_scene(scene, film_load, self.speed)
+        case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
         try:
             return solve_differential_deflection(**case, tolerance=self.film_tolerance)
         except LubfricError:
@@ -114,15 +106,9 @@ class Judge:
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
-        dry = solve_contact(
-            gap0,
-            strip.spacing,
-            bodies.e_prime,
-            mean_pressure=pressure,
-            hardness=bodies.hardness,
-            boundary=("periodic" if flat else "free", "periodic"),
-            tolerance=1e-6,
-        )
+        asked = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        boundary = ("periodic" if flat else "free", "periodic")
+        dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
         gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
         columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
         return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns

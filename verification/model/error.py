@@ -66,7 +66,7 @@ def settings(level: str) -> list[tuple[Setting, tuple[float, ...]]]:
     """Surfaces at the light load with both autocorrelations, and fewer at heavy loads with a shear-limited fluid."""
     cells, light = CELLS[level], range(1, LIGHT_SURFACES[level] + 1)
     heavy = range(1, HEAVY_SURFACES[level] + 1)
-    found = [(Setting(seed, 5.5, cells), SPEEDS) for seed in light]
+    found: list[tuple[Setting, tuple[float, ...]]] = [(Setting(seed, 5.5, cells), SPEEDS) for seed in light]
     if level != "quick":
         found += [(Setting(seed, 5.5, cells, acf="exponential"), SPEEDS[1:]) for seed in heavy]
     loads = (110.0,) if level == "quick" else (27.5, 110.0)

@@ -43,7 +43,7 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
         yield Check(name, change.max(), ALLOWED[level], 0.0, "the finer grid", AT_MOST)
         found = f"{100 * change.max():.2f} %", f"{slopes.min():.1f} to {slopes.max():.1f}", f"{np.median(times):.0f} s"
         table.append((f"{speed:g}", str(count), *found, f"{memory:.1f} GB"))
-    columns = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
+    columns: tuple[str, ...] = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
     columns += (f"processor time at {cells[2]}, median", "memory")
     yield Table("refinement", "The coefficient on three grids", columns, table)
     model, speeds = prepared(Setting(1, 5.5, 32 if level == "quick" else 128), REFERENCE), np.geomspace(1.0, 1e-3, 25)

@@ -10,7 +10,7 @@ from argparse import ArgumentParser, Namespace
 
 from .. import frame
 
-PARTS = (
+PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line", {}),
     ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map", {}),
     ("quantities", "sampling.others:quantities", "Every other number beside its stated error", {}),

@@ -53,12 +53,7 @@ def _other(name: str, **changes) -> Case:
     return Case(name, bounds=(0.88, 0.99), changes=changes)
 
 
-SPEEDS = (
-    Case("0.003 m/s", 0.003),
-    Case("0.01 m/s", 0.01, 0.01),
-    Case("0.03 m/s", 0.03),
-    Case("0.046 m/s", 0.046),
-)
+SPEEDS = (Case("0.003 m/s", 0.003), Case("0.01 m/s", 0.01, 0.01), Case("0.03 m/s", 0.03), Case("0.046 m/s", 0.046))
 CASES = (
     *SPEEDS,
     _other("exponential ACF", surface={"acf": "exponential"}),

@@ -63,7 +63,8 @@ def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell,
         ratios = deviations(cell, result)
         note = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
         ratio = ratios[note]
-    at = {"map": cell.map, "panel": cell.panel, "method": cell.method, "x": float(cell.x), "y": float(cell.y)}
+    at: dict[str, str | float] = {"map": cell.map, "panel": cell.panel, "method": cell.method}
+    at |= {"x": float(cell.x), "y": float(cell.y), "default": cell.default, "inside": cell.inside}
     return Check(
         cell.name,
         ratio,
@@ -76,5 +77,5 @@ def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell,
         seconds,
         decisive=cell.default and (cell.inside or not refused),
         refused=refused,
-        at=at | {"default": cell.default, "inside": cell.inside},
+        at=at,
     )

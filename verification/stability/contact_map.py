@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from scipy import fft
@@ -21,7 +22,7 @@ PERIODIC, MIXED, FREE = ("periodic", "periodic"), ("free", "periodic"), ("free",
 BOUNDARIES = {"periodic": PERIODIC, "periodic along y": MIXED, "free": FREE}
 OWN = {"complementarity": 1e-5, "penetration": 1e-4, "sign": 1e-12, "fields": 1e-4, "load": 1e-5, "volume": 1e-4}
 SECOND = 1e-3  # of pressure and mean gap, beside plain Polonsky-Keer
-POWER = {  # spectral density of a field, by the wave number times its length
+POWER: dict[str, Callable] = {  # spectral density of a field, by the wave number times its length
     "gaussian": lambda k: np.exp(-(k**2) / 4),
     "smooth": lambda k: np.exp(-(k**2)),
     "exponential": lambda k: (1 + k**2) ** -1.5,
@@ -97,11 +98,11 @@ def full_contact(heights: np.ndarray) -> float:
 def solve(cell: Cell) -> ContactResult:
     """The cell by the default solver."""
     p: Pressed = cell.problem
-    start = np.ones(p.shape) if p.start == "even" else np.zeros(p.shape) if p.start == "absurd" else None
-    if p.start == "absurd":
-        start[5, 7] = 1e14
-    asked = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness, "start": start}
-    return solve_contact(p.gap0, p.spacing, E_PRIME, boundary=p.boundary, tolerance=p.tolerance, **asked)
+    absurd = np.zeros(p.shape)
+    absurd.flat[-1] = 1e14
+    start = {"none": None, "even": np.ones(p.shape), "absurd": absurd}[p.start]
+    asked: dict[str, Any] = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness}
+    return solve_contact(p.gap0, p.spacing, E_PRIME, boundary=p.boundary, tolerance=p.tolerance, start=start, **asked)
 
 
 def deviations(cell: Cell, result: ContactResult) -> dict[str, float]:
@@ -111,12 +112,12 @@ def deviations(cell: Cell, result: ContactResult) -> dict[str, float]:
     found = contact_deviations(result, p.gap0, p.spacing, E_PRIME, p.boundary, **physical)
     ease = max(1.0, p.tolerance / 1e-6)
     ratios = {name: value / OWN[name] / ease for name, value in found.items()}
-    return ratios | (_second(result, p) if p.second else {})
+    return ratios | (_second(result, p, p.mean_pressure) if p.second and p.mean_pressure else {})
 
 
-def _second(result: ContactResult, p: Pressed) -> dict[str, float]:
+def _second(result: ContactResult, p: Pressed, load: float) -> dict[str, float]:
     operator, gap0 = half_space(p.shape, p.spacing, E_PRIME), p.gap0
-    pressure, converged = polonsky_keer(gap0, operator, p.mean_pressure, tolerance=1e-9, max_iterations=3000)
+    pressure, converged = polonsky_keer(gap0, operator, load, tolerance=1e-9, max_iterations=3000)
     if not converged:
         return {}
     gap = gap0 + operator.apply(pressure)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -43,8 +44,8 @@ def solve(cell: Cell):
         return solve_differential_deflection(**film.case, most_nodes=NODES)
     if cell.method == MOES:
         return moes_film(cell.x, cell.y) * unit(film.case)
-    start = {} if film.start is None else {"start": solve_ehl(**case_of(*film.start))}
-    return solve_ehl(**film.case, tolerance=film.tolerance, **start)
+    start = None if film.start is None else solve_ehl(**case_of(*film.start))
+    return solve_ehl(**film.case, tolerance=film.tolerance, start=start)
 
 
 def unit(case: dict) -> float:
@@ -71,7 +72,7 @@ def deviations(cell: Cell, result) -> dict[str, float]:
 @lru_cache(maxsize=64)
 def reference(items: tuple, tolerance: float) -> tuple[float, float]:
     """Smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there is."""
-    ways = (
+    ways: tuple[tuple[Callable, dict[str, Any]], ...] = (
         (solve_differential_deflection, {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
         (solve_ehl, {"tolerance": 0.1 * tolerance}),
         (solve_ehl, {"tolerance": 0.3 * tolerance}),
@@ -124,8 +125,8 @@ def speeds(quick: bool) -> Iterator[Cell]:
 def tolerances(quick: bool) -> Iterator[Cell]:
     """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be what was asked for."""
     few = ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
-    many = ((1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10), (20, 5), (50, 10), (100, 5))
-    many += ((100, 15), (100, 20), (1000, 2.5), (1000, 10), (1000, 20))
+    many: tuple[tuple[float, float], ...] = ((1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10))
+    many += ((20, 5), (50, 10), (100, 5), (100, 15), (100, 20), (1000, 2.5), (1000, 10), (1000, 20))
     for row, (M, L) in enumerate(few if quick else many):
         for tolerance in (0.1, 1e-2, 1e-3) if quick else (0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3, 3e-4):
             film = Film(case_of(M, L), tolerance)

@@ -16,6 +16,7 @@ import numpy as np
 
 import lubfric
 
+from ..cases import case_of_scene
 from ..hostile.soak_judge import verdict
 from .cell import Cell
 
@@ -52,7 +53,12 @@ def solve(cell: Cell) -> tuple:
     p: Shared = cell.problem
     model, speed = model_of(p.scene, p.sq, p.shape), p.speed
     if p.film:
-        speed = _halved(1e-12, 1e4, 14, lambda u: _smooth_film(model.scene, u) < p.film)
+        load = model.scene.bodies.load
+
+        def below(u):
+            return lubfric.solve_ehl(**case_of_scene(model.scene, load, u), tolerance=0.05).central_film < p.film
+
+        speed = _halved(1e-12, 1e4, 14, below)
     elif p.share:
         carried = p.share * model.scene.bodies.load
         speed = _halved(1e-14, 1e2, p.halvings, lambda u: lubfric.friction(model, u).contact_load > carried)
@@ -70,23 +76,6 @@ def _halved(low: float, high: float, times: int, below) -> float:
         middle = math.sqrt(low * high)
         low, high = (middle, high) if below(middle) else (low, middle)
     return math.sqrt(low * high)
-
-
-def _smooth_film(scene, speed: float) -> float:
-    """Central film [m] of the whole load, roughly."""
-    bodies, oil = scene.bodies, scene.lubricant
-    film = lubfric.solve_ehl(
-        load_per_width=bodies.load / bodies.width,
-        radius=bodies.radius,
-        e_prime=bodies.e_prime,
-        entrainment_speed=speed,
-        viscosity=oil.viscosity,
-        pressure_viscosity_coefficient=oil.pressure_viscosity_coefficient,
-        viscosity_law=oil.viscosity_law,
-        density_law=oil.density_law,
-        tolerance=0.05,
-    )
-    return film.central_film
 
 
 def cells(quick: bool) -> Iterator[Cell]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import MeshQuad
 
 import lubfric
 
@@ -16,7 +15,6 @@ from ..fem.compliance import Elastic, missing
 from ..fem.contact import solve_contact
 from ..fem.layer3d import Layer3D, graded_levels, multigrid, solve
 from ..fem.layer_waves import fourier_compliance
-from ..meshes import mesh_field
 
 E_PRIME = 231e9
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
@@ -139,7 +137,6 @@ def rough(level: str):
         yield from patch_checks(name, patches, best, off)
         if limit is None:
             yield patch_figure(patches[-1], best)
-            yield patch_field(patches[-1], best)
     caption = f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure {MEAN_PRESSURE / 1e6:g} MPa, "
     caption += f"cap {CAP / 1e9:g} GPa; triquadratic bricks"
     columns = ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference")
@@ -191,17 +188,6 @@ def patch_figure(p: Patch, best: Patch):
     axes[0].set(ylabel="y (µm)")
     caption = f"Rough patch, {p.gap.shape[0]}² nodes: pressure of both solvers. They differ on the edges of the spots."
     return plotting.finish("contact_rough", canvas, caption, "png")
-
-
-def patch_field(p: Patch, best: Patch):
-    """Pressure and gap of both on the surface."""
-    n = p.gap.shape[0]
-    x = np.arange(n) * BOX / n
-    mesh = MeshQuad.init_tensor(x, x)
-    at = tuple(np.round(mesh.p / BOX * n).astype(int))
-    data = {"pressure_fem": p.pressure[at], "gap_fem": p.gap[at]}
-    data |= {"pressure_lubfric": at_nodes(best.pressure, n)[at], "gap_lubfric": at_nodes(best.gap, n)[at]}
-    return mesh_field("contact_rough_patch", "Rough patch: pressure in Pa, gap in m, both solvers", mesh, data)
 
 
 def thickness(level: str):

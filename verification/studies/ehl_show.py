@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import plotting
-from ..check import Field, Table
+from ..check import Table
 from ..fem.ehl_body import POISSON
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
@@ -71,7 +71,7 @@ def profiles(pairs: list[Pair]):
 
 
 def fields(pair: Pair):
-    """VTU files of the body and of both solutions on the line, and a picture of the stress."""
+    """A VTU file of the body, and a picture of its stress."""
     s, c = pair.finest, pair.finest.contact
     mesh = s.body.basis.mesh
     stress = s.body.stress(s.displacement) * c.hertz_pressure
@@ -81,21 +81,7 @@ def fields(pair: Pair):
     caption = f"{pair.label}: displacement (m) and stress (Pa) of the body that stands for both"
     scaled = mesh.scaled((c.half_width, c.half_width))
     yield mesh_field("ehl_body", caption, scaled, {"displacement": np.pad(moved, ((0, 0), (0, 1)))} | data)
-    yield line_field(pair)
     yield stress_figure(pair, mises / c.hertz_pressure)
-
-
-def line_field(pair: Pair) -> Field:
-    """Both solutions on the line."""
-    s = pair.finest
-    x = np.sort(s.body.line.mesh.p[0])[1:-1] * s.contact.half_width
-    x = x[(x >= pair.line.x[0]) & (x <= pair.line.x[-1])]
-    p, h = s.at(x)
-    cells = np.column_stack([np.arange(x.size - 1), np.arange(1, x.size)])
-    data = {"pressure": p, "film_thickness": h, "pressure_lubfric": np.interp(x, pair.line.x, pair.line.pressure)}
-    data["film_thickness_lubfric"] = pair.line.film_at(x)
-    caption = f"{pair.label}: pressure (Pa) and film (m) by finite elements and lubfric"
-    return Field("ehl_line", caption, x[:, None], {"line": cells}, data)
 
 
 def stress_figure(pair: Pair, mises: np.ndarray):

@@ -28,16 +28,7 @@ METHODS = {
     "alternating, repeated": partial(alternating, update="repeat"),
 }
 MUST_AGREE = ("single loop", "alternating, root")
-COLUMNS = (
-    "case",
-    "method",
-    "status",
-    "iterations",
-    "convolutions",
-    "residual",
-    "relative L2 of pressure",
-    "seconds",
-)
+COLUMNS = ("case", "method", "status", "iterations", "convolutions", "residual", "relative L2 of pressure", "seconds")
 
 
 class Case:

@@ -13,7 +13,6 @@ from ..fem.compliance import (
     curvature_number,
     half_space_compliance,
     layer_compliance,
-    line_load_difference,
     missing,
 )
 from ..fem.layer import Layer, graded_mesh, make_layer
@@ -215,24 +214,3 @@ def narrow(level: str):
     yield Check(name, found[-1], number * inverse[-1], 0.02, source, note="in units of 4w/(πE'b²)")
     name = "narrow load, d = 10 b, width 8 d: curvature with free sides over periodic ones"
     yield Check(name, (at(depths[1], "free") - base) / found[1], 1, 0.01, "sides so far do not matter")
-    yield narrow_figure(depths / b, found, number, inverse)
-
-
-def narrow_figure(depths, found, number: float, inverse):
-    """The extra curvature against depth, and the exact shape of the difference under a line load."""
-    canvas, (left, right) = plotting.axes(1, 2, width=7.4, height=3.5)
-    left.loglog(depths, found, "o", label="finite elements, P2")
-    left.loglog(depths, number * inverse, "k--", linewidth=1, label="J b²/d²")
-    left.set(xlabel="thickness over half-width, d/b", ylabel="extra curvature × πE'b²/(4w)")
-    left.set_xticks(depths, [f"{d:g}" for d in depths])
-    left.minorticks_off()
-    left.legend()
-    x = np.geomspace(0.03, 3, 60)
-    unit = 4 / (np.pi * BODY.e_prime)
-    right.loglog(x, line_load_difference(x, 1.0, BODY) / unit, label="exact")
-    right.loglog(x[:45], number / 2 * x[:45] ** 2, "k--", linewidth=1, label="(J/2)(x/d)²")
-    right.set(xlabel="distance from a line load, x/d", ylabel="difference of u(x) − u(0), × πE'/(4w)")
-    right.legend()
-    caption = "Left: curvature that a layer adds under a smooth load of half-width b, over that of the deepest, "
-    caption += f"{2 * depths[-1]:g} b. Right: displacement differences under a line load, layer against half-space."
-    return plotting.finish("layer_narrow", canvas, caption)

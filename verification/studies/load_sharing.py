@@ -35,28 +35,11 @@ PARTS = 9  # of a cell, to take the mean displacement on
 SOURCE = "film and contact by finite elements, own root finder"
 
 
-@dataclass(frozen=True)
-class Level:
-    """What a level takes.
-
-    Attributes
-    ----------
-    grids : cells along a side
-    refinements : of the film's mesh
-    fineness : facets per cell as a power of 2
-    speeds : [m/s]
-    """
-
-    grids: tuple[int, ...]
-    refinements: int
-    fineness: int
-    speeds: tuple[float, ...]
-
-
+# cells along a side, refinements of the film's mesh, facets per cell as a power of 2, speeds [m/s]
 LEVELS = {
-    "quick": Level((16, 32), 0, 1, (0.01,)),
-    "default": Level((16, 32, 64), 1, 1, SPEEDS),
-    "full": Level((16, 32, 64, 128), 2, 0, SPEEDS),
+    "quick": ((16, 32), 0, 1, (0.01,)),
+    "default": ((16, 32, 64), 1, 1, SPEEDS),
+    "full": ((16, 32, 64, 128), 2, 0, SPEEDS),
 }
 # of coefficient, F_H, mean gap on the finest grid; the measured differences fall with the cell (below)
 TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 5e-3, 3e-3), "full": (3e-3, 5e-3, 3e-3)}
@@ -69,22 +52,22 @@ def load_sharing(level: str):
     It is Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4 µm),
     coarse enough for finite elements. *Film*: full-system finite elements (elastic body of 240 half-widths, Reynolds on
     its surface) against lubfric's half-space and Newton's method. *Contact*: P2 elements in the section with waves
-    along the line, active set and dense algebra, against lubfric's Bessel kernel and conjugate gradient. *Balance and
+    along the line and an active set, against lubfric's Bessel kernel and conjugate gradient. *Balance and
     friction*: another root finder and other integrals. Both sides get the same heights on the same cells and the same
     meaning of a displacement, its mean over a cell. lubfric's own is at cell centres, and is averaged over parts of the
     cells by its own kernel (`cell_mean`). What is left is the error of the finite elements.
     """
-    options, points = LEVELS[level], []
-    for cells in options.grids:
-        heights = rough(options.grids[-1], cells)
-        body = compliance(Strip((cells, cells), (LENGTH / cells,) * 2, elastic(), fineness=options.fineness))
-        points += [both(speed, heights, body, options.refinements) for speed in options.speeds]
-    finest = points[-len(options.speeds) :]
+    (grids, refinements, fineness, speeds), points = LEVELS[level], []
+    for cells in grids:
+        heights = rough(grids[-1], cells)
+        body = compliance(Strip((cells, cells), (LENGTH / cells,) * 2, elastic(), fineness=fineness))
+        points += [both(speed, heights, body, refinements) for speed in speeds]
+    finest = points[-len(speeds) :]
     for p in finest:
         note = f"{p.cells} x {p.cells} cells of {LENGTH / p.cells * 1e6:.2f} µm"
         yield from compared(f"{p.speed:g} m/s", rows_of(p.main, p.fem, TOLERANCE[level]), SOURCE, note)
     yield side_by_side(points)
-    yield from approach(points, options)
+    yield from approach(points, grids)
     shown = next(p for p in finest if p.speed == 0.01)
     yield pressure_field(shown)
     yield pressure_figure(shown)
@@ -181,11 +164,11 @@ def side_by_side(points: list[Point]) -> Table:
     return Table("load_sharing", caption, COLUMNS, rows)
 
 
-def approach(points: list[Point], options: Level):
+def approach(points: list[Point], grids: tuple[int, ...]):
     """Differences against cell size, with their orders."""
-    sizes, series = [1e6 * LENGTH / n for n in options.grids], []  # µm
+    sizes, series = [1e6 * LENGTH / n for n in grids], []  # µm
     for label, name in (("coefficient", "coefficient"), ("F_H", "film_load"), ("mean gap", "mean_gap")):
-        errors = [max(p.difference(name) for p in points if p.cells == n) for n in options.grids]
+        errors = [max(p.difference(name) for p in points if p.cells == n) for n in grids]
         series.append(Series(label, sizes, errors))
     why = "finite elements as fine as the cells: at least first order at the edges of contact spots"
     name = "difference in mean gap: order in the cell size"

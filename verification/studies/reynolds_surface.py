@@ -135,7 +135,6 @@ def finite_width(refinements: int):
     load, allowed = solve_refined(closed, refinements)[-1].load / WIDTH, 1e-4 * 8.0 ** (1 - refinements)
     rows = [("load / width", "N/m", load, e.wide_load, allowed)]
     yield from compared("exponential pad, closed sides", rows, "infinitely wide pad, quadrature")
-    yield width_figure(list(found), [s.load for s in found.values()])
     s, p = found[1.0].problem.mesh, found[1.0].at_vertices
     data = {"pressure": p, "film_thickness": e.film(s.p), "difference": p - pad(1.0).pressure(s.p)}
     caption = "Pad as wide as long: pressure (Pa), film (m), difference to the exact pressure (Pa)"
@@ -151,22 +150,6 @@ def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
         return length * (1 + np.tanh(strength * s) / np.tanh(strength)) / 2
 
     return skfem.MeshQuad.init_tensor(crowded(e.length, e.width), crowded(e.width, e.length) - e.width / 2)
-
-
-def width_figure(ratios, loads):
-    """Load over width between the limits."""
-    canvas, ax = plotting.axes()
-    fine = np.geomspace(0.03, 40, 80)
-    pads = [pad(r) for r in fine]
-    unit = pads[0].wide_load
-    ax.loglog(fine, [p.load / p.width / unit for p in pads], "k-", linewidth=1, label="exact series")
-    ax.loglog(fine, [p.narrow_load / p.width / unit for p in pads], ":", label="infinitely narrow")
-    ax.axhline(1.0, color="C1", linestyle=":", label="infinitely wide")
-    widths = np.array(ratios) * LENGTH
-    ax.loglog(ratios, np.array(loads) / widths / unit, "o", color="C2", label="finite elements, Q2")
-    ax.set(xlabel="width / length", ylabel="load per width / that of the infinitely wide pad", ylim=(3e-4, 3))
-    ax.legend()
-    return plotting.finish("width", canvas, "Load of a pad with an exponential film (2:1) against its width.")
 
 
 def parabolic(refinements: int):

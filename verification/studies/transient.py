@@ -126,14 +126,9 @@ def setting(resolution: float):
 def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
-<<<<<<< HEAD
-    z = parabola(made, 1e-6)
-    now = Progress((Level(0.0, z[-1] + 0.5 * made.grid.x**2, z),), LONG)
-    system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
-=======
     first = made.undeformed(1e-6)
     now = Progress((Level(0.0, first.film, first.z),), LONG)
->>>>>>> w-time
+    system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
         found = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
         now = the(found, "step in time")
@@ -221,16 +216,6 @@ def reversal():
     wet = np.min(found.pressure[20] > 0)
     source = "pure squeeze has no cavity"
     yield Check("no entrainment: film pressurised on both sides", wet, 1.0, 0.0, source, AT_LEAST)
-    canvas, ax = plotting.axes(height=3.6)
-    cycles = found.time / period
-    ax.plot(cycles, found.central_film / problem.film_unit, label="H(0)")
-    ax.plot(cycles, found.min_film / problem.film_unit, label="H_min")
-    ax.plot(cycles, np.abs(np.cos(2 * np.pi * cycles)), ":", label="|U|/U_max")
-    ax.set(xlabel="cycles", ylabel="film (units of the largest speed)", ylim=(0, None))
-    ax.legend()
-    caption = "Reciprocating at M = 5, L = 5. At U = 0 squeeze keeps part of the film; the smallest film follows the "
-    caption += "reversal by the time the thin film takes to cross the contact."
-    yield plotting.finish("reversal", canvas, caption)
 
 
 def jumps(level: str):

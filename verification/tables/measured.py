@@ -12,6 +12,8 @@ import lubfric
 from lubfric.contact import half_space
 from lubfric.film import hertz
 
+from ..cases import case_of_scene
+
 Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text
 
 
@@ -65,24 +67,12 @@ def times() -> Cells:
     speeds = np.geomspace(1e-4, 1.0, 20)
     one_patch = paper.with_(numerics={"sampling": "patch"})
     jobs: dict[str, Callable[[], object]] = {
-        "one film": lambda: _film(paper),
+        "one film": lambda: lubfric.solve_ehl(**case_of_scene(paper, paper.bodies.load, 0.01)),
         "the paper's scene, one speed": lambda: lubfric.friction(paper, 0.01),
         "the paper's scene, 20 speeds": lambda: lubfric.stribeck(paper, speeds),
         "the same on the paper's one patch": lambda: lubfric.stribeck(one_patch, speeds),
     }
     return ["job", "CPU time"], [[name, f"{_seconds(job):.3g} s"] for name, job in jobs.items()]
-
-
-def _film(scene: lubfric.Scene) -> lubfric.EHLResult:
-    bodies, oil = scene.bodies, scene.lubricant
-    return lubfric.solve_ehl(
-        load_per_width=bodies.load / bodies.width,
-        radius=bodies.radius,
-        e_prime=bodies.e_prime,
-        entrainment_speed=0.01,
-        viscosity=oil.viscosity,
-        pressure_viscosity_coefficient=oil.pressure_viscosity_coefficient,
-    )
 
 
 def contact_transforms() -> Cells:

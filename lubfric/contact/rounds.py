@@ -84,14 +84,18 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
     best, wasted, iterations, convolutions = np.inf, 0, 0, 1.0
     history: list[float] = []
     while status is None:
-        goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
-        pressure = state.pressure
+        goal, pressure = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0)), state.pressure
         if state.residual > goal and iterations < problem.max_iterations:
-            search, pressure = _searched(problem, state, load, pace, goal, iterations, wasted > 0)
+            search = _begun(problem, state, load, pace, wasted > 0)
+            del state  # the search holds what it needs
+            search.run(goal, problem.max_iterations - iterations)
             iterations, pace = iterations + search.iterations, pace if wasted else search.pace
             history += search.history[:-1]
             convolutions += search.convolutions
+            found = search.found(pressure, problem.hardness)
             del search
+            pressure = _carrying(found, pressure, load, problem.hardness)
+            del found
         state = look(problem, problem.operator, pressure, level)
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
@@ -110,26 +114,26 @@ def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) ->
     state = look(problem, problem.operator.single, pressure, level)
     if not state.residual:
         return pressure, pace, 1.0
-    search, pressure = _searched(problem, state, load, pace, MARGIN * problem.tolerance)
-    return pressure, search.pace, 1.0 + search.convolutions
+    search = _begun(problem, state, load, pace)
+    search.run(MARGIN * problem.tolerance, problem.max_iterations)
+    found = _carrying(search.found(pressure, problem.hardness), pressure, load, problem.hardness)
+    return found, search.pace, 1.0 + search.convolutions
 
 
-def _searched(problem, state: State, load, pace, goal, iterations=0, exact=False) -> tuple[Search, np.ndarray]:
-    """A search from ``state``, and its pressure [Pa] made to carry the load. If single precision has lost the load, the
-    pressure of ``state``."""
-    operator, flags = problem.operator.single, state.pressure > 0
+def _begun(problem, state: State, load, pace: float, exact: bool = False) -> Search:
+    """A search from ``state`` on the cells that are loaded, or may come into touch."""
+    operator, flags, overlap = problem.operator.single, state.pressure > 0, max(0.0, -float(state.gap.min()))
     if np.isfinite(state.scale):
-        overlap = state.residuals["penetration"] * state.scale
-    else:
-        overlap = max(0.0, -float(state.gap.min()))
+        overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
     flags |= state.gap < REACH * overlap
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
-    search = Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
-    search.run(goal, problem.max_iterations - iterations)
-    found = search.found(state.pressure, problem.hardness)
+    return Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
+
+
+def _carrying(found, begun, load, hardness) -> np.ndarray:
+    """``found`` [Pa], made to carry the load. If single precision has lost the load, the pressure with which the search
+    had ``begun``."""
     total = found.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
-        found = state.pressure
-    elif load is not None:
-        found = rescaled(found, load, problem.hardness)
-    return search, found
+        return begun
+    return found if load is None else rescaled(found, load, hardness)

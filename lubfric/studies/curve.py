@@ -1,0 +1,127 @@
+"""Solved points over one number, each of which may have failed: what Stribeck and traction curves have in common, and
+their tables."""
+
+from __future__ import annotations
+
+from typing import ClassVar, TypeVar
+
+import numpy as np
+
+from .._base import Shown, table_bytes, validate
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
+from ..quantities import NUMBERS as QUANTITIES
+from ..quantities import heading
+from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
+from ..sharing import Validity, entries_of, gathered, in_a_cell
+
+
+class CurveResult(Shown):
+    """Base of the results of curves: ``points`` (None where failed), ``errors`` {index: exception}, ``report``.
+    ``result["contact_load"]`` is an array of that number of all points, NaN where one failed.
+
+    A subclass has the quantity of the curve as ``SWEPT``: the name of its attribute, its symbol, its unit, and what
+    several of its values are called.
+    """
+
+    SWEPT: ClassVar[tuple[str, str, str, str]]
+    points: tuple[FrictionResult | None, ...]
+    errors: dict[int, Exception]
+    report: Report
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return columns_of(self.points)[validate.choice("column", name, QUANTITIES)]
+
+    @property
+    def uncertainty(self) -> UncertaintyCurve:
+        """How sure f is at every point: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
+        return curve_of([None if point is None else point.uncertainty for point in self.points])
+
+    def entries(self, index: int) -> tuple[Validity, ...]:
+        """The assumptions that are violated at a point, refused or not."""
+        return entries_of(self.points[index], self.errors.get(index))
+
+    @property
+    def told(self) -> list[str]:
+        """The entries of each point in one cell of a table."""
+        return [in_a_cell(self.entries(i)) for i in range(len(self.points))]
+
+    @property
+    def validity(self) -> tuple[str, ...]:
+        """One sentence for each assumption that is violated somewhere."""
+        name, _, unit, plural = self.SWEPT
+        values = getattr(self, name).tolist()
+        return gathered([(value, self.entries(i)) for i, value in enumerate(values)], unit, plural)
+
+    def cite(self) -> str:
+        """The papers behind what was used at any of the points, one a line, the model's first."""
+        return together(point for point in self.points if point is not None)
+
+    def _facts(self) -> dict[str, str]:
+        name, symbol, unit, plural = self.SWEPT
+        facts, good = {"": f"{len(self.points)} {plural}"}, np.isfinite(self["coefficient"])
+        if good.any():
+            known, f = getattr(self, name)[good], self["coefficient"][good]
+            facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
+        return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
+
+
+def columns_of(points) -> dict[str, np.ndarray]:
+    """Every number of ``points`` by name, NaN where one is None."""
+    return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
+
+
+def report_of(solver: str, names: list[str], plural: str, points, errors: dict[int, Exception]) -> Report:
+    """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
+    ``names`` of the points."""
+    return Report(
+        solver,
+        ITERATION_LIMIT if errors else CONVERGED,
+        len(points) - len(errors),
+        float(max((p.report.residual for p in points if p is not None), default=np.inf)),
+        float(max((p.report.tolerance for p in points if p is not None), default=0.0)),
+        notes=tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items())),
+        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors",
+    )
+
+
+R = TypeVar("R", bound=CurveResult)
+
+
+def judged(result: R, raise_on_failure: bool) -> R:
+    """``result``, or the exception that says what failed: `ValidityError` if all that failed was refused as invalid."""
+    if not raise_on_failure:
+        return result
+    errors = result.errors
+    refused = [error for error in errors.values() if isinstance(error, ValidityError)]
+    if errors and len(refused) == len(errors):
+        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
+    if errors:
+        raise ConvergenceError(f"{result.report.message}; first: {errors[min(errors)]}", result.report, result)
+    result.report.raise_if_failed(result)
+    return result
+
+
+def csv_bytes(curve) -> bytes:
+    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading. The last
+    columns say which assumptions are violated there, and how sure f is."""
+    return curve_table(curve, columns_of(curve.points) | {"speed": curve.speed})
+
+
+def curve_table(curve: CurveResult, columns: dict[str, np.ndarray]) -> bytes:
+    """``columns`` of a curve under their headings, how sure f is, and the violated assumptions at each point."""
+    named = {heading(name): values for name, values in (columns | uncertainty_columns(curve.uncertainty)).items()}
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
+
+
+def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
+    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
+    return {
+        "interval_low": found.interval[:, 0],
+        "interval_high": found.interval[:, 1],
+        "numerical_error": found.numerical,
+        "sampling_error": found.sampling,
+        "line_scatter": found.line_scatter,
+        "participation": found.participation,
+        "line_length": found.length,
+        "model_form_error": found.model_form,
+    }

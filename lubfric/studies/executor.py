@@ -1,0 +1,125 @@
+"""Work on any executor, and the processes of a command. What a lost worker had is done again."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from contextlib import contextmanager
+from queue import SimpleQueue
+
+from .._base import shown
+from ..errors import InputError
+
+WATCH = 0.2  # s between two looks at whether the command still lives
+MOST_WORKERS = 1024
+LAST = 2.0  # s that an interrupted process is waited for
+
+
+def checked_executor(executor):
+    """``executor``, None or a `concurrent.futures.Executor`; raises `InputError` for anything else."""
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError(f"executor = {shown(executor)}; allowed: None or a concurrent.futures.Executor")
+    return executor
+
+
+def spread(executor, work: Callable, pieces: list) -> Iterator:
+    """Yield what ``work(piece)`` yields, for every piece. Done here, the values come at once; from an executor, those
+    of a piece come when it has ended.
+
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
+    must catch what a piece may rightly raise. Any other exception is an error of the program: pieces not yet begun are
+    cancelled, and it is raised. A *worker* may be lost: killed, or its machine gone. Then its pieces, and those of a
+    pool that broke with it, are done here.
+    """
+    if executor is None:
+        for piece in pieces:
+            yield from work(piece)
+        return
+    ended: SimpleQueue = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
+    waiting, lost = {}, []
+    for piece in pieces:
+        try:
+            waiting[executor.submit(_attempt, work, piece)] = piece
+        except BrokenExecutor:  # by a worker that was lost before
+            lost.append(piece)
+    for future in waiting:
+        future.add_done_callback(ended.put)
+    try:
+        while waiting:
+            future = ended.get()
+            piece = waiting.pop(future)
+            try:
+                done, value = future.result()
+            except Exception:  # `_attempt` raises nothing: this is the executor's own
+                lost.append(piece)
+                continue
+            if not done:
+                raise value
+            yield from value
+    finally:
+        for future in waiting:
+            future.cancel()
+    for piece in lost:
+        yield from work(piece)
+
+
+def _attempt(work, piece):
+    """(True, the values) or (False, the exception): tells errors of the work from those of the executor."""
+    try:
+        return True, list(work(piece))
+    except Exception as error:
+        return False, error
+
+
+def processors() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def pool(workers: int):
+    """An executor of ``workers`` processes, which start at once. They end with this process, however it ends. None for
+    one worker: then this process does the work itself."""
+    if workers == 1:
+        yield None
+        return
+    executor = ProcessPoolExecutor(workers, initializer=_follow, initargs=(os.getpid(),))
+    try:
+        for _ in range(workers):
+            executor.submit(os.getpid)
+        yield executor
+    except BaseException:
+        _end(executor)
+        raise
+    executor.shutdown()
+
+
+def _end(executor: ProcessPoolExecutor) -> None:
+    """End an interrupted ``executor`` with its processes. Its own thread is waited for, but not for ever: an interrupt
+    may have left a lock that it needs."""
+    ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
+    ending.start()
+    for process in multiprocessing.active_children():
+        process.terminate()
+    ending.join(LAST)
+    for process in multiprocessing.active_children():
+        process.join(LAST)
+
+
+def _follow(parent: int) -> None:
+    """Runs in a worker: leave Ctrl-C to the command, and end when the command is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+    def watch():
+        while os.getppid() == parent:
+            time.sleep(WATCH)
+        os._exit(1)
+
+    if os.getppid() == parent:  # not where workers are started by a server of their own
+        threading.Thread(target=watch, daemon=True).start()

@@ -1,0 +1,136 @@
+"""Solved points in a folder, each in a file of its own by the hash of all that it depends on."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import warnings
+from collections.abc import Iterable
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .._base import FolderLock, __version__, clear_parts, read_checked, saying, validate, write_checked
+from ..errors import ConvergenceError, InputError, LubfricError, Report, ValidityError
+from ..film import EHLResult
+from ..sampling import FrictionResult
+from ..sharing import Validity
+from .codec import classes_of, decode, encode
+
+POINTS = "points"
+LABELS = {("Scene", "name"), ("Surface", "source"), ("Surface", "notes"), ("Motion", "speeds")}  # no number needs them
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point without an answer, as it is stored: the name of its exception, and what that holds."""
+
+    error: str
+    message: str
+    report: Report | None = None
+    entries: tuple[Validity, ...] = ()
+    result: FrictionResult | None = None
+
+
+CLASSES = classes_of(FrictionResult, EHLResult, Failure)
+
+
+class Store:
+    """Records by key in the folder ``root``; without one (None) nothing is kept and nothing found.
+
+    A record is a whole file with a checksum, which appears at once when it is complete. So any number of processes may
+    add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as absent.
+    """
+
+    def __init__(self, root):
+        self.root = root
+        self.folder = None if root is None else Path(root) / POINTS
+
+    def add(self, key: str, outcome) -> None:
+        """Keep a `FrictionResult`, a `LubfricError`, or a tuple of numbers. Raises `OutputError` when that fails."""
+        if self.folder is not None:
+            stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
+            write_checked(self._path(key), *encode(stored), sync=False)
+
+    def get(self, key: str):
+        """What was added under ``key``; None for what is absent. A record that is damaged, or of another version, is
+        told of by a `UserWarning`, and does not count."""
+        if self.folder is None or not self._path(key).is_file():
+            return None
+        try:
+            found = decode(read_checked(self._path(key)) or b"", CLASSES)
+        except ValueError:
+            warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
+            return None
+        return _error(found) if isinstance(found, Failure) else found
+
+    def known(self, keys: Iterable[str]) -> dict:
+        """All sound records of ``keys``."""
+        found = {key: self.get(key) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
+        return {key: outcome for key, outcome in found.items() if outcome is not None}
+
+    def _path(self, key: str) -> Path:
+        return (self.folder or Path()) / f"{key[:40]}.bin"
+
+
+@contextmanager
+def opened(folder):
+    """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second."""
+    if folder is None:
+        yield Store(None)
+        return
+    folder = validate.folder("store", folder)
+    with FolderLock(folder):
+        clear_parts(folder)
+        clear_parts(folder / POINTS)
+        yield Store(os.path.abspath(folder))
+
+
+def point_key(scene_key: str, speed: float, fields: bool = False) -> str:
+    """The key of a point: of its scene (`fingerprint`), its speed [m/s], and whether film and contact are kept."""
+    return digest([scene_key, float(speed), bool(fields)])
+
+
+def _failure(error: LubfricError) -> Failure:
+    if isinstance(error, ValidityError):
+        return Failure("ValidityError", error.message, None, tuple(error.entries), error.result)
+    return Failure(type(error).__name__, str(error), getattr(error, "report", None))
+
+
+def _error(stored: Failure) -> LubfricError:
+    if stored.error == "ValidityError":
+        return ValidityError(stored.message, stored.entries, stored.result)
+    if stored.error == "ConvergenceError":
+        return ConvergenceError(stored.message, stored.report)
+    return InputError(stored.message) if stored.error == "InputError" else LubfricError(stored.message)
+
+
+def fingerprint(*parts) -> str:
+    """SHA-256, hexadecimal, of ``parts`` and the versions of lubfric and NumPy, whose generator makes the maps.
+
+    Parts are numbers, texts, arrays, dataclasses and collections of these. Of a scene everything counts except its
+    name, the provenance of its map and the list of speeds. A height map counts by its heights and spacing, a file by
+    its bytes and not by its path.
+    """
+    return digest([__version__, np.__version__, *parts])
+
+
+def digest(value) -> str:
+    """SHA-256, hexadecimal, of a value: equal for equal numbers, to the last bit, in every process."""
+    found = hashlib.sha256()
+    for piece in encode(value, _counted):
+        found.update(piece)
+    return found.hexdigest()
+
+
+def _counted(part, name: str):
+    """What of the field ``name`` of a dataclass a number depends on."""
+    kind, value = type(part).__name__, getattr(part, name)
+    if (kind, name) in LABELS:
+        return None
+    if (kind, name) == ("Roughness", "file") and value is not None:
+        with saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    return value
