@@ -206,7 +206,7 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.sharing.forces:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
     },
     ("wiring_film",): {
-        "lubfric.film.levels:solve_line_contact": (
+        "lubfric.sharing.point:solve_line_contact": (
             ("film_viscosity_law", "viscosity law not passed to the film", line_without(viscosity_law="barus")),
             ("film_density_law", "density law not passed to the film", line_without(density_law="constant")),
             ("film_alpha", "alpha not passed to the film", line_without(pressure_viscosity_coefficient=25e-9)),

@@ -224,16 +224,16 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
     shares = [min(1.0, EASY / max(alone.L, EASY))]
     while shares[-1] < 1.0:
         shares.append(min(1.0, STAGE * shares[-1]))
-    state: State | None = None
+    states: list[State] = []
     solutions: list[Solution] = []
     for stage in [alone.softened(share) for share in shares] + slower:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
-        z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
+        z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
-        state = solution_state(stage, solutions[-1], 0.0)
+        states.append(solution_state(stage, solutions[-1], 0.0))
         if not np.isfinite(solutions[-1].error):
             break
-    return state, solutions
+    return states[-1], solutions
 
 
 def _faster(problem: Problem, factor: float) -> Problem:

@@ -11,7 +11,8 @@ import lubfric
 from lubfric.film import LineContact, Problem, hat_kernel
 from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
-from lubfric.paper import cold_start, differential_newton, solve_differential_deflection
+from lubfric.paper import differential_newton, solve_differential_deflection
+from lubfric.paper.differential import cold_start
 from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
 from lubfric.paper.differential_newton import newton
 
