@@ -111,13 +111,13 @@ MUTANTS = (
     Mutant(
         "transient_newtonian",
         "Eyring's law dropped in a transient",
-        {"lubfric.time.shear:shear_stress": sheared_without(eyring_stress=None)},
+        {"lubfric.time.moment:shear_stress": sheared_without(eyring_stress=None)},
         TIME,
     ),
     Mutant(
         "transient_no_limit",
         "limiting stress dropped in a transient",
-        {"lubfric.time.shear:shear_stress": sheared_without(limiting_stress_coefficient=None)},
+        {"lubfric.time.moment:shear_stress": sheared_without(limiting_stress_coefficient=None)},
         TIME,
     ),
     Mutant(

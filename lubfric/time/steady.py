@@ -110,8 +110,8 @@ def steady_balance(prepared: Prepared, speed: float) -> tuple[float, float, Cont
     """Loads of film and contact [N] in steady motion, the state of the contact (None: it does not touch), and the mean
     gap [m]."""
     point = friction(prepared, speed, fields=True)
-    balance = point.balance if point.contact_load > 0.0 else None
-    return point.film_load, point.contact_load, balance and balance.contact, point.mean_gap
+    touching = point.balance.contact if point.balance is not None and point.contact_load > 0.0 else None
+    return point.film_load, point.contact_load, touching, point.mean_gap
 
 
 def friction_error(
