@@ -11,8 +11,7 @@ import numpy as np
 from ..errors import CONVERGED, ConvergenceError, InputError
 from ..scene import Constant, Scene
 from ..sharing import Prepared, prepare, scene_of
-from .film_newton import FilmStep
-from .film_setting import FINER, ContactHistory, discretisation, make_setting, steady_start
+from .film_setting import FINER, ContactHistory, FilmStep, discretisation, make_setting, steady_start
 from .scene_now import changes, inlet_viscosity
 from .sharing import Contact, Sharing, make_sharing
 from .steady import steady_balance, strip_for

@@ -11,8 +11,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
-from .film_newton import FilmStep
-from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, steady_start
+from .film_setting import FINER, ContactHistory, FilmStep, Setting, discretisation, make_setting, steady_start
 from .march import Plan, checked_times, marched, plan_of, report_of
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step

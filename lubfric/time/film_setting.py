@@ -1,4 +1,4 @@
-"""A line contact in time: its histories, its units, its grid and its first state."""
+"""A line contact in time: its histories, its units and grid, Newton's method for one step, and its steady start."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import CONVERGED
-from ..film import Effort, LineContact, Problem, solve_line_contact
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..film import Effort, LineContact, Problem, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
-from .film_equations import Conditions, Spring, StepEquations
+from .film_equations import Conditions, Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
-from .film_newton import FilmStep, solve_step
-from .march import Memory
+from .march import Memory, Step
 
 FINER = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
@@ -22,6 +21,7 @@ SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, 
 WET = 1e-3  # of the largest pressure: where the error of the film counts
 FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
+SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,13 @@ class ContactHistory:
     duration: float
     initial_film: float | None = None
     width: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmStep(Step):
+    """A step of the film, with its terms at z. It remembers rho H."""
+
+    terms: StepTerms
 
 
 @dataclass(frozen=True)
@@ -184,3 +191,67 @@ def discretisation(setting: Setting, solution: FilmStep) -> float:
         return math.inf
     H = other.terms.H
     return float(max(abs(H[middle] / fine[centre] - 1.0), abs(H.min() / fine.min() - 1.0))) / 3.0
+
+
+def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e-7, max_steps: int = 25) -> FilmStep:
+    """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
+
+    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This
+    primal-dual active set is a semismooth Newton method. If it fails, the load is changed in stages from the load of z
+    to the one asked for. (With a spring that is not needed.)
+    """
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        found = _iterated(equations, z, tolerance, max_steps)
+        first = float(equations.grid.weights @ z[:-1])
+        if found.status == CONVERGED or equations.spring is not None or not first > 0.0:
+            return found
+        done, stage = 0.0, 0.25
+        while done < 1.0 and stage >= SMALLEST_STAGE:
+            goal = min(1.0, done + stage)
+            now = replace(equations.now, load=first * (equations.now.load / first) ** goal)
+            found = _iterated(replace(equations, now=now), z, tolerance, max_steps)
+            if found.status == CONVERGED:
+                done, stage, z = goal, 1.5 * stage, found.z
+            else:
+                stage *= 0.4
+    return found
+
+
+def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> FilmStep:
+    for step in range(max_steps + 1):
+        t = equations.evaluate(z)
+        residual, status = equations.residual(t), ITERATION_LIMIT
+        if residual <= tolerance:
+            status = CONVERGED
+        elif not np.isfinite(residual):
+            status = DIVERGED
+        if status != ITERATION_LIMIT or step == max_steps:
+            break
+        J = equations.jacobian(t)
+        cavitated = t.P - t.r / np.diagonal(J)[:-1] < 0.0
+        delta = _newton(J, t, cavitated)
+        if delta is None:
+            status = DIVERGED
+            break
+        loss = float(np.max(-(equations.grid.kernel @ delta[:-1] + delta[-1]) / t.H))
+        z = z + step_length(delta[:-1] * t.log_slope, loss) * delta
+        z[:-1][cavitated & (z[:-1] < 1e-14 * t.P.max())] = 0.0
+    return FilmStep(status=status, film=t.rho[0] * t.H, z=z, terms=t)
+
+
+def _newton(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | None:
+    """Newton's step with P = 0 at the cavitated nodes; None: the matrix is singular."""
+    from scipy.linalg.lapack import dgesv
+
+    delta = np.zeros(t.P.size + 1)
+    delta[:-1][cavitated] = -t.P[cavitated]
+    free = np.append(np.flatnonzero(~cavitated), t.P.size)
+    right = -np.append(t.r, t.balance)[free]
+    moved = cavitated & (t.P != 0.0)
+    if moved.any():
+        right -= J[np.ix_(free, np.flatnonzero(moved))] @ delta[:-1][moved]
+    _, _, solution, info = dgesv(np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1)
+    if info != 0:
+        return None
+    delta[free] = solution
+    return delta

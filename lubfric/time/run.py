@@ -12,7 +12,7 @@ from ..sharing import Prepared, Validity, refused, scene_of
 from .begin import begin
 from .checkpoint import Checkpoint
 from .film import TIME_SHARE
-from .film_newton import FilmStep
+from .film_setting import FilmStep
 from .march import Plan, Progress, begun, checked_times, plan_of, steps
 from .moment import moment
 from .result import Output, TransientResult, collect

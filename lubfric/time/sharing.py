@@ -12,8 +12,7 @@ from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
 from ..scene import Scene
 from .film_equations import Spring
-from .film_newton import FilmStep
-from .film_setting import Setting
+from .film_setting import FilmStep, Setting
 from .march import Memory
 from .steady import Strip
 
