@@ -29,24 +29,23 @@ class Parameters:
 
     def values(self, unit: np.ndarray) -> np.ndarray:
         """Values at positions in [0, 1]."""
-        low, ratio = self._in_logarithms
-        return np.where(self.logarithmic, low * ratio**unit, self.low + unit * (self.high - self.low))
+        low, high = self._scaled(self.low), self._scaled(self.high)
+        found = low + unit * (high - low)
+        return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, found, 0.0)), found)
 
     def unit(self, values: np.ndarray) -> np.ndarray:
         """Positions in [0, 1] of values."""
-        low, ratio = self._in_logarithms
-        logs = np.log(np.maximum(values, 1e-300) / low) / np.log(ratio)
-        return np.where(self.logarithmic, logs, (values - self.low) / (self.high - self.low))
+        low, high = self._scaled(self.low), self._scaled(self.high)
+        return (self._scaled(values) - low) / (high - low)
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
         """d value/d unit."""
-        return np.where(self.logarithmic, self.values(unit) * np.log(self._in_logarithms[1]), self.high - self.low)
+        width = self._scaled(self.high) - self._scaled(self.low)
+        return np.where(self.logarithmic, self.values(unit) * width, width)
 
-    @property
-    def _in_logarithms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lower bounds, and the ratios of the upper ones to them, where both are positive."""
-        low = np.maximum(self.low, 1e-300)
-        return low, np.maximum(self.high, 1e-300) / low
+    def _scaled(self, values: np.ndarray) -> np.ndarray:
+        """Logarithms of the values that are searched in these, and the others as they are."""
+        return np.where(self.logarithmic, np.log(np.maximum(values, 1e-300)), values)
 
     def into(self, scene: Scene, values: np.ndarray) -> Scene:
         """``scene`` with these values."""
