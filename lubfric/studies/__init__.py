@@ -6,8 +6,8 @@ from .curve import QUANTITIES, csv_bytes, curve_table, uncertainty_columns
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
 from .fit import explain_fit, fit
+from .fit_input import Measured, read_measured
 from .fit_result import FitResult
-from .measured import Measured, read_measured
 from .plan import StudyPlan, plan_study
 from .result import StudyResult, open_study
 from .rows import CONVERGED, UNUSED

@@ -11,7 +11,7 @@ import pytest
 import lubfric
 from lubfric.output import main
 from lubfric.studies.fit import Search, _numerical_variance
-from lubfric.studies.parameters import parameters_of
+from lubfric.studies.fit_input import parameters_of
 
 SCENE = (
     lubfric.load_scene("paper")
