@@ -12,37 +12,3 @@ from .short_forms import MOST_SPEEDS, short_keys, speeds_of_range
 from .short_oil import SOURCES
 from .text import write_template
 from .transient import Transient, checked_history, read_history
-
-__all__ = [
-    "Bodies",
-    "Constant",
-    "ContactDomain",
-    "FASTEST",
-    "Harmonic",
-    "History",
-    "LARGEST_RATIO",
-    "MOST_SPEEDS",
-    "Motion",
-    "Numerics",
-    "Ramp",
-    "Roughness",
-    "SECTIONS",
-    "SOURCES",
-    "Scene",
-    "Table",
-    "Transient",
-    "builtin_scenes",
-    "check_resolved_gap",
-    "checked_history",
-    "doubts",
-    "load_scene",
-    "named",
-    "read_history",
-    "read_toml",
-    "resolves_gap",
-    "scene_as_dict",
-    "short_keys",
-    "speeds_of_range",
-    "told_doubts",
-    "write_template",
-]

@@ -6,8 +6,8 @@ from .curve import QUANTITIES, csv_bytes, curve_table, uncertainty_columns
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
 from .fit import explain_fit, fit
+from .fit_input import Measured, read_measured
 from .fit_result import FitResult
-from .measured import Measured, read_measured
 from .plan import StudyPlan, plan_study
 from .result import StudyResult, open_study
 from .rows import CONVERGED, UNUSED
@@ -18,39 +18,3 @@ from .sweep import StribeckResult, stribeck
 from .tables import check_tools
 from .traction import TractionResult, traction
 from .vary import Between, sample
-
-__all__ = [
-    "AUTO",
-    "Between",
-    "CONVERGED",
-    "FitResult",
-    "MOST_WORKERS",
-    "Measured",
-    "QUANTITIES",
-    "StribeckResult",
-    "StudyPlan",
-    "StudyResult",
-    "TractionResult",
-    "UNUSED",
-    "check_tools",
-    "classes_of",
-    "csv_bytes",
-    "curve_table",
-    "decode",
-    "encode",
-    "explain_fit",
-    "fingerprint",
-    "fit",
-    "in_words",
-    "load_study",
-    "open_study",
-    "plan_study",
-    "pool",
-    "processors",
-    "read_measured",
-    "sample",
-    "stribeck",
-    "study",
-    "traction",
-    "uncertainty_columns",
-]

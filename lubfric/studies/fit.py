@@ -15,9 +15,8 @@ from ..scene import Scene
 from ..sharing import Prepared, prepare
 from .executor import checked_executor, spread
 from .explain import curve_seconds, in_words
+from .fit_input import SLIP, SPEED, Measured, Parameters, parameters_of
 from .fit_result import FitResult
-from .measured import SLIP, SPEED, Measured
-from .parameters import Parameters, parameters_of
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search

@@ -12,8 +12,7 @@ from ..errors import Report
 from ..sampling import percent
 from ..scene import Scene
 from ..sharing import Validity, gathered
-from .measured import SPEED, Measured
-from .parameters import Parameters
+from .fit_input import SPEED, Measured, Parameters
 
 LEVEL = 0.95
 AT_BOUND = 5e-3  # of the bounds

@@ -11,6 +11,7 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import FASTEST, Scene
 from .choose import AUTO, CHOSEN, MOST
+from .explain import explain
 from .store import fingerprint
 from .vary import Axis, axes_of
 
@@ -40,11 +41,7 @@ class StudyPlan:
         """Number of points. Where speeds are chosen it is an estimate."""
         return len(self.scenes) * (len(self.speeds) or CHOSEN)
 
-    def explain(self, store=None) -> str:
-        """Points, what a folder ``store`` has of them already, and about how long the rest will take, in words."""
-        from .explain import explain
-
-        return explain(self, store)
+    explain = explain
 
 
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:

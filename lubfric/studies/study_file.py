@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -34,29 +35,47 @@ def load_study(path) -> StudyPlan:
         raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
     beside = path.parent / name
     scene = load_scene(beside if beside.is_file() else name)
-    vary: dict[Any, list] = {**_flat(table.get("vary", {}), "vary", path.parent)}
+    vary: dict[Any, list] = _lists(table.get("vary", {}), "vary", path.parent)
     together = table.get("together", [])
     for group in together if isinstance(together, list) else [together]:
-        lists = _flat(group, "together", path.parent)
+        lists = _lists(group, "together", path.parent)
         if len({len(values) for values in lists.values()}) != 1:
-            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {_lengths(lists)}")
-        _add(vary, {tuple(lists): list(zip(*lists.values()))})
+            found = ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
+            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {found}")
+        _add(vary, tuple(lists), list(zip(*lists.values())))
     if "sample" in table:
-        _add(vary, _sampled(table["sample"], path))
-    return plan_study(scene, vary, _speeds(table))
+        _add(vary, *_sampled(table["sample"], path.name))
+    speeds = table.get("speeds")
+    if "speed_range" in table:
+        if speeds is not None:
+            raise InputError("a study takes speeds or speed_range, not both")
+        speeds = speeds_of_range("speed_range", table["speed_range"])
+    return plan_study(scene, vary, speeds)
 
 
-def _flat(table, where: str, folder: Path) -> dict[str, list]:
-    """{"section.key": list} from ``"section.key" = [...]`` or ``section.key = [...]``. Files are relative to
-    ``folder``."""
-    if not isinstance(table, dict):
-        raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
+def _add(known: dict, key, values) -> None:
+    """Put ``values`` into ``known``. Raises `InputError` for a key that is there already, whose values would be
+    lost."""
+    if key in known:
+        raise InputError(f"vary: {', '.join(key) if isinstance(key, tuple) else key} is given twice; give it once")
+    known[key] = values
+
+
+def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
+    """{"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
     found: dict[str, Any] = {}
     for key, value in table.items():
-        if isinstance(value, dict):
-            _add(found, {f"{key}.{inner}": v for inner, v in value.items()})
-        else:
-            _add(found, {key: value})
+        inner = {key: value} if is_value(value) else {f"{key}.{name}": part for name, part in value.items()}
+        for name, part in inner.items():
+            _add(found, name, part)
+    return found
+
+
+def _lists(table, where: str, folder: Path) -> dict[str, list]:
+    """The lists of values by their keys. Files are relative to ``folder``."""
+    if not isinstance(table, dict):
+        raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
+    found = _flat(table, lambda value: not isinstance(value, dict))
     for key, values in found.items():
         if not isinstance(values, list):
             raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
@@ -70,14 +89,6 @@ def _flat(table, where: str, folder: Path) -> dict[str, list]:
     return found
 
 
-def _add(known: dict, more: dict) -> None:
-    """Put ``more`` into ``known``. Raises `InputError` for a key that is there already, whose values would be lost."""
-    for key, value in more.items():
-        if key in known:
-            raise InputError(f"vary: {', '.join(key) if isinstance(key, tuple) else key} is given twice; give it once")
-        known[key] = value
-
-
 def _beside(folder: Path, key: str, name) -> str:
     path = (folder / str(name)).resolve()
     if not path.is_file():
@@ -85,36 +96,16 @@ def _beside(folder: Path, key: str, name) -> str:
     return str(path)
 
 
-def _lengths(lists: dict) -> str:
-    return ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
-
-
-def _sampled(table, path: Path) -> dict:
+def _sampled(table, file: str) -> tuple:
+    """The key, or the keys, of [sample], and their values."""
     if not isinstance(table, dict):
         raise InputError("[sample] must be a table")
-    options = {key: table[key] for key in SAMPLE_KEYS if key in table}
+    options = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
-        raise InputError(f"[sample] of {path.name} needs count, the number of points")
-    ranges: dict[str, Between] = {}
-    for key, value in table.items():
-        if key in SAMPLE_KEYS:
-            continue
-        inner = value if isinstance(value, dict) and "low" not in value else {"": value}
-        for field, given in inner.items():
-            if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
-                raise InputError(
-                    f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}"
-                )
-            _add(ranges, {f"{key}.{field}" if field else key: Between(**given)})
-    if len(ranges) == 1:
-        ((key, only),) = ranges.items()
-        return {key: [value for (value,) in sample([only], **options)]}
-    return {tuple(ranges): sample(ranges.values(), **options)}
-
-
-def _speeds(table: dict):
-    if "speed_range" not in table:
-        return table.get("speeds")
-    if "speeds" in table:
-        raise InputError("a study takes speeds or speed_range, not both")
-    return speeds_of_range("speed_range", table["speed_range"])
+        raise InputError(f"[sample] of {file} needs count, the number of points")
+    ranges = _flat(table, lambda value: not isinstance(value, dict) or "low" in value)
+    for key, given in ranges.items():
+        if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
+            raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
+    drawn = sample([Between(**given) for given in ranges.values()], **options)
+    return (*ranges,) if len(ranges) > 1 else [*ranges][0], drawn

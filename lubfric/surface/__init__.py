@@ -7,16 +7,3 @@ from .prepare import FORMS, outliers
 from .read import read_surface
 from .statistics import correlation_length, rms_slope
 from .text import DECIMALS
-
-__all__ = [
-    "ACFS",
-    "DECIMALS",
-    "FORMS",
-    "Surface",
-    "UNITS",
-    "correlation_length",
-    "generate_surface",
-    "outliers",
-    "read_surface",
-    "rms_slope",
-]

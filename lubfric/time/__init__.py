@@ -8,29 +8,3 @@ from .march import Level, Memory, Plan, Progress, Step, advance, checked_times, 
 from .moment import UNITS
 from .result import TransientResult
 from .run import transient
-
-__all__ = [
-    "ContactHistory",
-    "FIRST_STEP",
-    "Level",
-    "Memory",
-    "Plan",
-    "Progress",
-    "STATE",
-    "Step",
-    "TransientFilm",
-    "TransientResult",
-    "UNITS",
-    "WET",
-    "advance",
-    "checked_times",
-    "make_fixed_grid",
-    "make_setting",
-    "marched",
-    "plan_of",
-    "report_of",
-    "solve_transient_ehl",
-    "steps",
-    "symmetric_nodes",
-    "transient",
-]

@@ -13,7 +13,7 @@ from .._base import PART, read_checked, validate, write_checked
 from ..errors import InputError
 from ..sharing import Validity
 from ..studies import classes_of, decode, encode, fingerprint
-from .film_newton import FilmStep
+from .film_setting import FilmStep
 from .march import Progress
 from .sharing import Contact
 

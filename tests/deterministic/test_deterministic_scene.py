@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.deterministic import grids
-from lubfric.studies import decode, encode
+from lubfric.studies import classes_of, decode, encode
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (64, 64), "spacing": 90e-6 / 64}, numerics={"model": "deterministic", "grid": "given"}
@@ -50,22 +50,19 @@ def test_no_entrainment_and_the_other_way_round(point):
     assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(point.coefficient, rel=1e-6)
 
 
-def test_a_sweep_starts_from_neighbours_and_keeps_fields_only_where_asked(point):
+def test_a_sweep_keeps_fields_only_where_asked(point):
     speeds = [0.02, 0.01, 0.005]
     curve = lubfric.stribeck(MODEL, speeds, fields=[0.005])
     assert np.all(np.diff(curve.contact_load) > 0) and np.all(np.isfinite(curve.mean_gap))
     assert curve.coefficient[1] == pytest.approx(point.coefficient, rel=1e-4)
     assert curve.points[1].deterministic is None and curve.points[2].deterministic.result.pressure.shape[1] == 64
-    alone = lubfric.friction(MODEL, 0.005).deterministic.result.report.iterations
-    assert curve.points[2].deterministic.result.report.iterations < alone + 1
+    assert curve.coefficient[2] == lubfric.friction(MODEL, 0.005).coefficient
 
 
-def test_a_result_can_be_stored_and_started_from_again(point):
-    again = decode(b"".join(encode(point)))
+def test_a_result_can_be_stored(point):
+    again = decode(b"".join(encode(point)), classes_of(lubfric.FrictionResult))
     assert np.array_equal(again.deterministic.result.pressure, point.deterministic.result.pressure)
-    assert lubfric.friction(MODEL, 0.008, start=again).coefficient == pytest.approx(
-        lubfric.friction(MODEL, 0.008, start=point).coefficient, rel=1e-12
-    )
+    assert repr(again) == repr(point) and again.report == point.report
 
 
 def test_the_tolerance_chooses_the_grid():

@@ -32,6 +32,16 @@ def test_several_sampled_keys_go_together(tmp_path):
     assert [scene.bodies.load for scene in plan.scenes] == [load for load, _ in axis.values]
 
 
+def test_one_sampled_key_beside_whole_sections(tmp_path):
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).normal(size=(48, 48)) * 1e-8)
+    text = '[vary]\nsurface = [{ file = "a.npy", spacing = 1.1e-6 }, { seed = 3 }]\n[sample]\ncount = 4\nseed = 2\n'
+    plan = read(tmp_path, text + "lubricant.viscosity = { low = 0.1, high = 1.0, scale = 'log' }\n")
+    assert plan.shape == (2, 4, 1) and plan.axes[1].keys == ("lubricant.viscosity",)
+    measured, generated = (plan.scenes[i].surface for i in (0, 4))
+    assert measured.file == str(tmp_path / "a.npy") and measured.correlation_length is None  # a file has its own
+    assert (generated.file, generated.seed, generated.correlation_length) == (None, 3, 4e-6)
+
+
 def test_maps_are_found_beside_the_file(tmp_path):
     for name in ("one.npy", "two.npy"):
         np.save(tmp_path / name, np.random.default_rng(1).normal(size=(8, 8)) * 1e-8)
@@ -56,7 +66,14 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
     "study, words",
     [
         ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds or speed_range"),
+        ("speed_rnage = [0.1, 1.0, 3]\n", "did you mean 'speed_range'"),
         ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
+        ("speed_range = [1.0, 0.1, 3]\n", "speed_range highest"),
+        ("speed_range = [0.1, 1.0, 1000000000000]\n", "speed_range count"),
+        ("[vary]\nbodies.laod = [3.0]\n", "did you mean 'load'"),
+        ("[[together]]\nbodies.load = [1.0]\nbodies.width = [1e-3, 2e-3]\n", "lists of one length"),
+        ("[sample]\ncount = 3\nbodies.load = { low = 1.0, high = 2.0 }\n", "powers of two"),
+        ("[sample]\ncount = 4\nbodies.load = 1\n", "low = "),
         ("vary = 3\n", "keys of a scene with lists"),
         ("[vary]\nbodies.load = 3\n", "a list of values"),
         ("sample = 3\n", "must be a table"),
