@@ -52,7 +52,9 @@ def test_finite_elements_never_import_lubfric():
     assert offenders("verification/fem", ["lubfric", "verification.studies"]) == []
 
 
-@pytest.mark.parametrize("name", ["exact", "check", "rates", "run", "report", "page", "wording", "meshes", "plotting"])
+@pytest.mark.parametrize(
+    "name", ["exact", "check", "convergence", "run", "report", "page", "wording", "meshes", "plotting"]
+)
 def test_closed_forms_and_the_framework_never_import_lubfric(name):
     assert not any(n.split(".")[0] == "lubfric" for n in imported(ROOT / "verification" / f"{name}.py"))
 

@@ -40,8 +40,8 @@ class Problem:
 
     Attributes
     ----------
-    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of
-    motion film : film thickness in m at coordinates x of shape (dim, ...)
+    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of motion
+    film : film thickness in m at coordinates x of shape (dim, ...)
     fluid : viscosity and density laws
     speed : entrainment speed U >= 0
     degree : 1 (P1, Q1) or 2 (P2, Q2)

@@ -11,19 +11,8 @@ from ..fem.triangles import von_mises
 from ..meshes import mesh_field
 from .ehl import Pair
 
-COLUMNS = (
-    "contact",
-    "p_h (GPa)",
-    "unknown displacements",
-    "points on the line",
-    "Newton steps",
-    "residual",
-    "flow film",
-    "smallest film",
-    "flow film, difference",
-    "smallest film, difference",
-    "film, difference",
-)
+SOLVED = ("contact", "p_h (GPa)", "unknown displacements", "points on the line", "Newton steps", "residual")
+FILMS = ("flow film", "smallest film", "flow film, difference", "smallest film, difference", "film, difference")
 
 
 def summary(pairs: list[Pair]) -> Table:
@@ -43,7 +32,7 @@ def summary(pairs: list[Pair]) -> Table:
     caption += "film: "
     caption += "root mean square over the contact in flow films; in the row of lubfric the time that finite elements "
     caption += "took."
-    return Table("ehl", caption, COLUMNS, rows)
+    return Table("ehl", caption, (*SOLVED, *FILMS), rows)
 
 
 def profiles(pairs: list[Pair]):

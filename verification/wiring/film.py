@@ -42,13 +42,13 @@ def wiring_film(level: str) -> Iterator[Check]:
         yield from shear(name, oil, motion)
 
 
-def smooth(oil: dict) -> lubfric.Scene:
-    """The paper's cylinder at 300 N without contact, which is a Hertz pressure of 960 MPa."""
+def smooth(oil: dict, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -> lubfric.Scene:
+    """The paper's cylinder nearly without contact; 300 N is a Hertz pressure of 960 MPa."""
     return lubfric.load_scene("paper").with_(
-        bodies={"load": 300.0, "hardness": None},
+        bodies={"load": load, "hardness": None},
         lubricant=oil,
         surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
-        contact={"shape": (160, 12), "spacing": 1.6e-6},
+        contact={"shape": shape, "spacing": 1.6e-6},
         numerics=FIXED,
     )
 

@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
-from lubfric.scene import Ramp
-from lubfric.scene.scene import Scene
+from lubfric.history import Ramp
 
 from ..check import Check, compared
-from .film import FIXED, mixed
+from .film import mixed, smooth
 
 UNCHANGED = {  # unit and relative tolerance
     "coefficient": ("1", 5e-3),
@@ -63,19 +62,6 @@ def ended(label: str, run, steady, tolerances: dict[str, tuple[str, float]]) -> 
     yield from compared(label, rows, "lubfric.friction, steady")
 
 
-def full_film(**changed) -> Scene:
-    """A nearly smooth contact at 300 MPa."""
-    bodies = {"load": 30.0, "hardness": None} | changed.get("bodies", {})
-    return lubfric.load_scene("paper").with_(
-        bodies=bodies,
-        lubricant={"eyring_stress": 2e6} | changed.get("lubricant", {}),
-        motion={"slide_roll_ratio": 0.5} | changed.get("motion", {}),
-        surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
-        contact={"shape": (64, 12), "spacing": 1.6e-6},
-        numerics=FIXED | TIGHT,
-    )
-
-
 def ramped() -> Iterator[Check]:
     """All histories at once. The film forgets within a few passages of the contact."""
     end = 2e-3
@@ -86,10 +72,8 @@ def ramped() -> Iterator[Check]:
     motion = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
     bodies = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
     plan = lubfric.Transient(duration=end, outputs=1, **motion, **bodies)
-    run = lubfric.transient(full_film().with_(transient=plan))
-    later = full_film(
-        bodies={"load": 22.0, "radius": 1.5e-3},
-        lubricant={"viscosity": 0.25},
-        motion={"entrainment_speed": 0.3, "slide_roll_ratio": 0.2},
-    )
+    scene = smooth({"eyring_stress": 2e6}, 30.0, (64, 12)).with_(motion={"slide_roll_ratio": 0.5}, numerics=TIGHT)
+    run = lubfric.transient(scene.with_(transient=plan))
+    oil, motion = {"viscosity": 0.25}, {"entrainment_speed": 0.3, "slide_roll_ratio": 0.2}
+    later = scene.with_(bodies={"load": 22.0, "radius": 1.5e-3}, lubricant=oil, motion=motion)
     yield from ended("ramps", run, lubfric.friction(later), RAMPED)
