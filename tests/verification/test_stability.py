@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.contact.residual import deflection_scale
 from lubfric.deterministic import solve_point
 from lubfric.halfspace import half_space
 from verification.cases import case_of
@@ -124,14 +123,6 @@ def test_bulk_deflection_does_not_hide_open_gaps():
         )
         gap = np.abs(result.gap[result.pressure > 0])
         assert gap.max() < 1e-3 * z.std()
-
-
-def test_scale_of_residuals_is_bounded_without_periodicity():
-    operator = half_space((8, 8), 1e-6, 231e9, "free")
-    ripple = 4 / np.pi * 1e9 * 1e-6 / 231e9
-    assert deflection_scale(1.0 * 64e9, 64e9, 1e-9, operator) == pytest.approx(ripple)
-    assert deflection_scale(1.0 * 64e9, 64e9, 1.0, operator) == pytest.approx(1.0)
-    assert deflection_scale(0.0, 64e9, 1e-9, operator) == pytest.approx(1e-9)
 
 
 @pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
