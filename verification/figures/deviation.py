@@ -245,8 +245,8 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
     differs = (
         f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
         f"{smaller}. Our reading of why: less pressure flattens a longer wave of the same height (E' Sq/L). So the "
-        "summits on one hill share the load over a wider area, and independent asperities err more. Fig. 4 varies the spacing of "
-        "*equal* asperities, which L does not.\n\nOther readings of the paper:\n\n"
+        "summits on one hill share the load over a wider area, and independent asperities err more. Fig. 4 varies the "
+        "spacing of *equal* asperities, which L does not.\n\nOther readings of the paper:\n\n"
         "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* at a given gap, "
         "and d is negative.\n"
         "- Contact patches grow together, and cannot carry more than some 50 to 120 MPa.\n"
