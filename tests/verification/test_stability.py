@@ -6,11 +6,10 @@ from itertools import product
 
 import numpy as np
 import pytest
-from lubfric.contact.residual import deflection_scale
 
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric.deterministic import solve_point
 from lubfric.contact import half_space
-from lubfric.deterministic.solve import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map, stability_map, whole_map
@@ -126,14 +125,6 @@ def test_bulk_deflection_does_not_hide_open_gaps():
         assert gap.max() < 1e-3 * z.std()
 
 
-def test_scale_of_residuals_is_bounded_without_periodicity():
-    operator = half_space((8, 8), 1e-6, 231e9, "free")
-    ripple = 4 / np.pi * 1e9 * 1e-6 / 231e9
-    assert deflection_scale(1.0 * 64e9, 64e9, 1e-9, operator) == pytest.approx(ripple)
-    assert deflection_scale(1.0 * 64e9, 64e9, 1.0, operator) == pytest.approx(1.0)
-    assert deflection_scale(0.0, 64e9, 1e-9, operator) == pytest.approx(1e-9)
-
-
 @pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
 @pytest.mark.parametrize("kind, hardness", [("noise", None), ("gaussian", 0.05 * 231e9)])
 def test_mean_gap_of_a_hundredth_without_periodicity(boundary, kind, hardness):
@@ -150,7 +141,7 @@ def test_a_load_below_rounding_rests_on_one_cell():
 
 
 def test_contact_curve_holds_its_accuracy_near_full_contact():
-    from lubfric.contact import contact_curve
+    from lubfric.rough.contact_curve import contact_curve
 
     z = contact_map.surface("exponential", 48, 48, 1e-9)
     heaviest = 0.7 * contact_map.full_contact(z)

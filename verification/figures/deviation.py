@@ -117,14 +117,12 @@ def friction_curves(quick: bool, run: Run) -> PaperFigure:
     return PaperFigure(
         "fig5",
         "Fig. 5: friction curves at 200 MPa mean Hertz pressure",
-        "The curves meet in boundary and in full-film lubrication and differ between. The asperity model "
-        "lies above. The largest "
-        f"difference is at {at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (the paper: about 0.1 m/s).",
-        f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of "
-        "the half-space value). The "
-        "paper has it the other way round: see Fig. 6. The load of Fig. 5 is not stated; 200 MPa is a "
-        "choice. The tables of this "
-        f"figure against `lubfric.friction`: {table:.5f} and {check:.5f} at {at[0]:.2g} m/s (asked for: 1 %).",
+        "The curves meet in boundary and in full-film lubrication and differ between. The asperity model lies above. "
+        f"The largest difference is at {at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (paper: about 0.1 m/s).",
+        f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of the "
+        "half-space value). The paper has it the other way round: see Fig. 6. The load of Fig. 5 is not stated; 200 "
+        f"MPa is a choice. The tables of this figure against `lubfric.friction`: {table:.5f} and {check:.5f} at "
+        f"{at[0]:.2g} m/s (asked for: 1 %).",
         canvas,
         {"fig5": (("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)},
         (Check("f from the tables of this figure", table, check, 0.02, "lubfric.friction, asked for 1 %"),),
@@ -233,27 +231,21 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
         if all(0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading)))
     ]
     seeds = [s[3] for s in scatter]
+    short, long = (", ".join(f"{d:.0f}" for d in of_length) for of_length in base)
     agrees = (
-        "With summits on a surface of exponential autocorrelation the asperity model gives the higher "
-        "friction"
-        f"{growth}: {', '.join(f'{d:.0f}' for d in base[0])} % (L = 34 "
-        "µm) and "
-        f"{', '.join(f'{d:.0f}' for d in base[1])} % (57 µm) at {', '.join(f'{p / 1e6:g}' for p in loads)} "
-        "MPa mean Hertz pressure, "
-        f"at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} "
-        "%). The paper has up to 32 % at "
-        "1 GPa: the same order."
+        "With summits on a surface of exponential autocorrelation the asperity model gives the higher friction"
+        f"{growth}: {short} % (L = 34 µm) and {long} % (57 µm) at {', '.join(f'{p / 1e6:g}' for p in loads)} MPa mean "
+        f"Hertz pressure, at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to "
+        f"{max(seeds):.0f} %). The paper has up to 32 % at 1 GPa: the same order."
     )
     smaller = (
         f"smaller only for: {', '.join(shrinking)}" if shrinking else "in no reading tried is it smaller at all loads"
     )
     differs = (
-        f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 "
-        "µm, and "
-        f"{smaller}. "
-        "Our reading of why: less pressure flattens a longer wave of the same height (E' Sq/L). So the summits on "
-        "one hill share the load over a wider area, and independent asperities err more. Fig. 4 varies the spacing of "
-        "*equal* asperities, which L does not.\n\nOther readings of the paper:\n\n"
+        f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
+        f"{smaller}. Our reading of why: less pressure flattens a longer wave of the same height (E' Sq/L). So the "
+        "summits on one hill share the load over a wider area, and independent asperities err more. Fig. 4 varies the "
+        "spacing of *equal* asperities, which L does not.\n\nOther readings of the paper:\n\n"
         "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* at a given gap, "
         "and d is negative.\n"
         "- Contact patches grow together, and cannot carry more than some 50 to 120 MPa.\n"

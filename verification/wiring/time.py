@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
-from lubfric.history import Ramp
+from lubfric.scene import Ramp
 
 from ..check import Check, compared
 from .film import mixed, smooth
