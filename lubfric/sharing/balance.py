@@ -91,7 +91,7 @@ def solve_balance(
 
 
 def _dry(scene: Scene, contact: RoughContact) -> Balance:
-    load, width = scene.bodies.load, scene.bodies.width
+    load = scene.bodies.load
     shape = contact.x**2 / (2 * scene.bodies.radius)
     state = contact.close(shape, load)
     report = _report(scene, CONVERGED, (0.0,), state, None, ("no entrainment: all contact",))

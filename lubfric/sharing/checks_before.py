@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from ..errors import InputError
-from ..film import hertz
+from ..film import ShearForce, hertz
+from ..oil import carried_stress, shear_stress
 from ..scene import doubts
 from ..surface import correlation_length, rms_slope
+from .checks import of_motion, of_pressure, of_shear
 from .validity import Validity
+
+NODES = 201  # across the Hertz strip
 
 WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space
 STEEP, STEEPEST = 0.5, 1.5  # rms slope

@@ -1,7 +1,6 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import pytest
-from lubfric.sharing.validity_outlook import foretold
 
 import lubfric
 from lubfric.output import main

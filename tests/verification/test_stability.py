@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.deterministic import solve_point
 from lubfric.contact import half_space
+from lubfric.deterministic import solve_point
 from verification.cases import case_of
 from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map, stability_map, whole_map
