@@ -170,14 +170,6 @@ class InletHeat:
     factor: float
     other: float
 
-    @property
-    def text(self) -> str:
-        """The factors in words."""
-        return (
-            f"inlet shear heating: film x {self.factor:.3g} (Gupta et al. 1992; {self.other:.3g} by Wilson and Sheu "
-            f"1983), L = {self.thermal_number:.2g}"
-        )
-
 
 def inlet_heat(
     *, viscosity, temperature_coefficient, conductivity, speed, slide_roll_ratio, pressure_ratio

@@ -89,11 +89,6 @@ class LineContact:
         return float(hertz.line_peak_pressure(self.load_per_width, self.radius, self.e_prime))
 
     @cached_property
-    def mean_pressure(self) -> float:
-        """w/(2 b) [Pa] of the dry contact."""
-        return float(hertz.line_mean_pressure(self.load_per_width, self.radius, self.e_prime))
-
-    @cached_property
     def moes_film(self) -> float:
         """Moes' film h [m] where dp/dx = 0, a regression within some 5 to 10 % (`lubfric.film.formulas.moes_film`)."""
         return self.film_unit * formulas.moes_film(self.M, self.L)
