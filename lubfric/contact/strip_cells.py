@@ -1,4 +1,5 @@
-"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's."""
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the
+scene's."""
 
 from __future__ import annotations
 
@@ -18,8 +19,9 @@ SUMMITS = 4.5  # Sq
 
 @dataclass(frozen=True)
 class Cells:
-    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x; ``first``
-    [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of contact).
+    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x;
+    ``first`` [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of
+    contact).
     """
 
     factors: tuple[int, int]
@@ -57,7 +59,8 @@ class Cells:
         return FAST * next_fast_len(max(1, round(length / (FAST * self.coarse[1]))), real=True)
 
     def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
-        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with them."""
+        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
+        them."""
         fx = self.factors[0]
         first = self.first
         if first is None:

@@ -34,10 +34,10 @@ STRIPS, PIECES = 0, 1  # streams of seeds
 class Strips:
     """Strips of the surface of ``scene`` on ``cells``.
 
-    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack; ``first``,
-    ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces. ``windows``:
-    whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``: whether every
-    strip has the Sq of the surface.
+    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
+    ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
+    ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
+    whether every strip has the Sq of the surface.
     """
 
     scene: Scene
