@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..scene import Scene
+from ..errors import InputError
+from ..scene import Roughness, Scene
+from ..surface import Surface, correlation_length
 
 CELLS_PER_LENGTH = 4.0  # of the correlation length
 CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
@@ -91,6 +93,22 @@ def cells_of_a_box(spacing, lengths, half_width: float, shape: tuple[int, int], 
     while first is not None and shape[1] % (2 * fy) and fy > 1:
         fy //= 2
     return Cells((fx, fy), tuple(spacing), shape[0] // fx, first)
+
+
+def correlation_lengths(rough: Roughness) -> tuple[float, float]:
+    """Correlation lengths [m] at 1/e along x and y of a generated surface."""
+    decay = -math.log(rough.decay_level)
+    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
+    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
+    return float(both[0]) / factor, float(both[1]) / factor
+
+
+def length_or_half(surface: Surface, axis: int) -> float:
+    """Correlation length [m] at 1/e; half the map where it is longer."""
+    try:
+        return correlation_length(surface, axis)
+    except InputError:
+        return 0.5 * surface.size[axis]
 
 
 def reach_of(scene: Scene, sq: float) -> float:
