@@ -185,44 +185,47 @@ def separation_for_load(
     asperities = find_asperities(heights, spacing, e_prime, **options)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
-    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
-    if span == 0:
+    if np.ptp(asperities.heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
-
-    def excess(approach, _=None):
-        result = asperities.at(float(top - approach))
-        return result.mean_pressure / target - 1, result
-
-    before, scanned, best, advice, history = 0.0, 0, excess(0.0)[1], "", ()
-    for approach in span * APPROACHES:
-        value, result = excess(approach)
-        scanned += 1
-        best = max(best, result, key=lambda found: found.load)
-        if value >= 0:
-            middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
-            root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
-            best, history = root.payload, root.history
-            break
-        before = approach
-    else:
+    best, scanned, history = _closest(asperities, target, tolerance)
+    error, advice = abs(best.mean_pressure / target - 1), ""
+    if not history:
         advice = (
             f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most {best.mean_pressure:.4g} Pa, at "
             f"separation {best.separation:.4g} m"
         )
-    error, done = abs(best.mean_pressure / target - 1), len(history)
-    status = CONVERGED if error <= tolerance else STAGNATED
     report = Report(
         "asperity separation",
-        status,
-        done or scanned,
+        CONVERGED if error <= tolerance else STAGNATED,
+        len(history) or scanned,
         error,
         tolerance,
         residuals={"load": error},
         history=history,
-        evaluations=scanned + done,
+        evaluations=scanned + len(history),
         advice=advice,
     )
     result = replace(best, report=report)
     if raise_on_failure:
         report.raise_if_failed(result)
     return result
+
+
+def _closest(asperities: Asperities, target: float, tolerance: float) -> tuple[AsperityResult, int, tuple[float, ...]]:
+    """The contact whose mean pressure is closest to ``target`` [Pa], the number of approaches scanned, and the errors
+    of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
+    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
+
+    def excess(approach, _=None):
+        result = asperities.at(float(top - approach))
+        return result.mean_pressure / target - 1, result
+
+    before, best = 0.0, excess(0.0)[1]
+    for scanned, approach in enumerate(span * APPROACHES, start=1):
+        value, result = excess(approach)
+        if value >= 0:
+            middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
+            root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
+            return root.payload, scanned, root.history
+        before, best = approach, max(best, result, key=lambda found: found.load)
+    return best, len(APPROACHES), ()
