@@ -160,11 +160,10 @@ def separation_for_load(
 ) -> AsperityResult:
     """The separation at which independent asperities carry a given load.
 
-    The flat comes down in steps. Each approach to the highest point is 25 % longer than the last, and none goes below
-    the deepest valley. When the load is reached, the last step is searched (Chandrupatla), until
-    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the separation. That of
-    patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value,
-    because patches grow together.
+    The flat comes down in steps, each 25 % longer than the last, at most to the deepest valley. When the load is
+    reached, the last step is searched (Chandrupatla), until ``|load - target|/target <= tolerance``. The load of
+    summits is continuous and falls with the separation. That of patches jumps where cells join (1e-3 suits some hundred
+    contacts), and has a largest value, because patches grow together.
 
     Parameters
     ----------
@@ -181,19 +180,15 @@ def separation_for_load(
     InputError : a value out of range
     ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
     """
-    options = {"definition": definition, "hardness": hardness, "periodic": periodic}
-    asperities = find_asperities(heights, spacing, e_prime, **options)
+    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
     if np.ptp(asperities.heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
     best, scanned, history = _closest(asperities, target, tolerance)
-    error, advice = abs(best.mean_pressure / target - 1), ""
-    if not history:
-        advice = (
-            f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most {best.mean_pressure:.4g} Pa, at "
-            f"separation {best.separation:.4g} m"
-        )
+    error = abs(best.mean_pressure / target - 1)
+    most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
+    advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
     report = Report(
         "asperity separation",
         CONVERGED if error <= tolerance else STAGNATED,
@@ -205,10 +200,10 @@ def separation_for_load(
         evaluations=scanned + len(history),
         advice=advice,
     )
-    result = replace(best, report=report)
+    best = replace(best, report=report)
     if raise_on_failure:
-        report.raise_if_failed(result)
-    return result
+        report.raise_if_failed(best)
+    return best
 
 
 def _closest(asperities: Asperities, target: float, tolerance: float) -> tuple[AsperityResult, int, tuple[float, ...]]:
