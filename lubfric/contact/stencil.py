@@ -56,7 +56,9 @@ class Stencil:
         self.padded.fill(0)
         self.cells = np.arange(self.shape[0] * self.shape[1]) if cells is None and 1 in self.shape else cells
         if self.cells is not None:
-            self.corner = self.cells + 2 * (self.cells // self.shape[1])  # flat number of the lower left point
+            row, column = np.divmod(self.cells, self.shape[1])
+            self.corner = self.cells + 2 * row  # flat number of the lower left point
+            self.owner = row // FACTOR * -(-self.shape[1] // FACTOR) + column // FACTOR  # of the cell for long waves
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
         """Write the sums at the cells into ``sums``."""
@@ -76,8 +78,11 @@ class Stencil:
             self._gather(values, sums)
         if self.long_waves is not None:
             found = filtered(_summed(inner), self.long_waves, self.coarse, None)
-            found = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]].ravel()
-            sums -= found if self.cells is None else found.take(self.cells)
+            if self.cells is None:
+                whole = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]]
+                sums -= whole.ravel()
+            else:
+                sums -= found.ravel().take(self.owner)
 
     def _gather(self, values, sums) -> None:
         """The sums at the cells, one neighbour after the other."""
