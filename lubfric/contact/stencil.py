@@ -17,6 +17,7 @@ from .transforms import filtered, wavenumber
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 BLOCK = 16384  # cells that stay in the cache from one pass to the next
+SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
 FACTOR = 4  # cells, each way, that are one for long waves
 LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
@@ -74,8 +75,11 @@ class Stencil:
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
         if self.cells is None:
             self._sweep(sums.reshape(self.shape))
-        else:
+        elif 1 in self.shape or self.cells.size < SPARSE * inner.size:
             self._gather(values, sums)
+        else:
+            self._sweep(whole := np.empty(self.shape, np.float32))
+            whole.ravel().take(self.cells, out=sums, mode="clip")
         if self.long_waves is not None:
             found = filtered(_summed(inner), self.long_waves, self.coarse, None)
             if self.cells is None:
