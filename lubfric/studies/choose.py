@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,14 +30,9 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
-def chosen(prepared: Prepared, kept: Iterable[float], solve: Callable) -> Iterator[tuple[float, Any]]:
-    """(speed [m/s], outcome) of a curve that chooses its speeds, beside those that are to be ``kept``.
-    ``solve(speeds)`` yields these pairs. Raises `InputError` at once if there is no range of speeds."""
-    first = sorted({*first_speeds(prepared.scene, prepared.surface.sq), *kept}, reverse=True)
-    return _one_by_one(prepared, first, solve)
-
-
-def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+    """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
+    ``solve(speeds)`` yields these pairs."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
         for speed, outcome in solve(ahead):
